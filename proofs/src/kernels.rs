@@ -460,13 +460,22 @@ fn with_factors<'a>(tape: &Tape, product: Node, normal: &[(Node, &'a str)]) -> V
 /// [`plane_values`] and [`plane_slopes`].
 fn plane_block() -> Found {
     let mut random = Random::new(0x70_62);
-    let mut four = |name: &str| [0, 1, 2, 3].map(|k| value(input(&format!("{name}{k}"), random.signed())));
-    let block = PlaneBlock { x: four("nx"), y: four("ny"), z: four("nz"), offset: four("offset") };
+    let four =
+        |name: &str, random: &mut Random| [0, 1, 2, 3].map(|k| value(input(&format!("{name}{k}"), random.signed())));
+    let block = PlaneBlock {
+        x: four("nx", &mut random),
+        y: four("ny", &mut random),
+        z: four("nz", &mut random),
+        offset: four("offset", &mut random),
+    };
     let point = vector("p", random.vector());
     let (values, slopes) =
         (plane_values(&block, Symbolic::from_vector(&point)), plane_slopes(&block, Symbolic::from_vector(&point)));
+    // And of vertices in blocks.
+    let block = PointBlock { x: four("x", &mut random), y: four("y", &mut random), z: four("z", &mut random) };
+    let high = heights(["gx", "gy", "gz"].map(|name| Symbolic([input(name, random.signed()); 4])), &block);
     let mut found = Found::default();
-    found.counted("value", values.0[0], &[]).counted("slope", slopes.0[0], &[]);
+    found.counted("value", values.0[0], &[]).counted("slope", slopes.0[0], &[]).counted("high", high.0[0], &[]);
     found
 }
 
@@ -536,6 +545,7 @@ fn gjk() -> Found {
     let [way, _] = operands(part);
     found.counted("way", part, &[]).counted("point", two[0].0, &[(part, "part"), (one[0].0, "one")]).root("d", way);
     found.counted("excess", height_over(g, b, x).0, &[]);
+    found.counted("determinant", determinant([a, b, c]).0, &[]);
     found
 }
 

@@ -43,3 +43,10 @@ pub fn constant<S: Scalar>(x: f64) -> S {
 pub fn dot<S: Scalar>([x, y, z]: [S; 3], other: [S; 3]) -> S {
     x * other[0] + y * other[1] + z * other[2]
 }
+
+/// a·(b × c).
+#[inline(always)]
+pub fn determinant<S: Scalar>([a, b, c]: [[S; 3]; 3]) -> S {
+    let cross = [b[1] * c[2] - b[2] * c[1], b[2] * c[0] - b[0] * c[2], b[0] * c[1] - b[1] * c[0]];
+    dot(a, cross)
+}

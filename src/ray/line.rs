@@ -3,6 +3,7 @@
 
 use super::Ray;
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector};
+use crate::base::scalar::determinant;
 use crate::polyhedron::{Face, LARGEST, Polyhedron, SMALLEST};
 
 /// No rotation that is accepted lengthens a vector by more: |RᵀR − I| ≤ 3·10⁻² as a norm.
@@ -202,9 +203,8 @@ impl<'a> Line<'a> {
     pub fn side(&self, [tail, head]: [u32; 2]) -> Option<Side> {
         let [from, to] = [tail, head].map(|v| &self.polyhedron.vertices[v as usize].position);
         let side = self.pose.rotate(&(to - from));
-        let volume = self.direction.dot(&side.cross(&self.vertex(tail)));
-        // Relative to |d||side|·reach: 6.6u for the side, 8.3u for the vertex, 4.2u for their product, 3.2u for the other.
-        let error = 32.0 * U * self.length * norm1(&side) * self.reach + UNDERFLOW_GUARD;
+        let volume = determinant([self.direction.into(), side.into(), self.vertex(tail).into()]);
+        let error = SIDE * self.length * norm1(&side) * self.reach + UNDERFLOW_GUARD;
         if volume.abs() > error {
             return Some(if volume > 0.0 { Side::Left } else { Side::Right });
         }
@@ -217,6 +217,9 @@ impl<'a> Line<'a> {
         (high - low) * self.length <= NARROW * self.reach
     }
 }
+
+/// Relative to |d||side|·reach: 6.6u for the side, 8.3u for the vertex, 4.2u for their product, 3.2u for the other.
+pub const SIDE: f64 = 32.0 * U;
 
 fn norm1(v: &Vector) -> f64 {
     v.x.abs() + v.y.abs() + v.z.abs()

@@ -19,6 +19,8 @@ mod swept_exact;
 mod swept;
 
 pub use answer::{RayAnswer, RayOutcome};
+#[doc(hidden)]
+pub use line::SIDE;
 pub use query::Ray;
 
 use crate::base::error::Result;

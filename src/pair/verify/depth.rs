@@ -14,6 +14,7 @@ use super::witness::{Witness, difference_of};
 use crate::base::double_double::{narrow, wide_cross, wide_dot, widen};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector, clamp};
+use crate::base::scalar::determinant;
 use crate::base::simd::environment::with_default;
 use crate::pair::answer::{Outcome, PairAnswer};
 use crate::pair::contact::PlacedPoints;
@@ -342,6 +343,9 @@ fn surrounds_origin(facts: &Facts, polytope: &[Triangle]) -> bool {
     rays.filter_map(|ray| crossing_of(&ray)).next().is_some_and(|degree| degree != 0)
 }
 
+/// See [`Facts::clear_sign`].
+pub const CLEAR: f64 = 16.0 * U;
+
 /// What is known of vertex differences, for sure.
 struct Facts<'a> {
     polyhedra: [&'a Polyhedron; 2],
@@ -375,8 +379,8 @@ impl<'a> Facts<'a> {
         let [a, b, c] = columns;
         let [length_a, length_b, length_c] = columns.map(length);
         let shortest = length_a.min(length_b).min(length_c);
-        let value = a.dot(&b.cross(c));
-        let is_clear = shortest * U > self.position_error() && value.abs() > 16.0 * U * length_a * length_b * length_c;
+        let value = determinant([(*a).into(), (*b).into(), (*c).into()]);
+        let is_clear = shortest * U > self.position_error() && value.abs() > CLEAR * length_a * length_b * length_c;
         is_clear.then(|| value.total_cmp(&0.0))
     }
 

@@ -21,6 +21,8 @@ use crate::solve::exact;
 use apart::{check_points, not_in_interval, verify_disjoint, witnesses};
 pub(crate) use bounds::Bounds;
 use checks::{allowed, between_origins, check_unit, too_large, unverified};
+#[doc(hidden)]
+pub use depth::CLEAR;
 pub use depth::verify_depth;
 pub use manifold::verify_manifold;
 use numbers::{are_points_said, check_numbers};

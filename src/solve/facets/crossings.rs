@@ -17,7 +17,7 @@ const STRETCH: f64 = 1.05;
 /// off it is δl·(n − r) + δr·(n − l), and |n − l| + |n − r| ≤ 2√2 on the arc: 2√2·37u, see [`NORMAL`]. Computed, the length of n
 /// errs by 2.5u, its product with l + r by 3u, l + r by u, all times 2; 1 + l·r and its product by 7u, the sum with this by 2u:
 /// 22u.
-const ON_ARC: f64 = 2.9 * NORMAL + 23.0 * U;
+pub const ON_ARC: f64 = 2.9 * NORMAL + 23.0 * U;
 
 /// Edges with a greater θ are as good as parallel.
 const MOST_TILT: f64 = 1e-6;

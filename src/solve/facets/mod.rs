@@ -34,6 +34,7 @@ use crate::polyhedron::fan::{Fan, MOST_CORNERS, MOST_EDGES, MOST_FACES};
 use crate::solve::frame::Frame;
 use arcs::Survivors;
 use crossings::Crossings;
+pub use crossings::ON_ARC;
 use placed::PlacedFan;
 pub use search::Facet;
 use search::{Best, Search};

@@ -37,7 +37,7 @@ pub use planes::evaluate;
 pub use pyramid::{Failure, Pyramid, Rest};
 pub use raise::raise;
 pub use storage::{NO_TWIN, Polytope, triangle_of};
-pub use support::{farthest, support};
+pub use support::{HEIGHTS, farthest, heights, support};
 pub use witness::{Witness, witness};
 
 /// What rounding does to the numbers of one pair.

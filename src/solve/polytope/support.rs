@@ -3,6 +3,7 @@
 use super::Rounding;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::{Lanes, Work};
+use crate::polyhedron::fan::PointBlock;
 use crate::polyhedron::{NONE, Polyhedron, clear_slope};
 use crate::solve::certificate;
 use crate::solve::exact::VertexPair;
@@ -320,7 +321,13 @@ fn plateau(polyhedron: &Polyhedron, towards: &Vector, vertex: u32) -> Plateau {
 }
 
 /// By how much the order of two heights, over the radius, may be wrong: each errs by 3u·|g|, and g by 6.2u.
-const HEIGHTS: f64 = 20.0 * U;
+pub const HEIGHTS: f64 = 20.0 * U;
+
+/// Products of four points with a direction.
+#[inline(always)]
+pub fn heights<L: Lanes>([x, y, z]: [L; 3], block: &PointBlock) -> L {
+    x.mul_add(L::load(&block.x), y.mul_add(L::load(&block.y), z.mul(L::load(&block.z))))
+}
 
 /// The farthest of all vertices of a body that has them in blocks.
 #[inline(always)]
@@ -331,7 +338,7 @@ fn farthest_in_blocks<L: Lanes>(polyhedron: &Polyhedron, towards: L) -> (u32, f6
     let (mut best, mut second, mut place) = (lowest, lowest, L::splat(0.0));
     let (mut at, one) = (L::splat(0.0), L::splat(1.0));
     for block in &polyhedron.vertex_blocks {
-        let height = x.mul_add(L::load(&block.x), y.mul_add(L::load(&block.y), z.mul(L::load(&block.z))));
+        let height = heights([x, y, z], block);
         place = at.where_greater(height, best, place);
         second = second.max(best.min(height));
         best = best.max(height);
