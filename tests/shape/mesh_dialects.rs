@@ -35,8 +35,8 @@ fn a_body_in_any_dialect_is_that_body_or_refused() {
     assert!(counts[0][1] > 7_000 && counts[1][0] + counts[3][0] == 0 && counts[2][1] > 5_000, "{counts:?}");
 }
 
-/// Colours at the vertices of plain OFF, all small whole numbers: 2,796 of 4,000 such files were read as other bodies when what stood
-/// behind a vertex was taken for the next.
+/// Colours at the vertices of plain OFF, all small whole numbers: 2,796 of 4,000 such files were read as other bodies when what
+/// stood behind a vertex was taken for the next.
 #[test]
 fn colours_that_look_like_coordinates_are_left_out() {
     let mut random = Random::new(44);

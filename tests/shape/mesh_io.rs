@@ -169,8 +169,8 @@ fn free_form_that_fits_with_colours_as_well_is_refused_with_a_cure() {
     let message = refusal("OFF 4 2 0\n0 0 0 1 0 0 0 1 0 0 0 1 3 0 1 2 3 0 1 2\n3 2 1 0\n", Format::Off);
     assert_eq!(
         message,
-        "m: line 1: behind these counts there are two bodies, one with 3 numbers at each vertex and one with 4; give each vertex and \
-         each face a line of its own"
+        "m: line 1: behind these counts there are two bodies, one with 3 numbers at each vertex and one with 4; give each vertex \
+         and each face a line of its own"
     );
     let plain = read("OFF 4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 2 1 0\n").unwrap();
     assert_eq!(plain.vertices[3], Vector::z());
@@ -243,8 +243,8 @@ fn stl_welds_zeros_of_either_sign() {
     assert_eq!((welded.vertices.len(), welded.face_count()), (4, 4));
 }
 
-/// HalfDonut.stl of numpy-stl has a byte behind its triangles, others are filled up to whole blocks or have data of their own there;
-/// some programs leave the count at 0. All that was refused.
+/// HalfDonut.stl of numpy-stl has a byte behind its triangles. Others are filled up to whole blocks, or have data of their own
+/// there; some programs leave the count at 0. All that was refused.
 #[test]
 fn binary_stl_files_of_another_length() {
     let stl = binary_stl(&cube(), "");
@@ -380,7 +380,8 @@ fn refusals_name_the_line() {
         (
             Off,
             "nOFF\n",
-            "m: line 1: \"nOFF\" is not supported: vertices must have three coordinates; write OFF if they have, NOFF if normals follow",
+            "m: line 1: \"nOFF\" is not supported: vertices must have three coordinates; write OFF if they have, NOFF if normals \
+             follow",
         ),
         (Off, "OFF BINARY\n", "m: line 1: binary OFF is not supported: save the file as text"),
         (Off, "COFF\nBinary\n", "m: line 1: binary OFF is not supported: save the file as text"),

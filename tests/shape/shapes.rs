@@ -206,8 +206,8 @@ fn meshes_of_nothing_are_told() {
     assert!(Shape::from_mesh(&no_faces, &with(InputPolicy::Hull)).is_ok());
 }
 
-/// The message recommended the hull of all vertices alone, which reaches to those of no face: of tablelegs-*.obj of mujoco_warp 48 of
-/// 120 are, and the hull is 0.381 wide where the surface is 0.325. Whoever follows the message now knows, and has both.
+/// The message recommended the hull of all vertices alone, which reaches to those of no face. Of tablelegs-*.obj of mujoco_warp 48
+/// of 120 are, and the hull is 0.381 wide where the surface is 0.325. Whoever follows the message now knows, and has both.
 #[test]
 fn vertices_of_no_face_are_told_of_and_may_be_left_out() {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/meshes/stray.obj");

@@ -1,22 +1,26 @@
 //! OFF, the Object File Format of Geomview: <http://www.geomview.org/docs/html/OFF.html>.
 //!
 //! `[ST][C][N]OFF`, the numbers of vertices, faces and edges, the vertices, the faces; `#` starts a comment. Colours, normals and
-//! texture coordinates stand behind a position, a colour behind a face: they are left out. As files have it, the word may be missing,
-//! in lower case, with its letters in any order or with the first number glued to it (`OFF8 6 0`), and the number of edges may be
-//! missing.
+//! texture coordinates stand behind a position, a colour behind a face: they are left out. As files have it, the word may be
+//! missing, in lower case, with its letters in any order or with the first number glued to it (`OFF8 6 0`), and the number of
+//! edges may be missing.
 //!
 //! Such text has two readings:
 //!
-//! - By lines: each vertex and each face has one of its own. Three numbers of a vertex are its position, the rest of its line is not.
-//! - In free form, as Geomview reads: vertices are numbers on any lines, and a face takes the rest of the line behind its last corner.
+//! - By lines: each vertex and each face has one of its own. Three numbers of a vertex are its position, the rest of its line is
+//!   not.
+//! - In free form, as Geomview reads: vertices are numbers on any lines, and a face takes the rest of the line behind its last
+//!   corner.
 //!
-//! Many files begin with plain `OFF` and have colours at their vertices. Read in free form, those would be vertices and faces of another
-//! body. So a reading has to fit: as many vertices and faces as the file says, and no number behind them. In free form a face has three
-//! corners or more, none twice, and a colour of four numbers at most. A file that one reading fits is read so; one that both fit, as
-//! different bodies, is refused. So is a file in free form that fits as well if each vertex has some numbers more.
+//! Many files begin with plain `OFF` and have colours at their vertices. Read in free form, those would be vertices and faces of
+//! another body. So a reading has to fit: as many vertices and faces as the file says, and no number behind them. In free form a
+//! face has three corners or more, none twice, and a colour of four numbers at most. A file that one reading fits is read so; one
+//! that both fit, as different bodies, is refused. So is a file in free form that fits as well if each vertex has some numbers
+//! more.
 //!
-//! Lines alone count where the header announces more than positions: writers differ in how many numbers a colour has. They alone count
-//! as well where all vertices have equally many numbers, more than three: such a file is cut off or damaged if they do not fit.
+//! Lines alone count where the header announces more than positions: writers differ in how many numbers a colour has. They alone
+//! count as well where all vertices have equally many numbers, more than three: such a file is cut off or damaged if they do not
+//! fit.
 
 use crate::base::error::{Error, Result};
 use crate::base::math::Vector;
@@ -48,7 +52,7 @@ struct Widths {
     most: usize,
 }
 
-/// Reads an OFF file.
+/// Reads an OFF file: by lines, in free form or not at all, as the head of this file says.
 pub fn parse(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
     let mut scanner = Scanner::with_comments(bytes, name);
     let head = read_head(&mut scanner)?;
@@ -67,8 +71,8 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
     match (by_lines, read_free_form(scanner.clone(), &head, 3)) {
         (_, Err(error @ Error::Memory(_))) => Err(error),
         (Ok(by_lines), Ok(free)) if by_lines != free => Err(scanner.error(format_args!(
-            "behind these counts there are two bodies, one by lines and one of numbers on any lines; if vertices have colours, begin \
-             the file with COFF, else give each vertex a line with nothing but its coordinates"
+            "behind these counts there are two bodies, one by lines and one of numbers on any lines; if vertices have colours, \
+             begin the file with COFF, else give each vertex a line with nothing but its coordinates"
         ))),
         (Ok(mesh), _) => Ok(mesh),
         // Lines of three numbers tell that vertices have no more, whatever the faces do.
@@ -205,8 +209,8 @@ fn read_by_lines(mut scanner: Scanner, head: &Head, widths: &mut Widths) -> Resu
     Ok(mesh)
 }
 
-/// Vertices of `width` numbers, the first three of which are the position, on any lines; what stands behind a face's last corner, up
-/// to the end of the line, is its colour.
+/// Vertices of `width` numbers, the first three of which are the position, on any lines; what stands behind a face's last corner,
+/// up to the end of the line, is its colour.
 fn read_free_form(mut scanner: Scanner, head: &Head, width: usize) -> Result<PolygonMesh> {
     let mut mesh = PolygonMesh::default();
     for v in 0..head.vertex_count {

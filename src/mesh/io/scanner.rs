@@ -1,5 +1,5 @@
-//! Words of a text file, with the line they are on. A line ends with a line feed (Unix), a carriage return (old Mac systems) or both
-//! (Windows), whichever the others of the file end with.
+//! Words of a text file, with the line they are on. A line ends with a line feed (Unix), a carriage return (old Mac systems) or
+//! both (Windows), whichever the others of the file end with.
 
 use std::fmt;
 use std::num::IntErrorKind;

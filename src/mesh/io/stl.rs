@@ -5,9 +5,9 @@
 //! dropped, and later triangles move up. One with three equal corners is a place that nobody filled in, and no vertex comes of it.
 //! Normals are not read: vertices say the same, more accurately.
 //!
-//! A binary file may go on behind its triangles: with what is no whole number of them or with zeros. Where its count is 0, as programs
-//! leave it that do not come back to the header, its length says how many there are, if it is that of whole triangles. Of ASCII words
-//! `endloop`, `endfacet` and `endsolid` may be two words.
+//! A binary file may go on behind its triangles: with what is no whole number of them or with zeros. Where its count is 0, as
+//! programs leave it that do not come back to the header, its length says how many there are, if it is that of whole triangles.
+//! Of ASCII words `endloop`, `endfacet` and `endsolid` may be two words.
 //!
 //! The coordinates of a binary file are single precision. So are nearly always those of an ASCII file, being printed from
 //! the same programs' floats, hence both are marked as such.
@@ -27,8 +27,8 @@ const HEADER: usize = 84;
 /// Normal and three corners in single precision, and two free bytes.
 const TRIANGLE: usize = 50;
 
-/// Whether the file has exactly the size that its triangle count says as a binary file. This is safer than the first word:
-/// the free bytes of a binary file may well start with "solid". Only who knows that a file is STL may take another size ([`parse`]).
+/// Whether the file has exactly the size that its triangle count says as a binary file. This is safer than the first word: the
+/// free bytes of a binary file may well start with "solid". Only who knows that a file is STL may take another size ([`parse`]).
 pub fn is_binary(bytes: &[u8]) -> bool {
     claimed_size(bytes) == Some(bytes.len() as u64)
 }
