@@ -7,6 +7,7 @@ pub mod hull;
 pub mod check;
 pub(crate) mod slack;
 pub(crate) mod merge;
+pub(crate) mod spread;
 pub(crate) mod labels;
 pub(crate) mod mass;
 pub(crate) mod fan;

@@ -25,7 +25,7 @@ use crate::pair::Placed;
 /// # Errors
 /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted, as in [`crate::pair::distance`].
 /// [`Error::Argument`] for an origin or a direction that is not finite, a direction of 0, a `t_max` that is negative or NaN, and a
-/// shape with a swept radius.
+/// shape with a swept radius. [`Error::Memory`] where there is none for integers.
 pub fn cast_ray(body: Placed, ray: &Ray) -> Result<RayAnswer> {
     with_default(|| {
         ray.check()?;
@@ -36,11 +36,14 @@ pub fn cast_ray(body: Placed, ray: &Ray) -> Result<RayAnswer> {
                 "the shape has a swept radius of {radius:e}: rays are cast at shapes without one, a distance tells how near they pass"
             )));
         }
-        Ok(search::cast(body.shape.polyhedron(), body.pose, ray))
+        search::cast(body.shape.polyhedron(), body.pose, ray)
     })
 }
 
 /// The same of a ray and a pose that are accepted, in integers alone: both ends are neighbouring doubles.
-pub(crate) fn cast_ray_in_integers(body: Placed, ray: &Ray) -> RayAnswer {
+///
+/// # Errors
+/// [`Error::Memory`] where there is none for integers.
+pub(crate) fn cast_ray_in_integers(body: Placed, ray: &Ray) -> Result<RayAnswer> {
     search::cast_in_integers(body.shape.polyhedron(), body.pose, ray)
 }

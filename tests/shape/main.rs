@@ -2,6 +2,7 @@
 
 mod mesh_io;
 mod nearly_convex;
+mod polygons;
 mod scaled;
 mod shape_file;
 mod faces;

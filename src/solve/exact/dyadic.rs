@@ -110,7 +110,7 @@ pub(crate) fn bounds_of_quotient_by_root(numerator: &IBig, square: &IBig, expone
     (round(root, exponent, Rounding::Down), round(above, exponent, Rounding::Up))
 }
 
-fn magnitude(x: &IBig) -> UBig {
+pub(super) fn magnitude(x: &IBig) -> UBig {
     x.clone().into_parts().1
 }
 

@@ -17,14 +17,16 @@ mod minkowski;
 mod boundary;
 mod differences;
 mod half_space;
+mod point_depth;
 
 use crate::base::math::Pose;
 use crate::polyhedron::Polyhedron;
 pub use answer::{ExactAnswer, ExactDistance};
 pub use boundary::{Position, Supports, locate, overlap_along_axes};
 pub use differences::{Differences, Normal, PairEdge};
-pub use half_space::{Lowest, lowest};
+pub use half_space::OverPlane;
 use minkowski::MinkowskiDifference;
+pub use point_depth::{WayOut, way_out};
 pub use simplex::VertexPair;
 use simplex::nearest_of_hull;
 
