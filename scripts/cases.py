@@ -157,8 +157,9 @@ class Row:
 
 def run_tool(arguments, case, promise):
     """The answers as lists of words, and what cut them short: None, or one of `refused`, `failed`, `hung`."""
-    command = [arguments.tool, case.first, case.second, case.poses, "--input", "hull", "--query", arguments.query,
-               "--levels", arguments.levels, "--start", arguments.start]
+    command = [arguments.tool, case.first, case.second, case.poses, "--input", "hull", "--query", arguments.query]
+    if arguments.query != "depth":
+        command += ["--levels", arguments.levels, "--start", arguments.start]
     if arguments.query == "approximate":
         command += ["--error", repr(promise.error)]
     try:

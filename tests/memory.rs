@@ -1,5 +1,5 @@
 //! Where memory is lacking a call says so and has changed nothing. An allocator refuses one block after the other: every block of
-//! at least [`SMALL`] bytes, which no block may have that is not asked for in a way that can be refused.
+//! at least [`SMALL`] bytes, which no block may have that is not asked for in a way that can be refused; and of queries every block.
 
 // GlobalAlloc is an unsafe trait.
 #![allow(unsafe_code)]
@@ -10,16 +10,27 @@ use std::fmt::Write;
 use std::sync::Arc;
 
 use swiftprox::error::{Error, Result};
+use swiftprox::ground::{Ground, GroundContacts, HeightGrid, ground_contacts, ground_distance};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::mesh_io::{parse_mesh, read_mesh};
-use swiftprox::object::ObjectOptions;
-use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig};
+use swiftprox::motion::{self, CastAnswer, CastConfig, Clearance, ClearanceConfig, Motion, Moving, verify_cast};
+use swiftprox::object::{ObjectId, ObjectOptions};
+use swiftprox::pair::{
+    self, DepthAnswer, DepthCache, DepthConfig, HalfSpace, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome,
+    PairAnswer, PairCache, PairConfig, Placed, SignedDistance, SignedDistanceCache,
+};
+use swiftprox::point::{locate_point, support};
 use swiftprox::progress::Progress;
-use swiftprox::scene::{ContactDetail, PairResult, Scene, SceneOptions, SceneQuery, Workers};
+use swiftprox::ray::{Ray, cast_ray};
+use swiftprox::scene::{
+    ContactDetail, GroupFilter, ObjectSet, PairResult, PoseOrder, RayHits, Scene, SceneOptions, SceneQuery, SetScratch,
+    Workers,
+};
 use swiftprox::shape::{InputPolicy, LookupKind, LookupOptions, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, load, save, to_bytes};
+use swiftprox::verify::{verify, verify_depth, verify_manifold};
 use testkit::random::Random;
 
 /// No block that ends the program when it is refused is as large (`docs/conventions.md`, Memory).
@@ -29,6 +40,8 @@ const SMALL: usize = 2048;
 const SIZES: [usize; 2] = [2_100, 4_200];
 
 thread_local! {
+    /// From which size on blocks are looked at.
+    static LEAST: Cell<usize> = const { Cell::new(SMALL) };
     /// Large blocks asked for since the last refusal was ordered; this thread's alone, as all here.
     static ASKED: Cell<usize> = const { Cell::new(0) };
     /// Which of them is refused; 0 for none.
@@ -40,7 +53,7 @@ thread_local! {
 }
 
 fn refuses(size: usize) -> bool {
-    if size < SMALL {
+    if size < LEAST.get() {
         return false;
     }
     let asked = ASKED.get() + 1;
@@ -538,4 +551,331 @@ fn contacts_of_scenes() {
     }
     assert!(refusals > 5, "{refusals}");
     assert_eq!(scene.remembered_depths()[1], 59);
+}
+
+/// A number that tells answers from others, without a block of memory.
+fn digest(numbers: impl IntoIterator<Item = u64>) -> u64 {
+    numbers.into_iter().fold(7, |sum: u64, x| (sum ^ x).wrapping_mul(0x9e37_79b9_7f4a_7c15).rotate_left(29))
+}
+
+fn bits(numbers: impl IntoIterator<Item = f64>) -> u64 {
+    digest(numbers.into_iter().map(f64::to_bits))
+}
+
+/// Refuses every block that a question asks for, one at a time and whatever its size. Each time it is answered as without that, or
+/// ends in [`Error::Memory`]; asked again of the same it is answered.
+///
+/// Integers panicked where they got no memory (48 to 64 bytes, of touching cubes), and lists beside them ended the program: in C
+/// that was SWIFTPROX_ERROR_BUG, and a scene was poisoned.
+fn refuse_every_block<S>(what: &str, make: impl Fn() -> S, ask: impl Fn(&mut S) -> Result<u64>) {
+    let expected = ask(&mut make()).unwrap();
+    let mut refusals = 0;
+    for number in 1.. {
+        let mut state = make();
+        LEAST.set(1);
+        let (said, came_to_that) = without(number, false, || ask(&mut state));
+        LEAST.set(SMALL);
+        match said {
+            Ok(answer) => assert_eq!(answer, expected, "{what}, block {number}"),
+            Err(Error::Memory(_)) => refusals += 1,
+            Err(other) => panic!("{what}, block {number}: {other:?}"),
+        }
+        assert_eq!(ask(&mut state), Ok(expected), "{what}, after block {number} was refused");
+        if !came_to_that {
+            break;
+        }
+    }
+    assert!(refusals > 0, "{what} asks for no block");
+}
+
+/// The panics that become errors are printed by nobody here.
+fn keep_quiet() {
+    static ONCE: std::sync::Once = std::sync::Once::new();
+    ONCE.call_once(|| {
+        let before = std::panic::take_hook();
+        std::panic::set_hook(Box::new(move |info| {
+            let is_of_integers = info.location().is_some_and(|location| location.file().contains("dashu-int"));
+            let message = info.payload().downcast_ref::<&str>();
+            if !is_of_integers && message != Some(&"out of memory") {
+                before(info);
+            }
+        }));
+    });
+}
+
+/// A cube of side 2, turned by an angle whose sine and cosine are no doubles, and another one above it that it just touches.
+fn touching() -> [Pose; 2] {
+    let turn = Matrix::new(0.8, -0.6, 0.0, 0.6, 0.8, 0.0, 0.0, 0.0, 1.0);
+    [Pose::IDENTITY, Pose::new(&turn, &Vector::new(0.0, 0.0, 2.0))]
+}
+
+fn said_of_pair(answer: &PairAnswer) -> u64 {
+    digest([answer.outcome as u64, bits([answer.lower, answer.distance, answer.upper])])
+}
+
+#[test]
+fn every_block_of_pairs() {
+    keep_quiet();
+    let cube = testkit::shapes::cuboid([1.0; 3]);
+    let huge = testkit::shapes::cuboid([1e300; 3]);
+    let ball = Shape::from_points(
+        &[Vector::zeros()],
+        &ShapeOptions { input: InputPolicy::Hull, swept_radius: 1.0, ..ShapeOptions::default() },
+    )
+    .unwrap();
+    let poses = touching();
+    type Ask = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
+    let queries: [(&str, Ask); 4] = [
+        ("distance", pair::distance),
+        ("intersection", pair::intersection),
+        ("contact", pair::contact),
+        ("approximate", pair::approximate),
+    ];
+    for (name, query) in queries {
+        for (kind, bodies) in [
+            ("cubes", [cube.at(&poses[0]), cube.at(&poses[1])]),
+            ("a cube and a huge one", [cube.at(&poses[0]), huge.at(&poses[1])]),
+            ("a cube and a ball", [cube.at(&poses[0]), ball.at(&poses[1])]),
+        ] {
+            let ask = |(cache, answer): &mut (PairCache, PairAnswer)| {
+                let before = (*cache, *answer);
+                query(bodies, cache, &PairConfig::default(), answer).inspect_err(|_| {
+                    assert_eq!(before.0, *cache);
+                    assert_eq!(before.1.outcome, answer.outcome);
+                })?;
+                Ok(said_of_pair(answer))
+            };
+            refuse_every_block(&format!("{name} of {kind}"), Default::default, ask);
+        }
+    }
+    for (kind, bodies) in [
+        ("cubes", [cube.at(&poses[0]), cube.at(&poses[1])]),
+        ("a cube and a huge one", [cube.at(&poses[0]), huge.at(&poses[1])]),
+        ("a cube and a ball", [cube.at(&poses[0]), ball.at(&poses[1])]),
+    ] {
+        let depth = |cache: &mut DepthCache| {
+            let mut answer = DepthAnswer::default();
+            pair::depth(bodies, cache, &DepthConfig::default(), &mut answer)?;
+            Ok(digest([answer.outcome as u64, u64::from(answer.lower == 0.0)]))
+        };
+        refuse_every_block(&format!("the depth of {kind}"), Default::default, depth);
+        let signed = |cache: &mut SignedDistanceCache| {
+            let mut answer = SignedDistance::default();
+            pair::signed_distance(bodies, cache, &PairConfig::default(), &mut answer)?;
+            Ok(digest([answer.outcome as u64, u64::from(answer.upper <= 0.0)]))
+        };
+        refuse_every_block(&format!("the signed distance of {kind}"), Default::default, signed);
+        let manifold = |cache: &mut ManifoldCache| {
+            let mut points = [ManifoldPoint::default(); 16];
+            let asked = pair::manifold(bodies, cache, &ManifoldConfig::default(), &mut points);
+            if asked.is_err() {
+                assert!(points.iter().all(|point| point.id == 0), "points are as they were");
+            }
+            let found = asked?;
+            Ok(digest([found.outcome as u64, u64::from(found.found_count)]))
+        };
+        refuse_every_block(&format!("the manifold of {kind}"), Default::default, manifold);
+    }
+    let above = Pose::new(&poses[1].rotation(), &Vector::new(0.0, 0.0, 1.0));
+    for (normal, offset) in [([0.0, 0.0, 1.0], 0.0), ([5e-324; 3], 1e300)] {
+        let half_space = HalfSpace { normal, offset };
+        let distance = |(): &mut ()| {
+            let found = pair::half_space_distance(cube.at(&above), &half_space)?;
+            Ok(digest([found.outcome as u64, bits([found.lower, found.distance, found.upper])]))
+        };
+        refuse_every_block("a half-space", || (), distance);
+        let manifold = |(): &mut ()| {
+            let mut points = [ManifoldPoint::default(); 16];
+            let config = ManifoldConfig::default();
+            let asked = pair::half_space_manifold(cube.at(&above), &half_space, &config, &mut points);
+            if asked.is_err() {
+                assert!(points.iter().all(|point| point.id == 0), "points are as they were");
+            }
+            let found = asked?;
+            Ok(digest([found.outcome as u64, u64::from(found.found_count), bits(points.map(|point| point.gap_lower))]))
+        };
+        refuse_every_block("the manifold of a half-space", || (), manifold);
+    }
+    let verified = |(): &mut ()| {
+        let bodies = [cube.at(&poses[0]), cube.at(&poses[1])];
+        let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+        pair::contact(bodies, &mut cache, &PairConfig::default(), &mut answer)?;
+        verify(bodies, &answer)?;
+        let (mut cache, config) = (ManifoldCache::default(), ManifoldConfig::default());
+        let mut points = [ManifoldPoint::default(); 16];
+        let found = pair::manifold(bodies, &mut cache, &config, &mut points)?;
+        verify_manifold(bodies, &cache, &config, &found, &points)?;
+        let deep = [poses[0], Pose::new(&poses[1].rotation(), &Vector::new(0.3, 0.2, 1.9))];
+        let bodies = [cube.at(&deep[0]), cube.at(&deep[1])];
+        let (mut cache, mut depth) = (DepthCache::default(), DepthAnswer::default());
+        pair::depth(bodies, &mut cache, &DepthConfig::default(), &mut depth)?;
+        verify_depth(bodies, &cache, &depth)?;
+        let apart = [cube.at(&deep[0]), ball.at(&poses[1])];
+        let mut answer = PairAnswer::default();
+        pair::distance(apart, &mut PairCache::default(), &PairConfig::default(), &mut answer)?;
+        verify(apart, &answer)?;
+        Ok(0)
+    };
+    refuse_every_block("verified answers", || (), verified);
+}
+
+#[test]
+fn every_block_of_points_rays_casts_and_grounds() {
+    keep_quiet();
+    let cube = testkit::shapes::cuboid([1.0; 3]);
+    let needle = testkit::shapes::cuboid([5e-11, 3e-11, 0.5]);
+    let [_, pose] = touching();
+    for (body, at) in [(&cube, [0.0, 0.0, 3.0]), (&cube, [0.1, 0.2, 3.0]), (&needle, [0.0, 0.0, 2.1])] {
+        let locate = |(): &mut ()| {
+            let answer = locate_point(body.at(&pose), at)?;
+            Ok(digest([answer.location as u64, bits([answer.lower, answer.distance, answer.upper])]))
+        };
+        refuse_every_block("a point", || (), locate);
+    }
+    let farthest = |(): &mut ()| Ok(u64::from(support(cube.at(&pose), [0.0, 0.0, 1.0])?.vertex >= 4));
+    refuse_every_block("a support vertex", || (), farthest);
+    let huge = testkit::shapes::cuboid([1e300; 3]);
+    for (body, origin, direction) in [
+        (&cube, [1.0, 1.0, -5.0], [0.0, 0.0, 1.0]),
+        (&cube, [0.0, -9.0, 1.0], [0.0, 1.0, 0.0]),
+        (&huge, [0.0, 0.0, -1.5e300], [0.0, 0.0, 1e300]),
+    ] {
+        let cast = |(): &mut ()| {
+            let ray = Ray { origin, direction, t_max: f64::INFINITY };
+            let answer = cast_ray(body.at(&Pose::IDENTITY), &ray)?;
+            Ok(digest([answer.outcome as u64, bits(answer.entry), bits(answer.exit)]))
+        };
+        refuse_every_block("a ray", || (), cast);
+    }
+    let start = Pose::new(&pose.rotation(), &Vector::new(0.0, 0.0, 5.0));
+    let moves =
+        |height: f64| Motion::Affine { start, end: Pose::new(&pose.rotation(), &Vector::new(0.0, 0.0, height)) };
+    for height in [0.0, 2.0] {
+        let motions = [Motion::Fixed(Pose::IDENTITY), moves(height)];
+        let bodies = || [0, 1].map(|i| Moving { shape: &cube, motion: &motions[i] });
+        let cast = |cache: &mut PairCache| {
+            let (config, mut answer) = (CastConfig::default(), CastAnswer::default());
+            motion::cast(bodies(), cache, &config, &mut answer)?;
+            verify_cast(bodies(), &config, &answer)?;
+            Ok(answer.outcome as u64)
+        };
+        refuse_every_block("a cast", PairCache::default, cast);
+        let clearance = |cache: &mut PairCache| {
+            let mut answer = Clearance::default();
+            motion::clearance(bodies(), cache, &ClearanceConfig::default(), &mut answer)?;
+            Ok(u64::from(answer.upper > 0.0))
+        };
+        refuse_every_block("a clearance", PairCache::default, clearance);
+    }
+    let heights = [0.0; 4];
+    let grid = HeightGrid { rows: 2, columns: 2, spacing: [1.0; 2], heights: &heights };
+    let ground = Ground::from_heights(&grid).unwrap();
+    let rests = Pose::new(&pose.rotation(), &Vector::new(0.5, 0.5, 1.0));
+    let contacts = |found: &mut GroundContacts| {
+        ground_contacts(cube.at(&rests), ground.at(&Pose::IDENTITY), &ManifoldConfig::default(), found)?;
+        Ok(digest([found.contacts.len() as u64, found.points.len() as u64]))
+    };
+    refuse_every_block("contacts on a ground", GroundContacts::default, contacts);
+    let distance = |(): &mut ()| {
+        let config = PairConfig::default();
+        let found = ground_distance(pair::Query::Distance, cube.at(&rests), ground.at(&Pose::IDENTITY), &config)?;
+        Ok(said_of_pair(&found.answer))
+    };
+    refuse_every_block("the distance of a ground", || (), distance);
+}
+
+/// A scene lives on, and answers the same.
+#[test]
+fn every_block_of_scenes() {
+    keep_quiet();
+    let cube = Arc::new(testkit::shapes::cuboid([1.0; 3]));
+    let make = || {
+        let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+        let ids = touching().map(|pose| {
+            scene.add_object(vec![cube.clone()], &ObjectOptions { pose, ..ObjectOptions::default() }).unwrap()
+        });
+        (scene, ids, SetScratch::default())
+    };
+    type World = (Scene, [ObjectId; 2], SetScratch);
+    type Query = for<'a> fn(&'a mut Scene, &SceneQuery) -> Result<swiftprox::scene::SceneAnswer<'a>>;
+    let queries: [(&str, Query); 4] = [
+        ("intersection", Scene::query_intersection),
+        ("distance", Scene::query_distance),
+        ("contact", Scene::query_contact),
+        ("approximate", Scene::query_approximate),
+    ];
+    for (name, query) in queries {
+        for detail in [ContactDetail::None, ContactDetail::Depth, ContactDetail::Manifold] {
+            if detail != ContactDetail::None && name != "contact" {
+                continue;
+            }
+            let ask = |(scene, ..): &mut World| {
+                let said = query(scene, &SceneQuery { detail, ..SceneQuery::default() })?;
+                let points = said.contacts.points.len() as u64;
+                Ok(digest(said.pairs.iter().map(|pair| said_of_pair(&pair.answer)).chain([points])))
+            };
+            refuse_every_block(&format!("{name} in a scene, {detail:?}"), make, ask);
+        }
+    }
+    let prepared = || {
+        let mut world = make();
+        world.0.prepare().unwrap();
+        world
+    };
+    let ask_ray = |(scene, _, scratch): &mut World| {
+        let ray = Ray { origin: [1.0, 1.0, -5.0], direction: [0.0, 0.0, 1.0], t_max: f64::INFINITY };
+        let hits = scene.cast_ray(&ray, RayHits::All, u32::MAX, scratch)?;
+        Ok(digest(hits.iter().map(|hit| bits(hit.answer.entry))))
+    };
+    refuse_every_block("a ray in a scene", prepared, ask_ray);
+    let config = ManifoldConfig::default();
+    let ask_half_space = |(scene, _, scratch): &mut World| {
+        let half_space = HalfSpace { normal: [0.0, 0.0, 1.0], offset: -1.0 };
+        let found = scene.half_space_contacts(None, &half_space, &config, GroupFilter::default(), scratch)?;
+        Ok(digest([found.contacts.len() as u64, found.points.len() as u64]))
+    };
+    refuse_every_block("a half-space in a scene", prepared, ask_half_space);
+    let heights = [-1.0; 4];
+    let grid = HeightGrid { rows: 2, columns: 2, spacing: [1.0; 2], heights: &heights };
+    let ground = Ground::from_heights(&grid).unwrap();
+    let ask_ground = |(scene, _, scratch): &mut World| {
+        let placed = ground.at(&Pose::IDENTITY);
+        let found = scene.ground_contacts(None, placed, &config, GroupFilter::default(), scratch)?;
+        Ok(digest([found.contacts.len() as u64, found.points.len() as u64]))
+    };
+    refuse_every_block("a ground in a scene", prepared, ask_ground);
+    let ask_least = |(scene, ids, scratch): &mut World| {
+        let set = ObjectSet { ids: &ids[..1], ..ObjectSet::default() };
+        let found = scene.least_distance(&set, None, f64::INFINITY, scratch)?;
+        Ok(bits([found.lower, found.upper]))
+    };
+    refuse_every_block("the least distance of a set", prepared, ask_least);
+    let ask_hit = |(scene, ids, scratch): &mut World| {
+        let set = ObjectSet { ids: &ids[..1], ..ObjectSet::default() };
+        let poses = [Pose::IDENTITY];
+        let found = scene.first_hit(&set, &poses, PoseOrder::InOrder, 0.0, scratch)?;
+        Ok(found.time as u64)
+    };
+    refuse_every_block("a first hit of a set", prepared, ask_hit);
+    let ask_cast = |(scene, ids, scratch): &mut World| {
+        let set = ObjectSet { ids: &ids[1..], ..ObjectSet::default() };
+        let [_, pose] = touching();
+        let start = Pose::new(&pose.rotation(), &Vector::new(0.0, 0.0, 5.0));
+        let found = scene.cast(&set, &[Motion::Affine { start, end: pose }], &CastConfig::default(), scratch)?;
+        Ok(found.outcome as u64)
+    };
+    refuse_every_block("a cast of a set", prepared, ask_cast);
+}
+
+/// What `docs/conventions.md` says of the blocks that may end the program.
+#[test]
+fn records_are_no_larger_than_the_page_says() {
+    let sizes = [
+        ("Shape", size_of::<Shape>()),
+        ("Scene", size_of::<Scene>()),
+        ("SetScratch", size_of::<SetScratch>()),
+        ("Ground", size_of::<Ground>()),
+        ("Workers", size_of::<Workers>()),
+    ];
+    assert!(sizes.iter().all(|(_, size)| *size <= 2048), "{sizes:?}");
 }

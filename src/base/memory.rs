@@ -3,7 +3,10 @@
 //! Rust ends the program where memory is not there. A vector that grows with the input, or with a scene, therefore gets its room
 //! here: a refusal is [`Error::Memory`]. What is small whatever the input is need not ask; `docs/conventions.md` lists that.
 
+use std::any::Any;
+use std::cell::Cell;
 use std::collections::{BinaryHeap, TryReserveError};
+use std::panic::{AssertUnwindSafe, catch_unwind, panic_any, resume_unwind};
 use std::sync::{Mutex, OnceLock};
 
 use crate::base::error::{Error, Result};
@@ -113,6 +116,64 @@ fn grow<T>(list: &mut Vec<T>, count: usize) -> Result<()> {
 pub(crate) fn lacking<T>(count: usize, error: &TryReserveError) -> Error {
     let bytes = count.saturating_mul(size_of::<T>());
     Error::Memory(format!("there is no memory for an array of {bytes} bytes: {error}"))
+}
+
+/// What a panic carries where integers of any size get no new block (the crate dashu-int).
+const NO_MEMORY: &str = "out of memory";
+
+/// … and where theirs is not made another size: its `Buffer::reallocate_raw` unwraps the pointer. Nothing of ours unwraps an option,
+/// as a test of the project sees to, and what else dashu-int unwraps is there.
+const NO_OTHER_SIZE: &str = "called `Option::unwrap()` on a `None` value";
+
+thread_local! {
+    /// Whether this thread is in [`in_integers`].
+    static CATCHES: Cell<bool> = const { Cell::new(false) };
+}
+
+/// Does what computes with integers of any size: their lack of memory is an error here, and no panic goes on that tells of it.
+/// `work` only computes: what it writes to, other than its result, nobody looks at after an error.
+///
+/// # Errors
+/// [`Error::Memory`].
+#[cold]
+#[inline(never)]
+pub(crate) fn in_integers<T>(work: impl FnOnce() -> T) -> Result<T> {
+    let outside = CATCHES.replace(true);
+    let ended = catch_unwind(AssertUnwindSafe(work));
+    CATCHES.set(outside);
+    ended.map_err(|payload| {
+        if !is_lack_of_memory(&*payload) {
+            resume_unwind(payload);
+        }
+        Error::Memory("there is no memory for an integer of a few hundred bytes".into())
+    })
+}
+
+/// Whether a panic of this thread becomes an error: nobody need hear of it.
+pub(crate) fn becomes_an_error(payload: &(dyn Any + Send)) -> bool {
+    CATCHES.get() && is_lack_of_memory(payload)
+}
+
+fn is_lack_of_memory(payload: &(dyn Any + Send)) -> bool {
+    payload.downcast_ref::<&str>().is_some_and(|message| [NO_MEMORY, NO_OTHER_SIZE].contains(message))
+}
+
+/// A list of what an iterator gives, with room for a few more at least, for [`in_integers`].
+///
+/// # Panics
+/// As integers do, where there is no memory.
+pub(crate) fn listed<T>(items: impl IntoIterator<Item = T>) -> Vec<T> {
+    const ROOM: usize = 5;
+    let mut list = Vec::new();
+    let grow = |list: &mut Vec<T>| list.try_reserve(ROOM).unwrap_or_else(|_| panic_any(NO_MEMORY));
+    grow(&mut list);
+    for item in items {
+        if list.len() == list.capacity() {
+            grow(&mut list);
+        }
+        list.push(item);
+    }
+    list
 }
 
 /// What the first who needs it makes, while others who need it wait.

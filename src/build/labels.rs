@@ -10,6 +10,7 @@ use crate::base::math::{Matrix, Vector};
 use crate::base::memory::{collected, copied, extend, filled, lacking, push, reserve, with_capacity};
 use crate::base::progress::Progress;
 use crate::build::merge::merge_bound;
+use crate::build::spread::{Spread, is_within};
 use crate::mesh::{Numbers, PolygonMesh};
 use crate::polyhedron::{Face, Polyhedron};
 
@@ -37,7 +38,8 @@ pub fn label_by_index(polyhedron: &mut Polyhedron) -> Result<()> {
 /// Polygons lie on the hull up to the convexity tolerance, so some of their vertices may not be hull vertices, or by an ulp only
 /// of the face beyond an edge. The candidates for a polygon are the faces around its hull vertices, or, where it has none,
 /// around the hull's support in its normal's direction. Among those whose planes hold it within rounding, or else hold it
-/// best, the one with the closest normal wins.
+/// best, the one with the closest normal wins. A polygon that this face does not hold within rounding is on all that it lies over
+/// and is at most `near` off.
 ///
 /// # Errors
 /// [`crate::base::error::Error::Cancelled`] when the caller does not want to go on; [`crate::base::error::Error::Memory`].
@@ -46,20 +48,26 @@ pub fn label_by_polygons(
     points: &[Vector],
     mesh: &PolygonMesh,
     numbers: Option<&Numbers>,
+    near: f64,
     progress: &mut Progress,
 ) -> Result<()> {
     let face_count = polyhedron.faces.len();
-    let found = faces_of_polygons(polyhedron, points, mesh, &mut progress.part(0.0, 0.9))?;
+    let found = faces_of_polygons(polyhedron, points, mesh, near, &mut progress.part(0.0, 0.9))?;
     // From here on in the order of labels.
     let polygons = numbers.map(|numbers| places_of(&numbers.faces)).transpose()?;
     let polygon = |label: u32| polygons.as_ref().map_or(label, |polygons| polygons[label as usize]) as usize;
-    let mut holders: Vec<u32> = collected((0..found.len() as u32).map(|label| found[polygon(label)]))?;
+    let (mut holders, mut labels) = (with_capacity(found.faces.len())?, with_capacity(found.faces.len())?);
+    for label in 0..mesh.face_count() as u32 {
+        let of_polygon = &found.faces[found.starts[polygon(label)] as usize..found.starts[polygon(label) + 1] as usize];
+        extend(&mut holders, of_polygon.iter().copied())?;
+        extend(&mut labels, of_polygon.iter().map(|_| label))?;
+    }
     let borrowed = match numbers.and_then(|numbers| numbers.bare_face) {
         Some(label) => bare_faces(face_count, &holders, label)?,
-        None => borrowed_labels(polyhedron, &holders, &mut progress.part(0.9, 1.0))?,
+        None => borrowed_labels(polyhedron, &holders, &labels, &mut progress.part(0.9, 1.0))?,
     };
     extend(&mut holders, borrowed.iter().map(|(face, _)| *face))?;
-    let labels = (0..mesh.face_count() as u32).chain(borrowed.iter().map(|(_, label)| *label));
+    extend(&mut labels, borrowed.iter().map(|(_, label)| *label))?;
 
     // Counting sort by face; it keeps the order within a face.
     let mut starts = filled(0_u32, face_count + 1)?;
@@ -90,27 +98,36 @@ pub fn label_by_polygons(
     Ok(())
 }
 
-/// The face on which each polygon lies.
+/// The faces on which polygons lie: polygon p on `faces[starts[p]..starts[p + 1]]`, one at least.
+struct FacesOfPolygons {
+    faces: Vec<u32>,
+    starts: Vec<u32>,
+}
+
+/// The faces on which each polygon lies, or over which, where it is at most `near` off them.
 fn faces_of_polygons(
     polyhedron: &Polyhedron,
     points: &[Vector],
     mesh: &PolygonMesh,
+    near: f64,
     progress: &mut Progress,
-) -> Result<Vec<u32>> {
+) -> Result<FacesOfPolygons> {
     let around = FacesAround::new(polyhedron, &mut progress.part(0.0, 0.4))?;
     let progress = &mut progress.part(0.4, 1.0);
     let hull_vertices = hull_vertices_of(polyhedron, points)?;
     let bound = 2.0 * merge_bound(polyhedron.radius);
-    let mut faces = with_capacity(mesh.face_count())?;
-    let mut vertices = Vec::new();
+    let mut found =
+        FacesOfPolygons { faces: with_capacity(mesh.face_count())?, starts: with_capacity(mesh.face_count() + 1)? };
+    let mut spread = Spread::new(polyhedron, near, bound)?;
+    let (mut vertices, mut own) = (Vec::new(), OwnCorners::default());
     let mut start = 0;
     for polygon in 0..mesh.face_count() {
         let corners = mesh.face(polygon);
         let normal = polygon_normal(points, corners);
         // A few corners all around; those with few faces first, as the hub of a fan has thousands.
-        let spread = corners.iter().step_by(corners.len().div_ceil(MOST_CORNERS_TRIED));
+        let tried = corners.iter().step_by(corners.len().div_ceil(MOST_CORNERS_TRIED));
         vertices.clear();
-        vertices.extend(spread.filter_map(|c| hull_vertices[*c as usize]));
+        vertices.extend(tried.filter_map(|c| hull_vertices[*c as usize]));
         if vertices.is_empty() {
             vertices.push(polyhedron.support(&normal, start).0);
         }
@@ -137,9 +154,40 @@ fn faces_of_polygons(
                 break;
             }
         }
-        faces.push(best.1);
+        found.starts.push(found.faces.len() as u32);
+        let ((misfit, _), face) = best;
+        own.take(points, &hull_vertices, corners)?;
+        let holds = |(point, vertex): (&Vector, &Option<u32>)| {
+            vertex.is_some_and(|v| around.towards(v, &centre).any(|other| other == face))
+                || is_within(polyhedron, face, point, bound)
+        };
+        if !(misfit <= bound && own.points.iter().zip(&own.vertices).all(holds)) {
+            let steps =
+                spread.add_faces(polygon as u32, &own.points, &own.vertices, &normal, face, &mut found.faces)?;
+            progress.steps(steps, polygon, mesh.face_count())?;
+        }
+        if found.faces.len() == found.starts[polygon] as usize {
+            push(&mut found.faces, face)?;
+        }
     }
-    Ok(faces)
+    found.starts.push(found.faces.len() as u32);
+    Ok(found)
+}
+
+/// The corners of a polygon, and the hull's vertices there.
+#[derive(Default)]
+struct OwnCorners {
+    points: Vec<Vector>,
+    vertices: Vec<Option<u32>>,
+}
+
+impl OwnCorners {
+    fn take(&mut self, points: &[Vector], hull_vertices: &[Option<u32>], corners: &[u32]) -> Result<()> {
+        self.points.clear();
+        self.vertices.clear();
+        extend(&mut self.points, corners.iter().map(|c| points[*c as usize]))?;
+        extend(&mut self.vertices, corners.iter().map(|c| hull_vertices[*c as usize]))
+    }
 }
 
 /// The merged faces around each hull vertex, flat vertices included.
@@ -276,10 +324,15 @@ fn bare_faces(face_count: usize, holders: &[u32], label: u32) -> Result<Vec<(u32
 
 /// Labels for the faces that hold no polygon, with those faces. They spread from faces that have one, across the flattest edge
 /// first: of a polygon that is not quite plane, and so several faces of the hull, all get its label before any gets another's.
-fn borrowed_labels(polyhedron: &Polyhedron, holders: &[u32], progress: &mut Progress) -> Result<Vec<(u32, u32)>> {
+fn borrowed_labels(
+    polyhedron: &Polyhedron,
+    holders: &[u32],
+    labels: &[u32],
+    progress: &mut Progress,
+) -> Result<Vec<(u32, u32)>> {
     let mut lowest = filled(None, polyhedron.faces.len())?;
-    for (label, face) in holders.iter().enumerate().rev() {
-        lowest[*face as usize] = Some(label as u32);
+    for (face, label) in holders.iter().zip(labels).rev() {
+        lowest[*face as usize] = Some(*label);
     }
     let mut links = BinaryHeap::new();
     for (face, label) in (0..).zip(&lowest) {

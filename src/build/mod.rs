@@ -8,6 +8,7 @@ pub mod check;
 #[doc(hidden)]
 pub mod slack;
 pub(crate) mod merge;
+pub(crate) mod spread;
 pub(crate) mod labels;
 pub(crate) mod mass;
 pub(crate) mod fan;

@@ -20,7 +20,7 @@ mod patch;
 
 use crate::base::error::{Result, check_range};
 use crate::base::math::Vector;
-use crate::base::memory::{collected, extend, filled, push, with_capacity};
+use crate::base::memory::{collected, extend, filled, in_integers, push, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
 use crate::mesh::PolygonMesh;
@@ -61,7 +61,7 @@ impl Decomposition {
 /// faces that have an area, for an edge of more than two faces or of two in the same direction, and for a face that crosses
 /// itself, with their numbers; [`crate::base::error::Error::Cancelled`] when the caller does not want to go on.
 pub fn decompose(mesh: &PolygonMesh, tolerance: f64, progress: &mut Progress) -> Result<Decomposition> {
-    with_default(|| decomposed(mesh, tolerance, progress))
+    in_integers(|| with_default(|| decomposed(mesh, tolerance, progress)))?
 }
 
 fn decomposed(mesh: &PolygonMesh, tolerance: f64, progress: &mut Progress) -> Result<Decomposition> {

@@ -17,8 +17,8 @@ use crate::base::locks::locked;
 
 /// Gives memory of `size` bytes, not 0 and a multiple of `alignment`, at an address that is one, too. The alignment is a power of
 /// two, at least a pointer's and sometimes more than malloc keeps (64, for one). Null if there is no memory, as where the system's
-/// runs out: for what grows with the caller's input or a scene the call then ends in SWIFTPROX_ERROR_MEMORY; for what is small the
-/// program ends with a message (the head of this file says what that is). `user` is the pointer given to
+/// runs out: for what grows with the caller's input or a scene, and for integers, the call then ends in SWIFTPROX_ERROR_MEMORY; for
+/// what else is small the program ends with a message (the head of this file says what that is). `user` is the pointer given to
 /// swiftprox_library_set_allocator.
 pub type AllocateCallback =
     Option<unsafe extern "C-unwind" fn(user: *mut c_void, size: usize, alignment: usize) -> *mut c_void>;

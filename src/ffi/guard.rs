@@ -3,6 +3,7 @@
 
 use super::failure::{Checked, Failure, StatusCode};
 use super::log::{log, must_return};
+use crate::base::memory::becomes_an_error;
 use crate::base::simd::environment::with_default;
 use std::any::Any;
 use std::cell::{Cell, RefCell};
@@ -76,6 +77,7 @@ fn bug() -> Failure {
 }
 
 /// Keeps the message and the place of a panic in a call from C for [`bug`] and keeps them off the standard error of the program.
+/// What becomes an error says so itself.
 /// Called by the functions that make handles: without a handle there is nothing that could panic, and queries need not ask.
 ///
 /// The hook is one for all that was linked with one standard library, which the C libraries have for themselves. A Rust program
@@ -88,6 +90,9 @@ pub(super) fn keep_panics_quiet() {
     INSTALLED.call_once(|| {
         let previous = std::panic::take_hook();
         std::panic::set_hook(Box::new(move |info| {
+            if becomes_an_error(info.payload()) {
+                return;
+            }
             if INSIDE.get() {
                 let _ = LAST_PANIC.try_with(|last| last.set(Some(info.to_string().replace('\n', " "))));
             } else {

@@ -35,10 +35,10 @@ pub unsafe extern "C" fn swiftprox_shape_locate_point(
 }
 
 /// The vertex of a shape at a pose that is farthest along a direction of the world, of any length but 0: for certain no other is
-/// farther, whatever the magnitudes.
+/// farther, whatever the magnitudes. Of a shape with a swept radius place and height are those of the ball about the vertex.
 ///
 /// On failure the answer's numbers are NaN and 0. SWIFTPROX_ERROR_INVALID_ARGUMENT: the direction is 0 or not finite.
-/// SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_NULL_POINTER.
+/// SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_support(
     shape: *const Shape,

@@ -3,7 +3,7 @@
 use super::tree::{Bounds, Tree};
 use crate::base::error::{Error, Result, check_range};
 use crate::base::math::Vector;
-use crate::base::memory::{collected, filled, with_capacity};
+use crate::base::memory::{collected, filled, in_integers, with_capacity};
 use crate::base::normal::{area_vector, normal_of};
 use crate::base::simd::environment::with_default;
 use crate::polyhedron::{LARGEST, SMALLEST};
@@ -73,7 +73,8 @@ impl Ground {
             )));
         }
         // The sum with +0 turns −0 into 0.
-        with_default(|| Ground::new(collected(vertices.iter().map(|vertex| vertex.add_scalar(0.0)))?, triangles))
+        let build = || Ground::new(collected(vertices.iter().map(|vertex| vertex.add_scalar(0.0)))?, triangles);
+        in_integers(|| with_default(build))?
     }
 
     /// From heights over a grid: of column j and row i the vertex i·columns + j is at (j·spacing₁, i·spacing₂, height). Each cell
@@ -84,7 +85,7 @@ impl Ground {
     /// [`Error::Argument`]: fewer than two rows or columns, a spacing that is not positive and finite, not as many heights as
     /// vertices. Else as [`Ground::from_triangles`].
     pub fn from_heights(grid: &HeightGrid) -> Result<Ground> {
-        with_default(|| Ground::of_heights(grid))
+        in_integers(|| with_default(|| Ground::of_heights(grid)))?
     }
 
     fn of_heights(grid: &HeightGrid) -> Result<Ground> {

@@ -5,6 +5,7 @@
 
 use crate::base::error::Result;
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
+use crate::base::memory::listed;
 use crate::build::assembly::build;
 use crate::polyhedron::surface_walk::{Candidate, Surface, SurfaceFeature, nearest_of, on_segment};
 use crate::polyhedron::{LARGEST, NONE, Polyhedron, SMALLEST};
@@ -102,7 +103,7 @@ impl<'a> PointDistance<'a> {
                 Decision::Intersecting { pairs, .. } => (pairs, *point, 0.0),
                 Decision::Separated { points, interval, pairs, .. } => (pairs, points[1], interval.upper),
             };
-        let corners: Vec<u32> = pairs.as_slice().iter().map(|pair| pair[1]).collect();
+        let corners = listed(pairs.as_slice().iter().map(|pair| pair[1]));
         NearestPoint { point: found, upper, vertex: nearest_of(self.polyhedron, point, &corners) }
     }
 }

@@ -29,6 +29,8 @@ pub struct Numbers {
     pub faces: Vec<u32>,
     /// What a face of the hull is called on which no face of the mesh lies; `None`: as a neighbour.
     pub bare_face: Option<u32>,
+    /// How far off a face of the hull a face of the mesh may be that lies on it.
+    pub near: f64,
 }
 
 impl Default for PolygonMesh {
@@ -142,7 +144,7 @@ impl PolygonMesh {
             mesh.indices.extend(self.face(f as usize).iter().map(|v| places[*v as usize]));
             mesh.starts.push(mesh.indices.len() as u32);
         }
-        Ok(Some((mesh, Numbers { vertices: order, faces, bare_face: None })))
+        Ok(Some((mesh, Numbers { vertices: order, faces, bare_face: None, near: f64::INFINITY })))
     }
 
     /// The same with those vertices alone that faces have, and the index of each here. `None` if a face names a vertex

@@ -9,6 +9,7 @@ use super::signed_distance::SignedDistance;
 use super::swept::sign;
 use crate::base::error::{Error, Result};
 use crate::base::math::{ROTATION_LIMIT, UNIT_ROUNDOFF, Vector, clamp};
+use crate::base::memory::in_integers;
 use crate::base::simd::environment::with_default;
 use crate::solve::exact;
 use crate::solve::state::FeatureId;
@@ -68,30 +69,34 @@ impl HalfSpace {
 ///
 /// # Errors
 /// [`Error::Pose`] for a pose that is not accepted, as in [`distance`](crate::pair::distance), [`Error::Argument`] for a normal
-/// that is 0 or not finite and an offset that is not finite.
+/// that is 0 or not finite and an offset that is not finite, [`Error::Memory`] where there is none for integers.
 pub fn half_space_distance(body: Placed, half_space: &HalfSpace) -> Result<SignedDistance> {
     half_space.check()?;
     body.pose.check(ROTATION_LIMIT)?;
-    Ok(with_default(|| of_lowest(body, half_space)))
+    in_integers(|| with_default(|| of_lowest(body, half_space)))
 }
 
 /// The same of what is sound, in the default floating-point environment.
+///
+/// # Panics
+/// Where integers get no memory, as of [`in_integers`].
 pub(super) fn of_lowest(body: Placed, half_space: &HalfSpace) -> SignedDistance {
     let (polyhedron, pose) = (body.shape.polyhedron(), body.pose);
     let &HalfSpace { normal, offset } = half_space;
     let up = normalised(&normal.into());
     let start = tables::farthest(polyhedron, &pose.rotate_back(&-Vector::from(up))).unwrap_or(0);
-    let lowest = exact::lowest(polyhedron, pose, normal, offset, start);
-    let (lower, upper) = lowest.distance.bounds();
+    let over = exact::OverPlane::new(polyhedron, pose, normal, offset);
+    let lowest = over.lowest(start);
+    let height = over.height(lowest);
     let radii = Radii::of_one(body.shape.swept_radius());
-    let mut interval = radii.off(if lowest.is_below { [-upper, -lower] } else { [lower, upper] });
+    let mut interval = radii.off(height.bounds());
     let mut is_apart = interval[0] > 0.0;
-    if !lowest.is_below && !is_apart && interval[1] >= 0.0 {
-        (is_apart, interval) = sign(&lowest.distance, &radii, interval);
+    if !height.is_below && !is_apart && interval[1] >= 0.0 {
+        (is_apart, interval) = sign(&height.distance, &radii, interval);
     }
     let [lower, upper] = interval;
-    let distance = clamp(0.5 * lower + 0.5 * upper, lower, upper);
-    let point = polyhedron.vertices[lowest.vertex as usize].position;
+    let distance = middle(interval);
+    let point = polyhedron.vertices[lowest as usize].position;
     let points = placed_points([polyhedron; 2], [pose; 2], &[point; 2]);
     let PlacedPoints { local: [local, _], world: [world, _] } = moved(&points, [pose; 2], &up, radii.outwards());
     let foot = (Vector::from(world) - Vector::from(up) * distance).into();
@@ -105,7 +110,13 @@ pub(super) fn of_lowest(body: Placed, half_space: &HalfSpace) -> SignedDistance 
         world1: world,
         world2: foot,
         normal: up,
-        feature1: label(polyhedron, FeatureId::Vertex(lowest.vertex), &point),
+        feature1: label(polyhedron, FeatureId::Vertex(lowest), &point),
         feature2: Feature::default(),
     }
+}
+
+/// A finite number of an interval that holds one, its middle where that is finite.
+pub(super) fn middle([lower, upper]: [f64; 2]) -> f64 {
+    debug_assert!(lower <= upper, "{lower:e} {upper:e}");
+    clamp(clamp(0.5 * lower + 0.5 * upper, lower, upper), -f64::MAX, f64::MAX)
 }

@@ -26,7 +26,7 @@ pub use batch::{PairQuestion, batch};
 pub use cache::PairCache;
 pub(crate) use config::check_accuracy;
 pub use config::{Levels, PairConfig, Query, Refinement, Start};
-pub(crate) use contact::{feature_of_vertices, label, normalised};
+pub(crate) use contact::{feature_of_vertices, label, normalised, placed_points};
 pub use depth::{DepthAnswer, DepthCache, DepthConfig, DepthEnding, DepthStatistics};
 pub use half_space::{HalfSpace, half_space_distance};
 pub(crate) use ladder::least_error;
@@ -39,5 +39,5 @@ pub use manifold::{
 };
 pub use placed::Placed;
 pub use queries::{approximate, contact, depth, distance, intersection, intersection_by_marching, signed_distance};
-pub(crate) use radii::{Radii, sum_above, sum_below};
+pub(crate) use radii::{Radii, moved, sum_above, sum_below};
 pub use signed_distance::{SignedDistance, SignedDistanceCache};

@@ -12,6 +12,7 @@ use super::radii::{Radii, moved};
 use super::signed_distance::{SignedDistance, SignedDistanceCache, of_polyhedra};
 use crate::base::error::Result;
 use crate::base::math::clamp;
+use crate::base::memory::in_integers;
 use crate::base::simd::environment::with_default;
 use crate::solve::exact::{self, ExactDistance};
 use std::cmp::Ordering;
@@ -40,7 +41,7 @@ pub(super) fn query(
     if query == Query::Approximate && is_too_wide(&found, radii, config) {
         ladder::ask(Query::Distance, Glances::Asked, &bodies, cache, &of_polyhedra, &mut found)?;
     }
-    *answer = with_default(|| less(query, bodies, radii, enough, &found));
+    *answer = in_integers(|| with_default(|| less(query, bodies, radii, enough, &found)))?;
     if is_verdict && answer.outcome == Outcome::Beyond {
         answer.outcome = Outcome::Separated;
     }
@@ -131,7 +132,7 @@ pub(super) fn depth(
         ladder::ask(Query::Distance, Glances::Asked, &bodies, &mut PairCache::default(), &within, &mut apart)?;
         (of_polyhedra, ending) = ((&apart).into(), DepthEnding::Narrow);
     }
-    let signed = with_default(|| of_bodies(bodies, radii, 0.0, &of_polyhedra));
+    let signed = in_integers(|| with_default(|| of_bodies(bodies, radii, 0.0, &of_polyhedra)))?;
     let statistics = found.statistics;
     let SignedDistance { normal, feature1, feature2, .. } = signed;
     if signed.outcome != Outcome::Intersecting {
@@ -174,7 +175,7 @@ pub(super) fn signed_distance(
     let mut found = SignedDistance::default();
     let grown = PairConfig { distance_tolerance: radii.with(config.distance_tolerance), ..*config };
     of_polyhedra(&bodies, cache, &grown, &mut found)?;
-    *answer = with_default(|| of_bodies(bodies, radii, config.distance_tolerance, &found));
+    *answer = in_integers(|| with_default(|| of_bodies(bodies, radii, config.distance_tolerance, &found)))?;
     Ok(())
 }
 

@@ -57,15 +57,16 @@ impl PointAnswer {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct SupportVertex {
-    /// Its index in the caller's array: for certain no vertex is farther. Of several that are as far it is any.
+    /// The vertex's index in the caller's array: for certain no other is farther. Of several that are as far it is any.
     pub vertex: u32,
     /// Whether integers decided what rounding hides: 1 or 0. They allocate.
     pub exact: i32,
-    /// Where it is, in the body's local frame.
+    /// Where the body reaches farthest, in its local frame: the vertex, or a point of the ball about it that is swept over the body.
     pub local: [f64; 3],
-    /// Where it is in the world, rounded.
+    /// The same in the world, rounded.
     pub world: [f64; 3],
-    /// `height[0]` ≤ direction · x ≤ `height[1]` for its exact place x in the world: the largest over the body.
+    /// `height[0]` ≤ direction · x ≤ `height[1]` for its exact place x in the world: the largest over the body, the ball that is swept
+    /// over it included.
     pub height: [f64; 2],
 }
 

@@ -4,20 +4,21 @@ use super::answer::SupportVertex;
 use super::check_finite;
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
+use crate::base::memory::in_integers;
 use crate::base::simd::environment::with_default;
 use crate::base::simd::{Lanes, Portable};
-use crate::pair::Placed;
+use crate::pair::{Placed, moved, normalised, placed_points};
 use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST};
 use crate::solve::exact::body::Body;
 use crate::solve::exact::dyadic::DyadicVector;
 use crate::solve::polytope::farthest;
 
-/// The vertex of a body that is farthest along a direction of the world, of any length but 0: certain, whatever the magnitudes. A
-/// swept radius is left out: the body reaches so much farther.
+/// The vertex of a body that is farthest along a direction of the world, of any length but 0: certain, whatever the magnitudes. Of
+/// a body with a swept radius place and height are those of the ball about the vertex.
 ///
 /// # Errors
 /// [`Error::Argument`] for a direction that is 0 or not finite, [`Error::Pose`] for a pose that is not accepted, as in
-/// [`crate::pair::distance`].
+/// [`crate::pair::distance`], [`Error::Memory`] where there is none for integers.
 pub fn support(body: Placed, direction: [f64; 3]) -> Result<SupportVertex> {
     with_default(|| {
         check_finite("direction", &direction)?;
@@ -27,14 +28,21 @@ pub fn support(body: Placed, direction: [f64; 3]) -> Result<SupportVertex> {
         body.pose.check(ROTATION_LIMIT)?;
         let polyhedron = body.shape.polyhedron();
         let (vertex, is_certain) = climb(polyhedron, body.pose, &direction.into());
-        let vertex = if is_certain { vertex } else { climb_exactly(polyhedron, body.pose, direction, vertex) };
-        let local = polyhedron.local_position(vertex);
+        let vertex = match is_certain {
+            true => vertex,
+            false => in_integers(|| climb_exactly(polyhedron, body.pose, direction, vertex))?,
+        };
+        let position = polyhedron.vertices[vertex as usize].position;
+        let radius = body.shape.swept_radius();
+        let points = placed_points([polyhedron; 2], [body.pose; 2], &[position; 2]);
+        let outwards = normalised(&direction.into());
+        let points = if radius > 0.0 { moved(&points, [body.pose; 2], &outwards, [radius; 2]) } else { points };
         Ok(SupportVertex {
             vertex: polyhedron.vertex_labels[vertex as usize],
             exact: i32::from(!is_certain),
-            local: local.into(),
-            world: body.pose.transform(&local).into(),
-            height: height(polyhedron, body.pose, &direction.into(), vertex),
+            local: points.local[0],
+            world: points.world[0],
+            height: height(polyhedron, body.pose, radius, &direction.into(), vertex),
         })
     })
 }
@@ -62,11 +70,12 @@ fn climb_exactly(polyhedron: &Polyhedron, pose: &Pose, direction: [f64; 3], from
     body.support(from, &towards)
 }
 
-/// Between which doubles the height of a vertex along a direction is.
+/// Between which doubles the height along a direction is of the ball about a vertex.
 ///
-/// Each of its terms d·R·c, d·R·p and d·T, summed, goes through at most eight roundings: 8u of their absolute values, which are
-/// themselves rounded as often. What underflows is below the smallest normal number.
-fn height(polyhedron: &Polyhedron, pose: &Pose, direction: &Vector, vertex: u32) -> [f64; 2] {
+/// Each of its terms d·R·c, d·R·p, d·T and r·|d|, summed, goes through at most nine roundings: 9u of their absolute values, which
+/// are themselves rounded as often. What underflows is below the smallest normal number; |d| is in units of its largest component,
+/// of which the radius makes a length first, so that no square does.
+fn height(polyhedron: &Polyhedron, pose: &Pose, radius: f64, direction: &Vector, vertex: u32) -> [f64; 2] {
     let (centre, position) = (polyhedron.centre, polyhedron.vertices[vertex as usize].position);
     let (local, parts) = (centre + position, centre.abs() + position.abs());
     let (mut value, mut terms) = (0.0, 0.0);
@@ -74,7 +83,10 @@ fn height(polyhedron: &Polyhedron, pose: &Pose, direction: &Vector, vertex: u32)
         value += d * (x * local.x + y * local.y + z * local.z + t);
         terms += d.abs() * (x.abs() * parts.x + y.abs() * parts.y + z.abs() * parts.z + t.abs());
     }
-    let error = 10.0 * U * terms + f64::MIN_POSITIVE;
+    let largest = direction.amax();
+    let ball = radius * largest * (direction / largest).norm();
+    (value, terms) = (value + ball, terms + ball);
+    let error = 12.0 * U * terms + f64::MIN_POSITIVE;
     // What overflows says nothing.
     match value.is_finite() && error.is_finite() {
         true => [(value - error).next_down(), (value + error).next_up()],

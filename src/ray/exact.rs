@@ -101,7 +101,8 @@ impl Cast<'_> {
             0 => self.at_point(),
             1 => {
                 let places = self.on_segment([0, 1]);
-                let (entry, exit) = (places.iter().min_by(order)?.clone(), places.iter().max_by(order)?.clone());
+                let places = || places.iter().flatten();
+                let (entry, exit) = (places().min_by(order)?.clone(), places().max_by(order)?.clone());
                 Some(Part { entry, exit, feature: FeatureId::Edge(0) })
             }
             _ => self.through_triangles().or_else(|| self.in_plane()),
@@ -177,7 +178,7 @@ impl Cast<'_> {
         }
         let mut part: Option<Part> = None;
         for (&[a, b, c], &face) in self.polyhedron.triangles.iter().zip(&self.polyhedron.face_of_triangle) {
-            for place in [[a, b], [b, c], [c, a]].into_iter().flat_map(|side| self.on_segment(side)) {
+            for place in [[a, b], [b, c], [c, a]].into_iter().flat_map(|side| self.on_segment(side)).flatten() {
                 match &mut part {
                     None => part = Some(Part { entry: place.clone(), exit: place, feature: FeatureId::Face(face) }),
                     Some(part) if order(&&place, &&part.entry).is_lt() => {
@@ -192,10 +193,10 @@ impl Cast<'_> {
     }
 
     /// Where the line meets a segment: nowhere, in a point, or from one end to the other.
-    fn on_segment(&self, ends: [u32; 2]) -> Vec<Place> {
+    fn on_segment(&self, ends: [u32; 2]) -> [Option<Place>; 2] {
         // Far from most segments.
         if self.line.is_some_and(|line| line.side(ends).is_some()) {
-            return Vec::new();
+            return [None, None];
         }
         let ([from, to], exponent) = self.vertices(ends);
         let direction = &self.direction.components;
@@ -204,20 +205,20 @@ impl Cast<'_> {
         let square = dot(&across, &across);
         if square.is_zero() {
             if !is_zero(&from_line) {
-                return Vec::new();
+                return [None, None];
             }
             let length = dot(direction, direction);
-            return [&from, &to].map(|end| self.place(dot(direction, end), length.clone(), exponent)).into();
+            return [&from, &to].map(|end| Some(self.place(dot(direction, end), length.clone(), exponent)));
         }
         // t·d = from + s·along: multiplied across `along`, t·across = from × along; across d, s·across = from × d.
         if !dot(&from, &across).is_zero() {
-            return Vec::new();
+            return [None, None];
         }
         let share = dot(&from_line, &across);
         if share < IBig::ZERO || share > square {
-            return Vec::new();
+            return [None, None];
         }
-        vec![self.place(dot(&cross(&from, &along), &across), square, exponent)]
+        [Some(self.place(dot(&cross(&from, &along), &across), square, exponent)), None]
     }
 
     fn at_point(&self) -> Option<Part> {

@@ -25,6 +25,7 @@ pub use query::Ray;
 
 use crate::base::error::Result;
 use crate::base::math::ROTATION_LIMIT;
+use crate::base::memory::in_integers;
 use crate::base::simd::environment::with_default;
 use crate::pair::Placed;
 
@@ -33,22 +34,25 @@ use crate::pair::Placed;
 /// # Errors
 /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted, as in [`crate::pair::distance`].
 /// [`Error::Argument`](crate::base::error::Error::Argument) for an origin or a direction that is not finite, a direction of 0, and a
-/// `t_max` that is negative or NaN.
+/// `t_max` that is negative or NaN. [`Error::Memory`](crate::base::error::Error::Memory) where there is none for integers.
 pub fn cast_ray(body: Placed, ray: &Ray) -> Result<RayAnswer> {
     with_default(|| {
         ray.check()?;
         body.pose.check(ROTATION_LIMIT)?;
-        Ok(match body.shape.swept_radius() {
+        match body.shape.swept_radius() {
             0.0 => search::cast(body.shape.polyhedron(), body.pose, ray),
-            radius => swept::cast(body.shape.polyhedron(), body.pose, ray, radius),
-        })
+            radius => in_integers(|| swept::cast(body.shape.polyhedron(), body.pose, ray, radius)),
+        }
     })
 }
 
 /// The same of a ray and a pose that are accepted, in integers alone: both ends are neighbouring doubles.
-pub(crate) fn cast_ray_in_integers(body: Placed, ray: &Ray) -> RayAnswer {
+///
+/// # Errors
+/// [`Error::Memory`](crate::base::error::Error::Memory) where there is none for integers.
+pub(crate) fn cast_ray_in_integers(body: Placed, ray: &Ray) -> Result<RayAnswer> {
     match body.shape.swept_radius() {
         0.0 => search::cast_in_integers(body.shape.polyhedron(), body.pose, ray),
-        radius => swept::cast_in_integers(body.shape.polyhedron(), body.pose, ray, radius),
+        radius => in_integers(|| swept::cast_in_integers(body.shape.polyhedron(), body.pose, ray, radius)),
     }
 }

@@ -3,7 +3,9 @@
 use super::line::{Crossing, Line};
 use super::walk::{End, Ended, LocalLine};
 use super::{Ray, RayAnswer, RayOutcome, exact};
+use crate::base::error::Result;
 use crate::base::math::Pose;
+use crate::base::memory::in_integers;
 use crate::pair::{label, normalised};
 use crate::polyhedron::{NONE, Polyhedron};
 use crate::solve::state::FeatureId;
@@ -24,14 +26,14 @@ enum Proved {
 }
 
 /// Where a ray meets a polyhedron at a pose; both are checked.
-pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray) -> RayAnswer {
+pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray) -> Result<RayAnswer> {
     let mut answer = RayAnswer::default();
     let line = Line::new(polyhedron, pose, ray, 0.0);
     if let Some(line) = &line {
         match prove(line, ray, &mut answer.steps) {
             Proved::Miss => {
                 answer.outcome = RayOutcome::Miss;
-                return answer;
+                return Ok(answer);
             }
             Proved::Passes { face, entry, exit } => {
                 if fill(&mut answer, line, ray, entry.at, exit.at) {
@@ -40,21 +42,22 @@ pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray) -> RayAnswer
                         let point = line.local_origin() + line.local_direction() * entry.at[0];
                         answer.feature = label(polyhedron, FeatureId::Face(face), &point);
                     }
-                    return answer;
+                    return Ok(answer);
                 }
             }
             Proved::Nothing => {}
         }
     }
-    exact::cast(polyhedron, pose, ray, line.as_ref(), &mut answer);
-    answer
+    in_integers(|| exact::cast(polyhedron, pose, ray, line.as_ref(), &mut answer))?;
+    Ok(answer)
 }
 
 /// The same, whatever doubles prove.
-pub(super) fn cast_in_integers(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray) -> RayAnswer {
+pub(super) fn cast_in_integers(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray) -> Result<RayAnswer> {
     let mut answer = RayAnswer::default();
-    exact::cast(polyhedron, pose, ray, Line::new(polyhedron, pose, ray, 0.0).as_ref(), &mut answer);
-    answer
+    let line = Line::new(polyhedron, pose, ray, 0.0);
+    in_integers(|| exact::cast(polyhedron, pose, ray, line.as_ref(), &mut answer))?;
+    Ok(answer)
 }
 
 fn prove(line: &Line, ray: &Ray, steps: &mut u32) -> Proved {

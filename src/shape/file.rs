@@ -13,7 +13,7 @@ use crate::base::enumerator::Enumerator;
 use crate::base::error::{Error, Result};
 use crate::base::files::{read_whole, write_whole};
 use crate::base::math::Vector;
-use crate::base::memory::{collected, copied, push};
+use crate::base::memory::{collected, copied, in_integers, push};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
 use crate::build::assembly::{Labels, build_in_steps};
@@ -131,7 +131,7 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Shape> {
 /// # Errors
 /// As [`from_bytes`]; [`Error::Cancelled`] when the caller does not want to go on.
 pub fn from_bytes_in_steps(bytes: &[u8], progress: &mut Progress) -> Result<Shape> {
-    with_default(|| read(bytes, false, progress))
+    in_integers(|| with_default(|| read(bytes, false, progress)))?
 }
 
 fn read(bytes: &[u8], admits_automatic_levels: bool, progress: &mut Progress) -> Result<Shape> {

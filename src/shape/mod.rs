@@ -13,7 +13,7 @@ use std::path::Path;
 use crate::base::error::{Error, Result, check_range};
 use crate::base::locality::{along_curve, in_order};
 use crate::base::math::{Matrix, Vector};
-use crate::base::memory::{OnNeed, copied, found, with_capacity};
+use crate::base::memory::{OnNeed, copied, found, in_integers, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
 use crate::build::assembly::build_in_steps;
@@ -234,7 +234,7 @@ impl Shape {
     /// # Errors
     /// As [`Shape::from_mesh`]; [`Error::Cancelled`] when the caller does not want to go on.
     pub fn from_mesh_in_steps(mesh: &PolygonMesh, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
-        with_default(|| Shape::of_mesh(mesh, options, progress))
+        in_integers(|| with_default(|| Shape::of_mesh(mesh, options, progress)))?
     }
 
     fn of_mesh(mesh: &PolygonMesh, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
@@ -323,7 +323,7 @@ impl Shape {
         }
         let noise = options.noise(&patch.vertices, None)?;
         patch.vertices = transformed(&patch.vertices, &options.transform(), &mut progress.part(0.0, 0.0))?;
-        let polyhedron = hull_of_patch(&patch, &used, &mut progress.part(0.0, options.share_of_body()))?;
+        let polyhedron = hull_of_patch(&patch, &used, noise, &mut progress.part(0.0, options.share_of_body()))?;
         Shape::admitted(polyhedron, noise, options, progress)
     }
 
@@ -341,11 +341,12 @@ impl Shape {
     /// # Errors
     /// As [`Shape::from_points`]; [`Error::Cancelled`] when the caller does not want to go on.
     pub fn from_points_in_steps(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
-        with_default(|| {
+        let build = || {
             let images = transformed(points, &options.transform(), &mut progress.part(0.0, 0.0))?;
             check_points(&images)?;
             Shape::of_points(&images, options.noise(points, None)?, options, progress)
-        })
+        };
+        in_integers(|| with_default(build))?
     }
 
     /// From finite points that went through the input transform.
@@ -353,7 +354,7 @@ impl Shape {
         let mut of_body = progress.part(0.0, options.share_of_body());
         let order = along_curve(points, &mut of_body.part(0.0, 0.04))?;
         let ordered = in_order(points, &order, &mut of_body.part(0.04, 0.05))?;
-        let numbers = Numbers { vertices: order, faces: Vec::new(), bare_face: None };
+        let numbers = Numbers { vertices: order, faces: Vec::new(), bare_face: None, near: f64::INFINITY };
         let hull = convex_hull_in_steps(&ordered, &mut of_body.part(0.05, 0.3))?;
         let polyhedron = build_in_steps(&ordered, hull, None, Some(&numbers), &mut of_body.part(0.3, 1.0))?;
         Shape::admitted(polyhedron, noise, options, progress)
@@ -464,7 +465,7 @@ impl Shape {
                 "scale {scale:e} is no power of two, so vertices would be rounded: make the shape anew with that scale in its options"
             )));
         }
-        with_default(|| file::scaled(self, scale, progress))
+        in_integers(|| with_default(|| file::scaled(self, scale, progress)))?
     }
 
     /// The polyhedron that queries run on: P₀ of the levels of detail.

@@ -82,6 +82,9 @@ impl Wanted {
 
 /// Decides a pair from a hint of one to four vertex pairs (indices in range). Unless `in_range` (see [`Frame`]) the magnitudes are
 /// beyond the error bounds of double precision, and integers decide at once.
+///
+/// # Panics
+/// Where integers get no memory, as of [`in_integers`](crate::base::memory::in_integers).
 pub fn decide(
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],

@@ -179,7 +179,7 @@ fn shells(polyhedron: &Polyhedron, resolution: usize) -> Result<Shells> {
     let thickness = Thickness::of(polyhedron);
     let surface = if thickness.is_needle() { found(Surface::new(polyhedron))? } else { None };
     let inner = inner_radius(polyhedron, &search.centre) / search.radius;
-    let radii: Vec<f64> = RADII.into_iter().filter(|r| *r > 1.0 || *r > inner).collect();
+    let radii: Vec<f64> = collected(RADII.into_iter().filter(|r| *r > 1.0 || *r > inner))?;
     let direction = |cell: usize| Shells::direction(resolution, cell / resolution, cell % resolution);
     let directions: Vec<Vector> = collected((0..resolution * resolution).map(direction))?;
     let mut cells = filled(0, radii.len() * directions.len())?;
@@ -369,7 +369,8 @@ impl BoxTree {
             boxes.iter().fold([Vector::repeat(f64::INFINITY), Vector::repeat(f64::NEG_INFINITY)], join)
         };
         let points: Vec<[Vector; 2]> = collected(positions.iter().map(|p| [*p, *p]))?;
-        let mut levels: Vec<Vec<[Vector; 2]>> = vec![collected(points.chunks(8).map(around))?];
+        let mut levels: Vec<Vec<[Vector; 2]>> = Vec::new();
+        push(&mut levels, collected(points.chunks(8).map(around))?)?;
         while let Some(last) = levels.last()
             && last.len() > 1
         {

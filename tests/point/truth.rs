@@ -4,7 +4,7 @@ use std::cmp::Ordering;
 
 use dashu_int::IBig;
 use dashu_ratio::RBig;
-use swiftprox::math::{Pose, Vector};
+use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::FeatureKind;
 use swiftprox::point::{PointAnswer, PointLocation, locate_point, support};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
@@ -190,4 +190,95 @@ fn directions() {
     }
     // Both ways of deciding.
     assert!((100..2_900).contains(&exact), "{exact}");
+}
+
+/// A needle or a sliver: a body of one to four times eight corners, so many times thinner along one axis or two. Half of them are
+/// turned before their corners are rounded.
+fn needle(random: &mut Random, round: usize) -> Vec<Vector> {
+    let thin = 10f64.powf(-random.uniform(0.0, 12.0));
+    let sizes = match round % 3 {
+        0 => Vector::new(thin, 0.7 * thin, 1.0),
+        1 => Vector::new(thin, 0.8, 1.0),
+        _ => Vector::new(thin, thin.sqrt(), 1.0),
+    };
+    let points: Vec<Vector> = match round % 2 {
+        0 => (0..8).map(|k| Vector::from_fn(|axis, _| if k >> axis & 1 == 0 { -0.5 } else { 0.5 })).collect(),
+        _ => (0..5 + random.below(6)).map(|_| random.vector()).collect(),
+    };
+    let turn = if round % 4 < 2 { Matrix::identity() } else { random.rotation() };
+    points.iter().map(|point| turn * point.component_mul(&sizes)).collect()
+}
+
+/// Points in, on and beside needles. Their polytopes of vertex differences are flat where ends tell nothing of the sides: the depth
+/// was said to be in [0, 0.2] of a needle 1e-10 thick, its estimate −0, and the nearest point to be the point itself, from ratios of
+/// about 1e-7 on. A body's triangles tell.
+#[test]
+fn points_in_needles() {
+    let mut random = Random::new(14);
+    let mut counts = [0; 3];
+    for round in 0..600 {
+        let points = needle(&mut random, round);
+        let stretch = Matrix::identity() + Matrix::from_fn(|_, _| 2e-3 * random.signed());
+        let turn = if round % 5 == 0 { random.rotation() * stretch } else { random.rotation() };
+        let pose = Pose::new(&turn, &(random.vector() * random.pick(&[0.0, 1.0, 1.0])));
+        let inside = points.iter().fold(Vector::zeros(), |sum, p| sum + p * random.uniform(0.1, 1.0));
+        let weights = points.len() as f64 * 0.55;
+        let on = points[random.below(points.len())];
+        let any = random.vector();
+        let local = random.pick(&[inside / weights * 0.9, inside / weights, on, on * 1.5, any]);
+        let at = pose.transform(&local);
+        let answer = try_point(&points, &pose, at.into());
+        counts[answer.location as usize - 1] += 1;
+        let told = || format!("{round} {points:?} {pose:?} {at:?} {answer:?}");
+        let sign = match answer.location {
+            PointLocation::Inside => -1.0,
+            PointLocation::Outside => 1.0,
+            _ => 0.0,
+        };
+        assert_eq!(if answer.distance == 0.0 { 0.0 } else { answer.distance.signum() }, sign, "{}", told());
+        assert!(answer.upper - answer.lower <= 2e-14 * (1.0 + pose.translation().amax()), "{}", told());
+        // The nearest point is as far away, along the normal.
+        let to_point = at - Vector::from(answer.world);
+        let off = 4e-15 + (answer.upper - answer.lower);
+        assert!((to_point - Vector::from(answer.normal) * answer.distance).norm() < off, "{}", told());
+        assert!(
+            (pose.transform(&Vector::from(answer.local)) - Vector::from(answer.world)).norm() < 4e-15,
+            "{}",
+            told()
+        );
+    }
+    assert!(counts.iter().all(|&count| count > 30), "{counts:?}");
+}
+
+/// A body with a swept radius reaches so much farther: place and height were those of the vertex.
+#[test]
+fn support_of_swept_bodies() {
+    let mut random = Random::new(15);
+    for round in 0..300 {
+        let Case { points, pose, ray, .. } = anywhere(&mut random);
+        let size = points.iter().map(|p| p.amax()).fold(0.0, f64::max);
+        let radius = size * random.uniform(0.0, 2.0);
+        let options = ShapeOptions { input: InputPolicy::Hull, swept_radius: radius, ..ShapeOptions::default() };
+        let shape = Shape::from_points(&points, &options).unwrap();
+        let direction = Vector::from(ray.direction) * random.power(-300, 200);
+        let answer = support(shape.at(&pose), direction.into()).unwrap();
+        let plain = support(hull(&points).at(&pose), direction.into()).unwrap();
+        assert_eq!(answer.vertex, plain.vertex);
+        // Of the height h less that of the vertex, v, both ends and so their squares: r²·|d|² is between (l − v)² and (u − v)².
+        let matrix = std::array::from_fn(|k| pose.rows[k / 4][k % 4]);
+        let vertex = points[answer.vertex as usize];
+        let at = transform(&matrix, &[vertex.x, vertex.y, vertex.z].map(rational));
+        let along = [direction.x, direction.y, direction.z].map(rational);
+        let height = &at[0] * &along[0] + &at[1] * &along[1] + &at[2] * &along[2];
+        let square = along.iter().fold(RBig::ZERO, |sum, x| sum + x * x) * rational(radius) * rational(radius);
+        let told = || format!("{round} {points:?} {pose:?} {direction:?} {radius:e} {answer:?}");
+        let [low, high] = answer.height.map(|end| rational(end) - &height);
+        assert!(low <= RBig::ZERO || &low * &low <= square, "{}", told());
+        assert!(high >= RBig::ZERO && &high * &high >= square, "{}", told());
+        let unit = direction.normalize();
+        let reach = Vector::from(answer.world) - Vector::from(plain.world);
+        assert!((reach - unit * radius).norm() <= 1e-14 * (size + pose.translation().norm()), "{}", told());
+        let back = pose.transform(&Vector::from(answer.local));
+        assert!((back - Vector::from(answer.world)).norm() <= 1e-13 * (size + pose.translation().norm()), "{}", told());
+    }
 }

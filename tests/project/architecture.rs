@@ -274,3 +274,11 @@ fn graph(folder: &str) -> Vec<(String, String, PathBuf)> {
     }
     graph
 }
+
+/// Where integers get no memory a panic says that an option is unwrapped (`base/memory.rs`): so nothing else may say that.
+#[test]
+fn no_option_is_unwrapped() {
+    for file in files(&source("")) {
+        for_each_path(&file, ".unwrap()", |line, _| panic!("{}, line {line}: an option is unwrapped", file.display()));
+    }
+}

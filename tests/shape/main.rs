@@ -3,6 +3,7 @@
 mod mesh_dialects;
 mod mesh_io;
 mod nearly_convex;
+mod polygons;
 mod scaled;
 mod shape_file;
 mod faces;

@@ -1,11 +1,14 @@
 //! Bodies and half-spaces: heights of vertices in rational numbers.
 
 use crate::{capsule, sphere, swept};
+use std::sync::Arc;
 use swiftprox::error::Error;
 use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::object::ObjectOptions;
 use swiftprox::pair::{
     HalfSpace, Manifold, ManifoldConfig, ManifoldPoint, Outcome, half_space_distance, half_space_manifold,
 };
+use swiftprox::scene::{GroupFilter, Scene, SceneOptions, SetScratch};
 use swiftprox::shape::Shape;
 use testkit::random::Random;
 use testkit::shapes::at;
@@ -142,5 +145,121 @@ fn what_is_no_half_space_is_refused() {
         let answer = half_space_distance(body.at(&pose), &HalfSpace { normal, offset }).unwrap();
         assert!(answer.lower <= answer.distance && answer.distance <= answer.upper, "{answer:?}");
         manifold(&body, &pose, &HalfSpace { normal, offset }, f64::INFINITY, true);
+    }
+}
+
+/// Of magnitudes anywhere among the doubles, subnormal ones included, for one component.
+fn any_size(random: &mut Random) -> f64 {
+    let size = random.power(-1021, 1000);
+    match random.below(4) {
+        0 => 5e-324 * (random.below(9) as f64),
+        1 => f64::MIN_POSITIVE * random.uniform(0.0, 4.0),
+        _ => size * random.uniform(1.0, 2.0),
+    }
+    .copysign(random.signed())
+}
+
+/// Normals and offsets of any size, bodies of any size, poses that stretch. Heights were in units of a normal whose length had lost
+/// its digits where it is subnormal, from 2⁻¹⁰²³ on: gaps were off by up to 13 %. A distance below the least double was put into an
+/// interval that ended below its begin: an offset of −2⁻¹⁰⁷⁴ over a normal of 2 does it.
+#[test]
+fn no_size_of_a_half_space_hides_a_height() {
+    let mut random = Random::new(0xa16);
+    let (mut seen, mut points_seen) = ([0; 2], 0);
+    for round in 0..400 {
+        let size = [random.power(-1000, 950), random.power(-40, 40)][round % 2];
+        let cloud: Vec<Vector> = (0..[1, 2, 4, 8][round % 4]).map(|_| random.vector() * size).collect();
+        let radius = if round % 3 == 0 { random.uniform(0.0, 1.0) * size } else { 0.0 };
+        let body = swept(&cloud, radius);
+        let stretch = Matrix::identity() + Matrix::from_fn(|_, _| 2e-3 * random.signed());
+        let pose = Pose::new(&(random.rotation() * stretch), &(random.vector() * size * random.power(-3, 10)));
+        // Of one size, or of three; a plane near the body, or anywhere.
+        let normal = match round % 5 {
+            0 => [any_size(&mut random), any_size(&mut random), any_size(&mut random)],
+            1 => [0.0, 0.0, any_size(&mut random)],
+            _ => (random.vector() * random.power(-1072, 1020)).into(),
+        };
+        if normal == [0.0; 3] {
+            continue;
+        }
+        let through = pose.transform(&(cloud[0] + random.vector() * size));
+        let near: f64 = normal.iter().zip(&through).map(|(n, x)| n * x).sum();
+        let offset = if near.is_finite() && round % 4 != 1 { near } else { any_size(&mut random) };
+        let half_space = HalfSpace { normal, offset };
+        let heights: Vec<Length> = cloud.iter().map(|v| Length::above(&half_space, &pose, v, radius)).collect();
+        let answer = half_space_distance(body.at(&pose), &half_space).unwrap();
+        let told = || format!("{round} {cloud:?} {radius:e} {pose:?} {half_space:?} {answer:?}");
+        assert!(answer.lower <= answer.distance && answer.distance <= answer.upper, "{}", told());
+        assert!(answer.distance.is_finite(), "{}", told());
+        assert!(heights.iter().all(|height| height.compared_with(answer.lower).is_ge()), "{}", told());
+        assert!(heights.iter().any(|height| height.compared_with(answer.upper).is_le()), "{}", told());
+        let is_apart = heights.iter().all(|height| height.compared_with(0.0).is_gt());
+        assert_eq!(answer.outcome, if is_apart { Outcome::Separated } else { Outcome::Intersecting }, "{}", told());
+        let is_least = || heights.iter().any(|height| height.compared_with(5e-324).is_lt());
+        assert!(!is_apart || answer.lower > 0.0 || is_least(), "{}", told());
+        // Neighbouring doubles, but for the radius.
+        let width = answer.upper - answer.lower;
+        let largest = answer.upper.abs().max(answer.lower.abs()).max(radius);
+        assert!(width <= 4.0 * f64::EPSILON * largest + 5e-324 || largest == f64::INFINITY, "{}", told());
+        seen[usize::from(is_apart)] += 1;
+        let (_, points) = manifold(&body, &pose, &half_space, f64::INFINITY, false);
+        assert!(!points.is_empty(), "{}", told());
+        let reach = size + pose.translation().amax() + radius;
+        for point in &points {
+            let height = &heights[point.feature1.ids[0] as usize];
+            assert!(height.lies_between(point.gap_lower, point.gap_upper), "{point:?} {}", told());
+            let width = point.gap_upper - point.gap_lower;
+            let largest = point.gap_lower.abs().max(point.gap_upper.abs()).max(reach);
+            assert!(
+                width <= 64.0 * f64::EPSILON * largest + 5e-324 || largest == f64::INFINITY,
+                "{point:?} {}",
+                told()
+            );
+        }
+        points_seen += points.len();
+        // The same in a scene, which looks at boxes first.
+        let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+        let options = ObjectOptions { pose, ..ObjectOptions::default() };
+        scene.add_object(vec![Arc::new(body.clone())], &options).unwrap();
+        scene.prepare().unwrap();
+        let (config, mut scratch) = (ManifoldConfig::default(), SetScratch::default());
+        let filter = GroupFilter::default();
+        let found = scene.half_space_contacts(None, &half_space, &config, filter, &mut scratch).unwrap();
+        assert_eq!(found.contacts.len(), usize::from(!is_apart), "{}", told());
+    }
+    assert!(seen.iter().all(|&count| count > 80) && points_seen > 400, "{seen:?} {points_seen}");
+}
+
+/// The plane x + y + z = 4 in any unit that its numbers are exact in is one plane.
+#[test]
+fn the_length_of_a_normal_says_nothing() {
+    let cube = swept(&testkit::models::cuboid([1.0; 3]).unwrap().vertices, 0.0);
+    let of = |exponent: i32| {
+        // 2⁻¹⁰⁷⁴ is no product of powers that are doubles.
+        let unit = if exponent < -1022 { 5e-324 * 2f64.powi(exponent + 1074) } else { 2f64.powi(exponent) };
+        let half_space = HalfSpace { normal: [unit; 3], offset: 4.0 * unit };
+        let (_, points) = manifold(&cube, &Pose::IDENTITY, &half_space, f64::INFINITY, false);
+        points.iter().map(|point| (point.id, point.gap_lower, point.gap_upper, point.world2)).collect::<Vec<_>>()
+    };
+    for exponent in (-1074..=1021).step_by(15).chain(-1074..-1000) {
+        assert_eq!(of(exponent), of(0), "{exponent}");
+    }
+    let point = swept(&[Vector::zeros()], 0.0);
+    let half_space = HalfSpace { normal: [0.0, 0.0, -2.0], offset: -5e-324 };
+    let answer = half_space_distance(point.at(&Pose::IDENTITY), &half_space).unwrap();
+    assert_eq!((answer.outcome, answer.lower, answer.upper), (Outcome::Separated, 0.0, 5e-324));
+}
+
+/// By how much a distance exceeds the radii where both are as small: their squares are no doubles.
+#[test]
+fn what_is_left_of_a_distance_has_its_digits() {
+    for scale in [1.0, 1e-160, 1e-200, 1e-300] {
+        let ball = sphere(0.5 * scale);
+        for step in 1..20 {
+            let height = (0..step).fold(0.5 * scale, |height, _| height.next_up());
+            let answer = half_space_distance(ball.at(&at(0.0, 0.0, height)), &GROUND).unwrap();
+            let truth = height - 0.5 * scale;
+            assert_eq!((answer.lower, answer.upper), (truth, truth), "{scale:e} {step}");
+        }
     }
 }

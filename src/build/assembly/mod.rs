@@ -62,7 +62,8 @@ pub fn build_in_steps(
     let mut polyhedron = surface.lay_out(about, &mut progress.part(0.1, 0.88))?;
     match polygons {
         Some(mesh) if polyhedron.dimension >= 2 && mesh.face_count() > 0 => {
-            label_by_polygons(&mut polyhedron, &scaled, mesh, numbers, &mut progress.part(0.88, 0.97))?;
+            let near = numbers.map_or(f64::INFINITY, |numbers| numbers.near) * factor;
+            label_by_polygons(&mut polyhedron, &scaled, mesh, numbers, near, &mut progress.part(0.88, 0.97))?;
         }
         _ => label_by_index(&mut polyhedron)?,
     }

@@ -7,7 +7,7 @@ use super::edges::{Matching, match_edges};
 use super::violation::{FLAT_HINT, HULL_HINT, violation};
 use crate::base::error::{Error, Result};
 use crate::base::math::{UNIT_ROUNDOFF, Vector};
-use crate::base::memory::{collected, copied, filled, lacking};
+use crate::base::memory::{collected, copied, filled, lacking, listed};
 use crate::base::normal::{area_vector, normal_of, unit};
 use crate::base::predicates::ExactPoints;
 use crate::base::progress::Progress;
@@ -423,7 +423,7 @@ impl<'a> Boundary<'a> {
     /// `start`.
     fn around(&self, start: usize) -> Result<Vec<usize>> {
         let across = self.across()?;
-        let mut found = vec![start];
+        let mut found = listed([start]);
         let mut done = 0;
         while done < found.len() && found.len() < MOST_PLANES && !across.is_empty() {
             for next in &across[3 * found[done]..3 * found[done] + 3] {

@@ -8,7 +8,7 @@ mod convexity;
 mod proof;
 
 use crate::base::error::Result;
-use crate::base::memory::{collected, filled, push, with_capacity};
+use crate::base::memory::{collected, filled, listed, push, with_capacity};
 use crate::base::progress::Progress;
 use crate::build::hull::convex_hull_in_steps;
 use crate::mesh::{PolygonMesh, check_vertex};
@@ -241,7 +241,7 @@ impl Corners {
     fn check_connected(&self, twins: &[u32], progress: &mut Progress) -> Result<()> {
         let mut reached = filled(false, self.starts.len() - 1)?;
         reached[0] = true;
-        let mut stack = vec![0_u32];
+        let mut stack = listed([0_u32]);
         let mut done = 0;
         while let Some(f) = stack.pop() {
             for corner in self.starts[f as usize]..self.starts[f as usize + 1] {

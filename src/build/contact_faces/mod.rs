@@ -15,7 +15,7 @@ mod outline;
 use crate::base::double_double::narrow;
 use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF, Vector};
-use crate::base::memory::{collected, copied, filled, push, with_capacity};
+use crate::base::memory::{collected, copied, filled, listed, push, with_capacity};
 use crate::base::normal::{area_vector, normal_of};
 use crate::base::progress::Progress;
 use crate::base::sorting::sort_in_steps;
@@ -288,7 +288,7 @@ impl<'a> Groups<'a> {
         let mut reference = self.hull.reference(seed);
         let mut sum = normals[seed as usize] * sizes[seed as usize];
         self.region_of[seed as usize] = seed;
-        let mut region = vec![seed];
+        let mut region = listed([seed]);
         let mut done = 0;
         while done < region.len() {
             let t = region[done];
@@ -322,7 +322,7 @@ impl<'a> Groups<'a> {
         let bottom = normal.dot(&positions[top as usize]) - SLAB * noise;
         self.round += 1;
         self.seen_in[top as usize] = self.round;
-        let mut vertices = vec![top];
+        let mut vertices = listed([top]);
         let mut done = 0;
         while done < vertices.len() {
             let around = surface.around(vertices[done]);

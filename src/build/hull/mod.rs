@@ -8,7 +8,7 @@ use quickhull::Quickhull;
 use crate::base::error::{Error, Result};
 use crate::base::locality::{along_curve, in_order, is_identity, sort_triangles};
 use crate::base::math::Vector;
-use crate::base::memory::{collected, push, with_capacity};
+use crate::base::memory::{collected, listed, push, with_capacity};
 use crate::base::predicates::ExactPoints;
 use crate::base::progress::Progress;
 use crate::base::sorting::sort_in_steps;
@@ -94,7 +94,7 @@ pub fn check_points(points: &[Vector]) -> Result<()> {
 fn hull_in_order(points: &[Vector], progress: &mut Progress) -> Result<Hull> {
     let exact = ExactPoints::new_in_steps(points, &mut progress.part(0.0, 0.05))?;
     match AffineBasis::find(points, &exact, &mut progress.part(0.05, 0.1))? {
-        AffineBasis::Point(a) => Ok(Hull { dimension: 0, vertices: vec![a], triangles: Vec::new() }),
+        AffineBasis::Point(a) => Ok(Hull { dimension: 0, vertices: listed([a]), triangles: Vec::new() }),
         AffineBasis::Line => Ok(segment(points)),
         AffineBasis::Plane(corners) => polygon(points, &exact, corners, &mut progress.part(0.1, 1.0)),
         AffineBasis::Space(corners) => {
@@ -207,7 +207,7 @@ fn lexicographic_extreme(points: &[Vector], before: impl Fn([f64; 3], [f64; 3]) 
 /// line.
 fn segment(points: &[Vector]) -> Hull {
     let mut vertices =
-        vec![lexicographic_extreme(points, |p, best| p < best), lexicographic_extreme(points, |p, best| p > best)];
+        listed([lexicographic_extreme(points, |p, best| p < best), lexicographic_extreme(points, |p, best| p > best)]);
     vertices.sort_unstable();
     Hull { dimension: 1, vertices, triangles: Vec::new() }
 }

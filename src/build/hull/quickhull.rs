@@ -29,7 +29,7 @@
 //! more from the vertices without them.
 
 use crate::base::error::Result;
-use crate::base::memory::{collected, extend, filled, push, reserve, with_capacity};
+use crate::base::memory::{collected, extend, filled, listed, push, reserve, with_capacity};
 use crate::base::predicates::{ExactPoints, FilteredPlane};
 use crate::base::progress::Progress;
 use crate::polyhedron::NONE;
@@ -142,7 +142,7 @@ impl<'a> Quickhull<'a> {
         hull.add_facet([a, b, d], [3, 0, 1]);
         hull.add_facet([a, c, b], [1, 0, 2]);
         let mut outside: Vec<u32> = collected(0..points.len() as u32)?;
-        let mut new = vec![0, 1, 2, 3];
+        let mut new = listed([0, 1, 2, 3]);
         hull.distribute(&outside, &new, progress)?;
         let work_of_farthest = WORK_OF_FARTHEST * points.len() * points.len().ilog2() as usize;
         let mut cap = Cap { visible: Vec::new(), horizon: Vec::new() };

@@ -3,7 +3,7 @@
 use super::faces::MergedFaces;
 use crate::base::error::Result;
 use crate::base::math::Vector;
-use crate::base::memory::{collected, copied, filled, push, with_capacity};
+use crate::base::memory::{collected, copied, filled, listed, push, with_capacity};
 use crate::base::progress::Progress;
 use crate::polyhedron::triangulation::Triangulation;
 
@@ -30,7 +30,7 @@ pub fn straighten_edges(
     let mut corners: Vec<bool> = collected(degrees.iter().map(|d| *d > 2))?;
     let mut on_chain = filled(false, positions.len())?;
     let chain_from = |first: u32, corners: &[bool]| -> Result<Vec<u32>> {
-        let mut chain = vec![surface.tail(first), surface.head(first)];
+        let mut chain = listed([surface.tail(first), surface.head(first)]);
         let mut h = first;
         while !corners[surface.head(h) as usize] && surface.head(h) != chain[0] {
             h = faces.next_on_boundary(surface, h);
@@ -91,7 +91,7 @@ fn keep_bends(
     corners: &mut [bool],
     progress: &mut Progress,
 ) -> Result<()> {
-    let mut parts = vec![(0, chain.len() - 1)];
+    let mut parts = listed([(0, chain.len() - 1)]);
     while let Some((first, last)) = parts.pop() {
         progress.steps(last - first, 1, 1)?;
         let a = &positions[chain[first] as usize];

@@ -3,7 +3,7 @@
 use super::faces::Triangles;
 use crate::base::error::Result;
 use crate::base::math::Vector;
-use crate::base::memory::{filled, push, with_capacity};
+use crate::base::memory::{filled, listed, push, with_capacity};
 use crate::base::normal::{area_vector, normal_of};
 use crate::base::progress::Progress;
 use crate::base::sorting::sort_in_steps;
@@ -117,7 +117,7 @@ impl Regions<'_> {
         let mut normal = self.triangle_normals[seed as usize];
         let mut size = 0.0; // computed when there is a neighbour to compare with
         self.region_of[seed as usize] = region;
-        let mut triangles = vec![seed];
+        let mut triangles = listed([seed]);
         let mut done = 0;
         while done < triangles.len() {
             let t = triangles[done];

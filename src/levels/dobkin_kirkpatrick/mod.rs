@@ -20,7 +20,7 @@ mod relaxation;
 
 use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF, Vector};
-use crate::base::memory::{collected, copied, extend, filled, push, with_capacity};
+use crate::base::memory::{collected, copied, extend, filled, listed, push, with_capacity};
 use crate::base::progress::Progress;
 use crate::polyhedron::NONE;
 use relaxation::Cone;
@@ -153,7 +153,7 @@ impl DobkinKirkpatrick<'_> {
         self.star(v, &mut star)?;
         let mut ring = with_capacity(star.len())?;
         let mut outer = with_capacity(star.len())?;
-        let mut region = vec![v];
+        let mut region = listed([v]);
         for &t in &star {
             let triangle = &mut self.triangles[t as usize];
             let next = (place_of(triangle, v) + 1) % 3;
@@ -214,7 +214,7 @@ impl DobkinKirkpatrick<'_> {
         // Parts of the ring, and the triangle and its side beyond the chord; beyond the first chord, an edge of the ring, it is
         // outer.
         let last = ring.len() - 1;
-        let mut parts = vec![(0, last, outer[last], NONE)];
+        let mut parts = listed([(0, last, outer[last], NONE)]);
         while let Some((i, j, beyond, side)) = parts.pop() {
             let (tail, head) = (ring[i], ring[j]);
             if i + 1 == j {

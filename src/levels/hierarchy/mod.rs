@@ -13,7 +13,7 @@ use std::borrow::Cow;
 use crate::base::enumerator::enumerator;
 use crate::base::error::{Error, Result};
 use crate::base::math::Vector;
-use crate::base::memory::{collected, extend, push, with_capacity};
+use crate::base::memory::{collected, extend, in_integers, push, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
 use crate::build::assembly::build;
@@ -142,7 +142,7 @@ impl Hierarchy {
     /// # Errors
     /// [`Error::Argument`] for options out of range, [`Error::Cancelled`], [`Error::Memory`].
     pub fn build(base: &Polyhedron, options: &HierarchyOptions, progress: &mut Progress) -> Result<Hierarchy> {
-        with_default(|| Hierarchy::built(base, options, progress))
+        in_integers(|| with_default(|| Hierarchy::built(base, options, progress)))?
     }
 
     fn built(base: &Polyhedron, options: &HierarchyOptions, progress: &mut Progress) -> Result<Hierarchy> {
@@ -171,7 +171,7 @@ impl Hierarchy {
     /// [`Error::Mesh`] for a coordinate that is not finite and a level without interior or so thin that no rounding makes it
     /// contain P₀, [`Error::Argument`] for a body too small or too large (2^±200), [`Error::Cancelled`], [`Error::Memory`].
     pub fn from_levels(base: &Polyhedron, levels: &[Vec<Vector>], progress: &mut Progress) -> Result<Hierarchy> {
-        with_default(|| Hierarchy::of_given(base, levels, progress))
+        in_integers(|| with_default(|| Hierarchy::of_given(base, levels, progress)))?
     }
 
     fn of_given(base: &Polyhedron, levels: &[Vec<Vector>], progress: &mut Progress) -> Result<Hierarchy> {

@@ -9,7 +9,7 @@ use super::isotropy::spread_of;
 use crate::base::double_double::narrow;
 use crate::base::error::Result;
 use crate::base::math::{Matrix, UNIT_ROUNDOFF, Vector};
-use crate::base::memory::{collected, push, push_to_heap};
+use crate::base::memory::{collected, listed, push, push_to_heap};
 use crate::base::normal::area_vector;
 use crate::base::progress::Progress;
 use crate::build::assembly::build;
@@ -220,7 +220,7 @@ impl<'a> Cuts<'a> {
 
     /// Replaces the corners that a plane cuts off, `first` being one, by those where it crosses the edges to the others.
     fn insert(&mut self, plane: u32, first: u32, hint: u32) -> Result<()> {
-        let mut cut_off = vec![first];
+        let mut cut_off = listed([first]);
         let mut crossed = Vec::new();
         self.corners[first as usize].removed = true;
         let mut done = 0;

@@ -1,43 +1,60 @@
 //! Answers from what a search found, and where that leaves the verdict open from integers.
 
 use super::answer::{DepthAnswer, DepthEnding, DepthStatistics};
-use super::search::{FoundPolytope, Search};
-use crate::base::math::{Pose, Vector, clamp};
+use super::search::{FoundPolytope, Search, WIDEST};
+use crate::base::error::Result;
+use crate::base::math::{Matrix, Pose, Vector, clamp};
+use crate::base::memory::in_integers;
 use crate::pair::answer::Outcome;
 use crate::pair::contact;
 use crate::polyhedron::Polyhedron;
 use crate::solve::decide::combinations;
-use crate::solve::exact::{self, ExactAnswer, Position, Supports, VertexPair};
+use crate::solve::exact::{self, ExactAnswer, Position, Supports, VertexPair, WayOut};
 use crate::solve::facets::Overlap;
 use crate::solve::polytope::{Ending, Expansion};
 use crate::solve::state::FeatureId;
 
 /// Answers by what the search found, `overlap` where all facets did, and where that leaves the verdict open by integers.
+///
+/// # Errors
+/// [`Error::Memory`](crate::base::error::Error::Memory) where integers get none: the answer is as it was.
 pub fn fill(
     answer: &mut DepthAnswer,
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],
     found: Option<&Search>,
     overlap: &Overlap,
-) {
-    if !matches!(found, Some(Search::Answered)) {
-        answer.statistics = DepthStatistics::default();
-    }
-    let found = match found {
+) -> Result<()> {
+    match found {
         None => return decide(answer, polyhedra, poses, None),
-        Some(Search::Apart(direction)) => return fill_separated(answer, DepthEnding::Separated, &-direction),
-        Some(Search::Facets) => return fill_facet(answer, polyhedra, poses, overlap),
-        Some(Search::Polytope(found)) => found,
-        Some(Search::Answered) => return,
-    };
-    let FoundPolytope { expansion: Expansion { ending, lower, direction, steps, supports, .. }, triangles, .. } =
-        *found;
-    answer.statistics = DepthStatistics { steps, supports, triangles, exact_iterations: 0 };
-    if ending == Ending::Separated {
-        return fill_separated(answer, DepthEnding::Separated, &-direction);
+        Some(Search::Apart(direction)) => {
+            answer.statistics = DepthStatistics::default();
+            fill_separated(answer, DepthEnding::Separated, &-direction);
+        }
+        Some(Search::Facets) => {
+            answer.statistics = DepthStatistics::default();
+            fill_facet(answer, polyhedra, poses, overlap);
+        }
+        Some(Search::Polytope(found)) => return fill_by_polytope(answer, polyhedra, poses, found),
+        Some(Search::Answered) => {}
     }
-    if !(lower > 0.0) {
+    Ok(())
+}
+
+fn fill_by_polytope(
+    answer: &mut DepthAnswer,
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    found: &FoundPolytope,
+) -> Result<()> {
+    let Expansion { ending, lower, direction, .. } = found.expansion;
+    if ending != Ending::Separated && (!(lower > 0.0) || is_lost_in_needle(polyhedra, &found.expansion)) {
         return decide(answer, polyhedra, poses, Some(found));
+    }
+    answer.statistics = statistics_of(Some(found), 0);
+    if ending == Ending::Separated {
+        fill_separated(answer, DepthEnding::Separated, &-direction);
+        return Ok(());
     }
     answer.ending = match ending {
         Ending::Spent => DepthEnding::Budget,
@@ -45,6 +62,16 @@ pub fn fill(
         Ending::Narrow | Ending::Separated => DepthEnding::Narrow,
     };
     fill_overlapping(answer, polyhedra, poses, found);
+    Ok(())
+}
+
+/// What a search did, and integers after it.
+fn statistics_of(found: Option<&FoundPolytope>, exact_iterations: u32) -> DepthStatistics {
+    let done = |found: &FoundPolytope| {
+        let FoundPolytope { expansion: Expansion { steps, supports, .. }, triangles, .. } = *found;
+        DepthStatistics { steps, supports, triangles, exact_iterations }
+    };
+    found.map_or(DepthStatistics { exact_iterations, ..DepthStatistics::default() }, done)
 }
 
 fn fill_facet(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], found: &Overlap) {
@@ -67,10 +94,23 @@ fn fill_overlapping(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses
 /// Decides in integers, with what the search has found.
 #[cold]
 #[inline(never)]
-fn decide(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], found: Option<&FoundPolytope>) {
+fn decide(
+    answer: &mut DepthAnswer,
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    found: Option<&FoundPolytope>,
+) -> Result<()> {
     let hint = found.map_or(&[][..], |found| &found.witness.pairs[..found.witness.count]);
-    let position = exact::locate(polyhedra, poses, hint, Supports::Climbed);
+    let known = found.filter(|found| found.expansion.upper < f64::INFINITY);
+    let (position, way_out, along_axes) = in_integers(|| {
+        let position = exact::locate(polyhedra, poses, hint, Supports::Climbed);
+        let overlaps = matches!(position, Position::Overlapping(_));
+        let way_out = if overlaps { way_out(polyhedra, poses) } else { None };
+        let is_unknown = overlaps && way_out.is_none() && known.is_none();
+        (position, way_out, is_unknown.then(|| exact::overlap_along_axes(polyhedra, poses)))
+    })?;
     answer.ending = DepthEnding::Integers;
+    answer.statistics = statistics_of(found, 0);
     match position {
         Position::Separated(apart) => {
             answer.statistics.exact_iterations = apart.iterations;
@@ -82,19 +122,20 @@ fn decide(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 
             fill_common(answer, polyhedra, poses, &common, &normal);
         }
         Position::Overlapping(common) => {
-            let known = found.filter(|found| found.expansion.upper < f64::INFINITY);
+            answer.statistics.exact_iterations = common.iterations;
+            if let Some(way_out) = way_out {
+                fill_way_out(answer, polyhedra, poses, &way_out);
+                return Ok(());
+            }
             match known {
                 // The bounds have met, next to 0.
                 Some(found) if found.expansion.ending == Ending::Narrow && has_witness(found, polyhedra, poses) => {
                     fill_overlapping(answer, polyhedra, poses, found);
-                    answer.statistics.exact_iterations = common.iterations;
                 }
                 _ => {
                     // The polytope need not surround the origin, and says no point.
-                    let (upper, normal) = match known {
-                        Some(found) => (found.expansion.upper, -found.expansion.direction),
-                        None => exact::overlap_along_axes(polyhedra, poses),
-                    };
+                    let of_polytope = known.map(|found| (found.expansion.upper, -found.expansion.direction));
+                    let (upper, normal) = of_polytope.or(along_axes).unwrap_or((f64::INFINITY, Vector::x()));
                     answer.outcome = Outcome::Intersecting;
                     (answer.lower, answer.depth, answer.upper) = (0.0, 0.0, upper);
                     fill_common(answer, polyhedra, poses, &common, &normal);
@@ -102,6 +143,49 @@ fn decide(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 
             }
         }
     }
+    Ok(())
+}
+
+/// Which of two bodies is a point and which one has an interior, if they are so.
+fn point_and_body(polyhedra: [&Polyhedron; 2]) -> Option<[usize; 2]> {
+    match polyhedra.map(|polyhedron| polyhedron.dimension) {
+        [0, 3] => Some([0, 1]),
+        [3, 0] => Some([1, 0]),
+        _ => None,
+    }
+}
+
+/// The shortest way out for a point inside a body: `None` of other pairs.
+fn way_out(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Option<WayOut> {
+    let [point, body] = point_and_body(polyhedra)?;
+    exact::way_out(polyhedra[body], poses[body], polyhedra[point], poses[point])
+}
+
+/// Whether all that a search found of a point in a body is an interval that is wider than answers are: in a needle, which is thinner
+/// than what vertices at its ends tell apart.
+fn is_lost_in_needle(polyhedra: [&Polyhedron; 2], expansion: &Expansion) -> bool {
+    let size = polyhedra[0].radius.max(polyhedra[1].radius);
+    point_and_body(polyhedra).is_some() && expansion.upper - expansion.lower > WIDEST * size
+}
+
+/// A point inside a body, and the place of the surface that is nearest.
+fn fill_way_out(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], way_out: &WayOut) {
+    let WayOut { face, depth: [lower, upper], normal } = *way_out;
+    let Some([point, body]) = point_and_body(polyhedra) else { return };
+    let middle = 0.5 * lower + 0.5 * upper;
+    // No 0, which is on the surface.
+    let depth = clamp(if middle > 0.0 { middle } else { upper }, lower, upper).min(f64::MAX);
+    (answer.outcome, answer.lower, answer.depth, answer.upper) = (Outcome::Intersecting, lower, depth, upper);
+    let (mut points, mut features) = ([polyhedra[point].vertices[0].position; 2], [FeatureId::Vertex(0); 2]);
+    // Translations first, so that bodies far out lose no digits. R has an inverse: det R > 0.
+    let between = (poses[point].translation() - poses[body].translation())
+        + poses[point].rotate(&polyhedra[point].local_position(0));
+    let back = poses[body].rotation().try_inverse().unwrap_or_else(Matrix::identity);
+    points[body] = back * (between + normal * depth) - polyhedra[body].centre;
+    features[body] = FeatureId::Face(face);
+    // The normal is from body 2 to body 1: the point goes along the face's.
+    let out = if point == 0 { normal } else { -normal };
+    fill_places(answer, polyhedra, poses, &points, features, &out);
 }
 
 /// Whether the polytope's points are as far apart as they should be, up to what the depth may be: the weights of a triangle that is

@@ -1,7 +1,7 @@
 //! How deep two objects are in each other: an interval that holds the least translation that parts them, and where.
 //!
 //! Floating point searches and proves: of pairs at rest by the pyramid of before, else of small bodies by all facets,
-//! `solve/facets/`, else by `solve/polytope/`. Integers decide what rounding hides at the ends: objects that touch, flat ones,
+//! `solve/facets/`, else by `solve/polytope/`. Integers decide what rounding hides at the ends: objects that touch, flat ones in one plane,
 //! objects that hardly overlap.
 
 mod answer;
@@ -61,17 +61,19 @@ fn answer_query(
         poses.iter().try_for_each(|pose| pose.check(config.rotation_limit))?;
         found = search_rescaled(polyhedra, poses, config, cache);
     }
-    fill(answer, polyhedra, poses, found.as_ref(), &overlap);
-    Ok(())
+    fill(answer, polyhedra, poses, found.as_ref(), &overlap)
 }
 
 /// Along which direction two bodies that intersect overlap least, for poses that are accepted: a depth from nothing. And the
 /// pyramid that proves it with the triangle that holds its points, if one is to be raised and there is one.
+///
+/// # Errors
+/// [`Error::Memory`](crate::base::error::Error::Memory) where integers get none.
 pub(super) fn deepest(
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],
     pyramids: Pyramids,
-) -> (DepthAnswer, Option<(Pyramid, u8)>) {
+) -> Result<(DepthAnswer, Option<(Pyramid, u8)>)> {
     let (mut cache, config, mut answer) = (DepthCache::default(), DepthConfig::default(), DepthAnswer::default());
     let mut overlap = Overlap::NONE;
     let mut found = simd::dispatch_to_avx2(&mut DepthQuery {
@@ -89,8 +91,8 @@ pub(super) fn deepest(
         raised = resting::triangle_of(polyhedra, poses, pyramid).map(|triangle| (*pyramid, triangle));
     }
     found = found.or_else(|| search_rescaled(polyhedra, poses, &config, &mut cache));
-    fill(&mut answer, polyhedra, poses, found.as_ref(), &overlap);
-    (answer, raised)
+    fill(&mut answer, polyhedra, poses, found.as_ref(), &overlap)?;
+    Ok((answer, raised))
 }
 
 /// The search among copies of the bodies in another unit of length, for poses that are accepted. `None` of a pair that floating

@@ -3,6 +3,7 @@
 use super::cache::DepthCache;
 use super::scaling::Rescaled;
 use crate::base::math::{Pose, ROTATION_LIMIT};
+use crate::base::memory::listed;
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::polyhedron::Polyhedron;
 use crate::solve::exact::VertexPair;
@@ -21,6 +22,9 @@ pub enum ProofFrom<'a> {
 }
 
 /// The triangles of a polytope in the pair's poses; none where there is no polytope.
+///
+/// # Panics
+/// Where there is no memory for them, as of [`in_integers`](crate::base::memory::in_integers).
 pub fn proof(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: ProofFrom) -> Vec<[VertexPair; 3]> {
     let found = simd::dispatch_to_avx2(&mut Proof { polyhedra, poses, from });
     let rescaled = || {
@@ -62,6 +66,6 @@ impl Kernel for Proof<'_> {
                 polytope::expand(&frame, &mut polytope, &start, &wanted);
             }
         }
-        Some((0..polytope.triangle_count).map(|triangle| polytope.pairs_of(triangle)).collect())
+        Some(listed((0..polytope.triangle_count).map(|triangle| polytope.pairs_of(triangle))))
     }
 }

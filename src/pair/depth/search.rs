@@ -45,7 +45,7 @@ const COHERENT: f64 = 0.9975;
 
 /// How wide an interval may be, over the pair's size or distance, a little less than is promised. By all facets it is wider where
 /// faces were merged of triangles that lean out of them by rounding, or edges are nearly parallel. A polytope does better then …
-const WIDEST: f64 = 176.0 * UNIT_ROUNDOFF;
+pub const WIDEST: f64 = 176.0 * UNIT_ROUNDOFF;
 
 /// … unless it comes to no end.
 const WIDEST_OF_ALL: f64 = 1e-9;

@@ -2,7 +2,9 @@
 
 use super::acceptance::{Acceptance, Closely};
 use super::query::{Attempt, PairQuery};
+use crate::base::error::Result;
 use crate::base::math::ROTATION_LIMIT;
+use crate::base::memory::in_integers;
 use crate::base::simd::{self, Kernel, Lanes, Portable};
 use crate::pair::answer::{DecidedBy, Outcome, Statistics};
 use crate::pair::config::Query;
@@ -78,26 +80,35 @@ impl PairQuery<'_> {
     }
 
     /// Whether the tetrahedron of the last query, or what else the hint holds, encloses the origin: that is a proof.
-    pub(super) fn is_enclosed(&mut self, frame: &Frame<Portable>, hint: &Hint) -> bool {
-        let Some(weights) = encloses_origin(frame, hint.pairs.as_slice()) else { return false };
-        self.fill_enclosed(frame, hint, weights);
-        true
+    ///
+    /// # Errors
+    /// As of [`PairQuery::decide`].
+    pub(super) fn is_enclosed(&mut self, frame: &Frame<Portable>, hint: &Hint) -> Result<bool> {
+        let Some(weights) = encloses_origin(frame, hint.pairs.as_slice()) else { return Ok(false) };
+        self.fill_enclosed(frame, hint, weights)?;
+        Ok(true)
     }
 
     /// The same of the last enclosure alone, for bodies and poses of any kind.
-    pub(super) fn is_still_enclosed(&mut self) -> bool {
-        let Some(pairs) = self.cache.enclosure(self.polyhedra()) else { return false };
+    ///
+    /// # Errors
+    /// As of [`PairQuery::decide`].
+    pub(super) fn is_still_enclosed(&mut self) -> Result<bool> {
+        let Some(pairs) = self.cache.enclosure(self.polyhedra()) else { return Ok(false) };
         let frame = self.frame::<Portable>();
-        frame.in_range && self.is_enclosed(&frame, &Hint { pairs, steps: 0 })
+        if !frame.in_range {
+            return Ok(false);
+        }
+        self.is_enclosed(&frame, &Hint { pairs, steps: 0 })
     }
 
     /// Answer and cache from a hint that holds the origin.
     #[inline(always)]
-    fn fill_enclosed<L: Lanes>(&mut self, frame: &Frame<L>, hint: &Hint, weights: [f64; 4]) {
-        self.answer.statistics = Statistics { marching_steps: hint.steps, ..Statistics::default() };
-        self.answer.decided_by = DecidedBy::Coherence;
-        self.fill(&Decision::Intersecting { pairs: hint.pairs, weights });
+    fn fill_enclosed<L: Lanes>(&mut self, frame: &Frame<L>, hint: &Hint, weights: [f64; 4]) -> Result<()> {
+        let statistics = Statistics { marching_steps: hint.steps, ..Statistics::default() };
+        self.fill(&Decision::Intersecting { pairs: hint.pairs, weights }, statistics, DecidedBy::Coherence)?;
         frame.mark(&mut self.cache.marker);
+        Ok(())
     }
 
     /// Whether the bodies intersected the last time and have jumped so that they are for marching.
@@ -113,19 +124,24 @@ impl PairQuery<'_> {
     }
 
     /// The last rungs: the fallback, where there is a frame in range, and integers.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory) where integers get none: answer and cache are as they were.
     #[inline(never)]
-    pub(super) fn decide(&mut self, frame: Option<&Frame<Portable>>, hint: &Hint) {
+    pub(super) fn decide(&mut self, frame: Option<&Frame<Portable>>, hint: &Hint) -> Result<()> {
         let (polyhedra, poses) = (self.polyhedra(), self.poses());
+        let wanted = self.wanted();
         let (decision, effort) =
-            decide::decide(polyhedra, poses, frame.is_some(), hint.pairs.as_slice(), self.wanted());
+            in_integers(|| decide::decide(polyhedra, poses, frame.is_some(), hint.pairs.as_slice(), wanted))?;
         let decide::Effort { fallback_iterations, exact_iterations } = effort;
-        self.answer.statistics =
+        let statistics =
             Statistics { marching_steps: hint.steps, fallback_iterations, exact_iterations, ..Statistics::default() };
-        self.answer.decided_by = if exact_iterations > 0 { DecidedBy::Integers } else { DecidedBy::Fallback };
-        self.fill(&decision);
+        let decided_by = if exact_iterations > 0 { DecidedBy::Integers } else { DecidedBy::Fallback };
+        self.fill(&decision, statistics, decided_by)?;
         if let Some(frame) = frame {
             frame.mark(&mut self.cache.marker);
         }
+        Ok(())
     }
 
     pub(super) fn remember_marker(&mut self) {
@@ -134,13 +150,16 @@ impl PairQuery<'_> {
     }
 
     /// Answer and cache from a decision.
-    fn fill(&mut self, decision: &Decision) {
+    fn fill(&mut self, decision: &Decision, statistics: Statistics, decided_by: DecidedBy) -> Result<()> {
         let (polyhedra, poses) = (self.polyhedra(), self.poses());
+        // A pair that intersected the last time may rest. All that may fail comes first.
+        let pyramids = if self.is_simple() && self.holds_enclosure() { Pyramids::Always } else { Pyramids::Unused };
+        let is_contact = self.query == Query::Contact && matches!(decision, Decision::Intersecting { .. });
+        let depth = if is_contact { Some(deepest(polyhedra, poses, pyramids)?) } else { None };
+        (self.answer.statistics, self.answer.decided_by) = (statistics, decided_by);
         if let Decision::Separated { interval, .. } = decision {
             self.set_interval(interval, 0.5 * interval.lower + 0.5 * interval.upper);
         }
-        // A pair that intersected the last time may rest.
-        let pyramids = if self.is_simple() && self.holds_enclosure() { Pyramids::Always } else { Pyramids::Unused };
         let &mut PairQuery { query, ref mut cache, ref mut answer, .. } = self;
         match decision {
             Decision::Separated { points, direction, pairs, .. } => {
@@ -155,7 +174,7 @@ impl PairQuery<'_> {
                     if answer.outcome == Outcome::Separated {
                         contact::fill_placed(answer, polyhedra, poses, points, features);
                         answer.normal = contact::normalised(direction);
-                        return;
+                        return Ok(());
                     }
                 }
                 contact::fill_nothing(answer);
@@ -168,10 +187,9 @@ impl PairQuery<'_> {
                 answer.lower = 0.0;
                 answer.upper = 0.0;
                 contact::fill_proof(answer, polyhedra, pairs.as_slice());
-                if query == Query::Contact {
+                if let Some((least, raised)) = depth {
                     let weights = contact::refined_weights(polyhedra, poses, pairs.as_slice(), *weights);
                     let points = decide::combinations(polyhedra, pairs.as_slice(), &weights);
-                    let (least, raised) = deepest(polyhedra, poses, pyramids);
                     if let Some((pyramid, triangle)) = raised {
                         cache.remember_pyramid(&pyramid, triangle);
                     }
@@ -186,6 +204,7 @@ impl PairQuery<'_> {
                 }
             }
         }
+        Ok(())
     }
 }
 
@@ -206,7 +225,10 @@ impl Kernel for LastEnclosure<'_, '_> {
             return Attempt::Untried;
         }
         let Some(weights) = encloses_origin(&frame, pairs.as_slice()) else { return Attempt::NotEnclosed };
-        self.pair.fill_enclosed(&frame, &Hint { pairs, steps: 0 }, weights);
+        // Where memory is lacking for integers the rungs to come say so.
+        if self.pair.fill_enclosed(&frame, &Hint { pairs, steps: 0 }, weights).is_err() {
+            return Attempt::Untried;
+        }
         Attempt::Answered
     }
 }

@@ -49,7 +49,7 @@ impl<'a> PairQuery<'a> {
             return Ok(Searched::Bodies);
         }
         self.forget()?;
-        if self.is_still_enclosed() {
+        if self.is_still_enclosed()? {
             return Ok(Searched::Answered);
         }
         let search = LevelSearch { bodies: Leveled::new(*self.bodies), has_levels, before: self.cache.spent_before() };

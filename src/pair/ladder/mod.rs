@@ -148,10 +148,9 @@ fn answer_on(pair: &mut PairQuery, mut attempt: Attempt) -> Result<()> {
     let frame = pair.frame::<Portable>();
     if !frame.in_range {
         pair.check_poses()?;
-        pair.decide(None, &hint);
-        return Ok(());
+        return pair.decide(None, &hint);
     }
-    if !is_known_open && pair.is_enclosed(&frame, &hint) {
+    if !is_known_open && pair.is_enclosed(&frame, &hint)? {
         return Ok(());
     }
     if pair.may_have_come_apart(&frame) {
@@ -167,6 +166,5 @@ fn answer_on(pair: &mut PairQuery, mut attempt: Attempt) -> Result<()> {
             }
         }
     }
-    pair.decide(Some(&frame), &hint);
-    Ok(())
+    pair.decide(Some(&frame), &hint)
 }

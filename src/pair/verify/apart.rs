@@ -5,6 +5,7 @@ use super::checks::{allowed, between_origins, check_normal, check_unit, too_larg
 use super::witness::{Witness, distance_between};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, Vector};
+use crate::base::memory::listed;
 use crate::pair::answer::{Outcome, PairAnswer};
 use crate::pair::contact::PlacedPoints;
 use crate::pair::radii::{Radii, moved, sum_above, sum_below};
@@ -50,8 +51,7 @@ fn prove_interval(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii,
     let gap = bounds.gap(&normal);
     let witnesses = witnesses(polyhedra, poses, radii, answer);
     let points = [0, 1].map(|i| witnesses[i].point_inside().unwrap_or(PointInside::vertex(gap.vertices[i])));
-    let mut near: Vec<VertexPair> =
-        points[0].vertices.iter().flat_map(|&v| points[1].vertices.map(|w| [v, w])).collect();
+    let mut near: Vec<VertexPair> = listed(points[0].vertices.iter().flat_map(|&v| points[1].vertices.map(|w| [v, w])));
     near.sort_unstable();
     near.dedup();
     Proof {

@@ -2,6 +2,8 @@
 
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
+use crate::base::memory::in_integers;
+use crate::base::simd::environment::with_default;
 use crate::polyhedron::Polyhedron;
 
 /// From the centred origin of object 2 to that of object 1. Translations first, so that bodies far out lose no digits.
@@ -59,4 +61,9 @@ pub(super) fn too_large() -> Error {
 
 pub(super) fn unverified(what: String) -> Error {
     Error::Unverified(format!("the answer does not hold: {what}"))
+}
+
+/// A check in the default environment of floating point: it only reads, so what memory integers lack is its error.
+pub(super) fn in_default(check: impl FnOnce() -> Result<()>) -> Result<()> {
+    in_integers(|| with_default(check))?
 }

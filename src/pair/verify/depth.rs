@@ -7,15 +7,15 @@
 
 use super::apart::{check_points, verify_disjoint};
 use super::bounds::Bounds;
-use super::checks::{allowed, between_origins, check_normal, check_unit, length, too_large, unverified};
+use super::checks::{allowed, between_origins, check_normal, check_unit, in_default, length, too_large, unverified};
 use super::facets;
 use super::numbers::{are_points_said, check_numbers};
 use super::witness::{Witness, difference_of};
 use crate::base::double_double::{narrow, wide_cross, wide_dot, widen};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector, clamp};
+use crate::base::memory::listed;
 use crate::base::scalar::determinant;
-use crate::base::simd::environment::with_default;
 use crate::pair::answer::{Outcome, PairAnswer};
 use crate::pair::contact::PlacedPoints;
 use crate::pair::depth::{DepthAnswer, DepthCache, PYRAMIDS, ProofFrom, proof};
@@ -48,7 +48,7 @@ use std::cmp::Ordering;
 pub fn verify_depth(bodies: [Placed; 2], cache: &DepthCache, answer: &DepthAnswer) -> Result<()> {
     let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
     let radii = Radii::of(&bodies);
-    with_default(|| {
+    in_default(|| {
         poses.iter().try_for_each(|pose| pose.check(ROTATION_LIMIT))?;
         if answer.outcome != Outcome::None {
             check_numbers(&answer.into())?;
@@ -306,17 +306,16 @@ fn encloses_ball(facts: &Facts, polytope: &[Triangle], radius: f64) -> std::resu
 
 /// Every edge is walked as often one way as the other.
 fn is_closed(polytope: &[Triangle]) -> bool {
-    let mut edges = Vec::with_capacity(3 * polytope.len());
-    for triangle in polytope {
-        for k in 0..3 {
+    let mut edges = listed(polytope.iter().flat_map(|triangle| {
+        [0, 1, 2].map(|k| {
             let (tail, head) = (triangle[k], triangle[(k + 1) % 3]);
             match tail.cmp(&head) {
-                Ordering::Less => edges.push((tail, head, 1)),
-                Ordering::Greater => edges.push((head, tail, -1)),
-                Ordering::Equal => {}
+                Ordering::Less => (tail, head, 1),
+                Ordering::Greater => (head, tail, -1),
+                Ordering::Equal => (tail, head, 0),
             }
-        }
-    }
+        })
+    }));
     edges.sort_unstable();
     edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).all(|same| same.iter().map(|edge| edge.2).sum::<i32>() == 0)
 }

@@ -11,6 +11,7 @@
 use super::bounds::Bounds;
 use crate::base::double_double::{DoubleDouble, WideVector, narrow, wide_cross, wide_dot};
 use crate::base::math::UNIT_ROUNDOFF as U;
+use crate::base::memory::listed;
 use crate::polyhedron::Polyhedron;
 use crate::solve::exact::{Differences, Normal, PairEdge};
 use std::cell::OnceCell;
@@ -66,9 +67,9 @@ struct Direction {
 impl<'a> Proof<'a> {
     fn new(polyhedra: [&'a Polyhedron; 2], bounds: &Bounds, exact: &'a Differences<'a>, lower: f64) -> Proof<'a> {
         let first = bounds.difference([0, 0]);
-        let of_first = (0..polyhedra[0].vertices.len() as u32).map(|v| bounds.difference([v, 0])).collect::<Vec<_>>();
+        let of_first = (0..polyhedra[0].vertices.len() as u32).map(|v| bounds.difference([v, 0]));
         let of_second = (0..polyhedra[1].vertices.len() as u32).map(|w| difference(&first, &bounds.difference([0, w])));
-        let points = [of_first, of_second.collect()];
+        let points = [listed(of_first), listed(of_second)];
         let reach = |points: &[WideVector]| points.iter().map(|p| narrow(p).norm()).fold(0.0, f64::max);
         let longest = (reach(&points[0]) + reach(&points[1])) * (1.0 + 8.0 * U);
         let (needed, error) = (bounds.in_units(lower), 4.0 * bounds.error());
@@ -113,23 +114,29 @@ impl<'a> Proof<'a> {
     /// The edges of a body whose arcs no single vertex of the other proves, as their ends; `None` if the normal of a triangle has
     /// none that proves it.
     fn open_edges(&self, body: usize) -> Option<Vec<[u32; 2]>> {
-        let masks: Option<Vec<Vec<u64>>> =
-            self.polyhedra[body].triangles.iter().map(|triangle| self.mask(body, *triangle)).collect();
-        let masks = masks?;
-        let mut sides = Vec::with_capacity(3 * masks.len());
-        for (index, triangle) in self.polyhedra[body].triangles.iter().enumerate() {
-            for k in 0..3 {
-                let (tail, head) = (triangle[k], triangle[(k + 1) % 3]);
-                sides.push(([tail.min(head), tail.max(head)], index));
-            }
+        let mut is_proved = true;
+        let masks = self.polyhedra[body].triangles.iter().map_while(|triangle| {
+            let mask = self.mask(body, *triangle);
+            is_proved &= mask.is_some();
+            mask
+        });
+        let masks: Vec<Vec<u64>> = listed(masks);
+        if !is_proved {
+            return None;
         }
+        let mut sides = listed(self.polyhedra[body].triangles.iter().enumerate().flat_map(|(index, triangle)| {
+            [0, 1, 2].map(|k| {
+                let (tail, head) = (triangle[k], triangle[(k + 1) % 3]);
+                ([tail.min(head), tail.max(head)], index)
+            })
+        }));
         sides.sort_unstable();
         let is_closed = sides.chunk_by(|a, b| a.0 == b.0).all(|both| both.len() == 2);
         let is_open = |both: &&[([u32; 2], usize)]| {
             let [(_, left), (_, right)] = both else { return true };
             masks[*left].iter().zip(&masks[*right]).all(|(a, b)| a & b == 0)
         };
-        let open = sides.chunk_by(|a, b| a.0 == b.0).filter(is_open).map(|both| both[0].0).collect();
+        let open = listed(sides.chunk_by(|a, b| a.0 == b.0).filter(is_open).map(|both| both[0].0));
         is_closed.then_some(open)
     }
 
@@ -138,7 +145,7 @@ impl<'a> Proof<'a> {
         let outward = self.across([(body, [a, b]), (body, [a, c])]);
         let corner = &self.points[body][a as usize];
         let others = &self.points[1 - body];
-        let mut mask = vec![0; others.len().div_ceil(64)];
+        let mut mask = listed((0..others.len().div_ceil(64)).map(|_| 0));
         for (index, point) in others.iter().enumerate() {
             let product = wide_dot(&outward.unit, &difference(corner, point));
             let is_enough = self.is_enough(product, &outward).unwrap_or_else(|| {

@@ -2,13 +2,12 @@
 //! both surfaces, on the sides that face each other, and its gap is that of its two places.
 
 use super::apart::{verify_disjoint, witnesses};
-use super::checks::{between_origins, length, too_large, unverified};
+use super::checks::{between_origins, in_default, length, too_large, unverified};
 use super::depth::prove_depth;
 use super::numbers::{Numbers, check_numbers};
 use super::witness::{Witness, difference_of};
 use crate::base::error::{Error, Result};
 use crate::base::math::{ROTATION_LIMIT, Vector};
-use crate::base::simd::environment::with_default;
 use crate::pair::answer::{FeatureKind, Outcome, PairAnswer};
 use crate::pair::manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, id_of};
 use crate::pair::placed::Placed;
@@ -52,7 +51,7 @@ pub fn verify_manifold(
     manifold: &Manifold,
     points: &[ManifoldPoint],
 ) -> Result<()> {
-    with_default(|| {
+    in_default(|| {
         config.check()?;
         bodies.iter().try_for_each(|body| body.pose.check(ROTATION_LIMIT))?;
         let Some(points) = points.get(..manifold.point_count as usize) else {

@@ -5,6 +5,7 @@ mod checks;
 mod numbers;
 mod bounds;
 mod facets;
+mod polygon;
 mod witness;
 mod apart;
 mod depth;
@@ -12,7 +13,6 @@ mod manifold;
 
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, ROTATION_LIMIT, Vector};
-use crate::base::simd::environment::with_default;
 use crate::pair::answer::{DecidedBy, Outcome, PairAnswer};
 use crate::pair::placed::Placed;
 use crate::pair::radii::Radii;
@@ -20,7 +20,7 @@ use crate::polyhedron::Polyhedron;
 use crate::solve::exact;
 use apart::{check_points, not_in_interval, verify_disjoint, witnesses};
 pub(crate) use bounds::Bounds;
-use checks::{allowed, between_origins, check_unit, too_large, unverified};
+use checks::{allowed, between_origins, check_unit, in_default, too_large, unverified};
 #[doc(hidden)]
 pub use depth::CLEAR;
 pub use depth::verify_depth;
@@ -56,6 +56,7 @@ use witness::distance_between;
 /// | `world1`, `world2` | R·local + T up to 64u·(ρ + \|c\| + \|T\|) |
 /// | both points | `lower` − a ≤ their distance ≤ `upper` + a; of a contact their distance is at most a |
 /// | `feature1`, `feature2` | the object has it; of a separated answer the point is on it up to a + 64uρ + `upper` − `lower` |
+/// | a polygon that shares a face | none of the others that do is nearer to the point by more than that |
 ///
 /// Points and features are said together, or not at all. Outcomes that say no points, no normal or no proof may not have them.
 /// `decided_by` and the statistics tell of the search, and are not checked. Of a contact's normal only its length is checked.
@@ -69,7 +70,7 @@ use witness::distance_between;
 /// answer that holds no outcome or vertex indices that the shapes do not have, and for a normal or points of objects so large or
 /// far apart that doubles cannot tell.
 pub fn verify(bodies: [Placed; 2], answer: &PairAnswer) -> Result<()> {
-    with_default(|| check_answer(bodies, answer))
+    in_default(|| check_answer(bodies, answer))
 }
 
 fn check_answer(bodies: [Placed; 2], answer: &PairAnswer) -> Result<()> {

@@ -2,8 +2,10 @@
 
 use super::bounds::PointInside;
 use super::checks::{between_origins, length, unverified};
+use super::polygon::{beyond_nearest, distance_from_segment};
 use crate::base::error::Result;
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector, clamp};
+use crate::base::memory::listed;
 use crate::build::assembly::build;
 use crate::pair::answer::{Feature, FeatureKind};
 use crate::pair::contact::PlacedPoints;
@@ -111,7 +113,7 @@ impl<'a> Witness<'a> {
         }
         let at_point = Pose::new(&Matrix::identity(), local);
         let probe = build(&[Vector::zeros()], None)?;
-        let near: Vec<_> = around.iter().map(|&vertex| [vertex, 0]).collect();
+        let near = listed(around.iter().map(|&vertex| [vertex, 0]));
         let outside = exact::distance(polyhedron, &Pose::IDENTITY, &probe, &at_point, &near);
         if outside.compare(allowed).is_le() {
             return Ok(());
@@ -157,7 +159,10 @@ impl<'a> Witness<'a> {
                 Some(distance_from_segment(&[vertex(first)?, vertex(second)?], point))
             }
             FeatureKind::Face => {
-                let distance = |face: u32| distance_from_face(polyhedron, &polyhedron.faces[face as usize], point);
+                let distance = |face: u32| {
+                    let of_face = distance_from_face(polyhedron, &polyhedron.faces[face as usize], point);
+                    of_face.max(beyond_nearest(polyhedron, face, first, point))
+                };
                 let distances = self.faces(first).map(distance);
                 distances.reduce(f64::min)
             }
@@ -169,17 +174,6 @@ impl<'a> Witness<'a> {
 fn triangles_of_face(polyhedron: &Polyhedron, face: u32) -> impl Iterator<Item = [u32; 3]> {
     let corner = move |side: u32| polyhedron.corner(face, side);
     (2..polyhedron.faces[face as usize].side_count).map(move |side| [corner(0), corner(side - 1), corner(side)])
-}
-
-fn distance_from_segment(ends: &[Vector; 2], point: &Vector) -> f64 {
-    let along = ends[1] - ends[0];
-    let whole = length(&along);
-    if whole == 0.0 {
-        return length(&(point - ends[0]));
-    }
-    let direction = along / whole;
-    let t = clamp((point - ends[0]).dot(&direction) / whole, 0.0, 1.0);
-    length(&(point - ends[0] - along * t))
 }
 
 /// The distance from the plane, less what that misses the face by, over the polygon, else from the nearest side.

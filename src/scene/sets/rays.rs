@@ -102,7 +102,7 @@ pub(crate) fn cast(question: Question, room: &mut Room) -> Result<()> {
             RayHits::All => {}
         }
     }
-    put_in_order(&others, ray, hits);
+    put_in_order(&others, ray, hits)?;
     if wanted == RayHits::First {
         hits.truncate(1);
         // Where it leaves that was not looked at.
@@ -116,7 +116,7 @@ pub(crate) fn cast(question: Question, room: &mut Room) -> Result<()> {
 
 /// Puts hits in order of their entries, and those of one entry in order of creation. Entries that overlap are found in integers, as
 /// neighbouring doubles.
-fn put_in_order(others: &Others, ray: &Ray, hits: &mut [SceneRayHit]) {
+fn put_in_order(others: &Others, ray: &Ray, hits: &mut [SceneRayHit]) -> Result<()> {
     let order = |a: &SceneRayHit, b: &SceneRayHit| {
         let [entry1, entry2] = [a.answer.entry, b.answer.entry];
         entry1[0].total_cmp(&entry2[0]).then(entry1[1].total_cmp(&entry2[1])).then(a.row.cmp(&b.row))
@@ -134,13 +134,14 @@ fn put_in_order(others: &Others, ray: &Ray, hits: &mut [SceneRayHit]) {
             for hit in &mut hits[first..last] {
                 if hit.answer.exact == 0 {
                     let exit = hit.answer.exit;
-                    hit.answer = RayAnswer { exit, ..cast_ray_in_integers(others.placed(hit.row as usize), ray) };
+                    hit.answer = RayAnswer { exit, ..cast_ray_in_integers(others.placed(hit.row as usize), ray)? };
                 }
             }
             hits[first..last].sort_unstable_by(order);
         }
         first = last;
     }
+    Ok(())
 }
 
 /// Covers quotients that underflow.

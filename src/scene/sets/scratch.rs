@@ -9,8 +9,12 @@ use crate::scene::sets::members::Member;
 use crate::scene::sets::nearest::Candidates;
 use crate::scene::sets::rays::{Nearing, SceneRayHit};
 
-/// Room to work in for questions about sets of objects, of any scene, for one thread at a time. It keeps what pairs remember, which
-/// changes how fast an answer comes and which of several nearest points it gives, never a verdict.
+/// Room to work in for questions that threads ask a scene at once: about sets of objects, and of rays, grounds and half-spaces. One
+/// thread at a time uses it, for any scenes.
+///
+/// Of sets it keeps what pairs of objects remember, which changes how fast an answer comes and which of several nearest points it
+/// gives, never a verdict. Of rays, grounds and half-spaces it keeps nothing but the room and the last answer: whatever it has
+/// seen, they are answered bit for bit as with a new one.
 #[derive(Debug, Default)]
 pub struct SetScratch {
     pub(crate) members: Vec<Member>,

@@ -1,10 +1,15 @@
 //! What integers found, in doubles where they do.
 
-use super::dyadic::{bounds_of_quotient_by_root, decode, dot, fraction_to_double, leading_bits};
+use super::dyadic::{bounds_of_quotient_by_root, decode, dot, fraction_to_double, leading_bits, magnitude};
 use super::simplex::{Simplex, VertexPair};
 use crate::base::math::Vector;
+use crate::base::memory::listed;
 use dashu_int::IBig;
+use dashu_int::ops::{BitTest, SquareRootRem};
 use std::cmp::Ordering;
+
+/// Bits to which a difference of roots is computed before it is rounded to the 53 of a double, and a few for its estimate.
+const DIFFERENCE_BITS: usize = 72;
 
 /// What integer arithmetic found, for the objects R·v + T exactly as the doubles give them.
 #[derive(Debug, Clone, PartialEq)]
@@ -44,8 +49,8 @@ impl ExactAnswer {
             intersecting,
             lower,
             upper,
-            pairs: simplex.corners.iter().map(|c| c.pair).collect(),
-            weights: simplex.weights.iter().map(|w| fraction_to_double(w, &total)).collect(),
+            pairs: listed(simplex.corners.iter().map(|c| c.pair)),
+            weights: listed(simplex.weights.iter().map(|w| fraction_to_double(w, &total))),
             direction,
             iterations,
         }
@@ -94,24 +99,40 @@ impl ExactDistance {
         own.cmp(&others)
     }
 
-    /// By how much the distance exceeds a sum of doubles that are not negative: doubles below and above, both at least 0. `None`
+    /// By how much the distance exceeds a sum of doubles that are not negative: the doubles next to it, below and above. `None`
     /// where it does not.
     pub fn excess(&self, parts: &[f64]) -> Option<(f64, f64)> {
+        debug_assert!(parts.iter().all(|part| *part >= 0.0), "{parts:?}");
         let (sum, exponent) = exact_sum(parts);
         if self.is_zero() {
             return None;
         }
-        let ([own, others], exponent) = self.squares(&sum, exponent);
+        let ([own, others], _) = self.squares(&sum, exponent);
         if own <= others {
             return None;
         }
-        // d − s = (d² − s²)/(d + s), where nothing cancels any more: both parts of the sum are rounded, and the sum, and the
-        // quotient.
-        let (lower, upper) = bounds_of_quotient_by_root(&(own - others), &(&self.square * &self.square), exponent);
-        let (nearest, farthest) = self.bounds();
-        let least = parts.iter().fold(nearest, |sum, part| (sum + part).next_down());
-        let most = parts.iter().fold(farthest, |sum, part| (sum + part).next_up());
-        Some(((lower / most).next_down().max(0.0), (upper / least).next_up()))
+        // With h and s over one power of two and q the square, it is (√(q·h²) − q·s)/q, and √(q·h²) − q·s is at least
+        // √q·(h² − q·s²)/2h. So many further bits of the root leave more of the difference than a double has, whatever cancels.
+        let common = self.exponent.min(exponent);
+        let height = &self.height << (self.exponent - common) as usize;
+        let sum = sum << (exponent - common) as usize;
+        let bits = |x: &IBig| x.bit_len();
+        let shift = (DIFFERENCE_BITS + bits(&height)).saturating_sub(bits(&(own - others)) + bits(&self.square) / 2);
+        let (root, rest) = magnitude(&((&self.square * &height * &height) << (2 * shift))).sqrt_rem();
+        let least = IBig::from(root) - ((&self.square * sum) << shift);
+        let most = if rest.is_zero() { least.clone() } else { &least + IBig::ONE };
+        let divisor = &self.square << shift;
+        let quotient = |numerator: &IBig| bounds_of_quotient_by_root(numerator, &(&divisor * &divisor), common);
+        Some((quotient(&least).0, quotient(&most).1))
+    }
+
+    /// Whether it is less than another one.
+    pub(super) fn is_less_than(&self, other: &ExactDistance) -> bool {
+        let square = |of: &ExactDistance, beside: &ExactDistance| {
+            let shift = 2 * (of.exponent - of.exponent.min(beside.exponent)) as usize;
+            (&of.height * &of.height * &beside.square) << shift
+        };
+        square(self, other) < square(other, self)
     }
 
     /// The squares of the distance and of sum·2^exponent, both times the square of the direction, over one power of two.

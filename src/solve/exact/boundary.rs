@@ -11,6 +11,7 @@ use super::dyadic::{IntVector, bounds_of_quotient_by_root, cross, dot, leading_b
 use super::minkowski::MinkowskiDifference;
 use super::simplex::{DifferenceVertex, Simplex, VertexPair};
 use crate::base::math::{Pose, Vector};
+use crate::base::memory::listed;
 use crate::polyhedron::Polyhedron;
 use dashu_int::IBig;
 
@@ -106,18 +107,18 @@ fn supporting_normal(
     let mut from = carrier.corners[0].pair;
     // All but one of a carrier's corners are linearly independent, and span the last.
     let spanning = |simplex: &Simplex| -> Vec<IntVector> {
-        simplex.corners[1..].iter().map(|corner| corner.position.components.clone()).collect()
+        listed(simplex.corners[1..].iter().map(|corner| corner.position.components.clone()))
     };
     let mut space = spanning(carrier);
     loop {
         // Directions to begin with, perpendicular to the space.
         let candidates: Vec<IntVector> = match &space[..] {
-            [] => vec![[IBig::ONE, IBig::ZERO, IBig::ZERO]],
-            [along] => vec![across(along)],
+            [] => listed([[IBig::ONE, IBig::ZERO, IBig::ZERO]]),
+            [along] => listed([across(along)]),
             [first, second] => {
                 let normal = cross(first, second);
                 let opposite = [0, 1, 2].map(|k| -&normal[k]);
-                vec![normal, opposite]
+                listed([normal, opposite])
             }
             _ => return None,
         };
@@ -145,6 +146,7 @@ fn supporting_normal(
             // It is on the origin's side of the plane through P: |P| falls.
             simplex.improve(&projected(farthest, &space));
         }
+        // There is room for three.
         space.extend(spanning(&simplex));
     }
 }

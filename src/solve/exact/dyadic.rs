@@ -134,7 +134,7 @@ fn quotient_by_root(format: Format, numerator: &IBig, square: &IBig, exponent: i
     (round(format, root, exponent, Rounding::Down), round(format, above, exponent, Rounding::Up))
 }
 
-fn magnitude(x: &IBig) -> UBig {
+pub(super) fn magnitude(x: &IBig) -> UBig {
     x.clone().into_parts().1
 }
 

@@ -3,6 +3,7 @@
 use super::body::Body;
 use super::simplex::{DifferenceVertex, Simplex, VertexPair, nearest_of_hull};
 use crate::base::math::Pose;
+use crate::base::memory::listed;
 use crate::polyhedron::Polyhedron;
 
 /// The Minkowski difference: all differences (point of A) − (point of B). It holds the origin exactly when A and B have a common
@@ -27,7 +28,7 @@ impl<'a> MinkowskiDifference<'a> {
     pub(super) fn corners(&self, pairs: &[VertexPair]) -> Vec<DifferenceVertex> {
         let in_range =
             |p: &&VertexPair| (p[0] as usize) < self.a.vertex_count() && (p[1] as usize) < self.b.vertex_count();
-        pairs.iter().filter(in_range).map(|&p| self.corner(p)).collect()
+        listed(pairs.iter().filter(in_range).map(|&p| self.corner(p)))
     }
 
     /// From the hinted pairs to the nearest point, and the iterations made.

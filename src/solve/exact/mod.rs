@@ -18,6 +18,7 @@ mod boundary;
 mod differences;
 mod half_space;
 mod beside_line;
+mod point_depth;
 
 use crate::base::math::Pose;
 use crate::polyhedron::Polyhedron;
@@ -25,8 +26,9 @@ pub use answer::{ExactAnswer, ExactDistance};
 pub(crate) use beside_line::{BesideLine, Place};
 pub use boundary::{Position, Supports, locate, overlap_along_axes};
 pub use differences::{Differences, Normal, PairEdge};
-pub use half_space::{Lowest, lowest};
+pub use half_space::OverPlane;
 use minkowski::MinkowskiDifference;
+pub use point_depth::{WayOut, way_out};
 pub use simplex::VertexPair;
 use simplex::nearest_of_hull;
 

@@ -3,6 +3,7 @@
 use dashu_int::IBig;
 
 use super::dyadic::{DyadicVector, IntVector, cross, dot};
+use crate::base::memory::listed;
 
 /// A pair of vertices, one of each polyhedron (indices into `vertices`): a vertex of the Minkowski difference A − B.
 pub type VertexPair = [u32; 2];
@@ -16,7 +17,7 @@ pub(crate) struct DifferenceVertex {
 
 /// One to four affinely independent corners with P, the point of their hull nearest to the origin, strictly inside: all
 /// weights are positive. (Corners that do not carry P are dropped as soon as that is known.)
-#[derive(Debug, Clone)]
+#[derive(Debug)]
 pub(crate) struct Simplex {
     /// All over the same power of two, the latest first.
     pub corners: Vec<DifferenceVertex>,
@@ -34,7 +35,7 @@ impl Simplex {
     pub fn new(corner: DifferenceVertex) -> Simplex {
         let direction = corner.position.components.clone();
         let height = dot(&direction, &direction);
-        Simplex { corners: vec![corner], weights: vec![IBig::ONE], direction, height }
+        Simplex { corners: listed([corner]), weights: listed([IBig::ONE]), direction, height }
     }
 
     /// Whether P is the origin.
@@ -60,7 +61,7 @@ impl Simplex {
             return false;
         }
         // The other corners all lie in the plane that the new one lies in front of: affine independence is kept. There are never
-        // five: four that all carry P enclose the origin.
+        // five: four that all carry P enclose the origin. There is room for them.
         self.corners.push(corner);
         self.reduce();
         true
@@ -98,7 +99,7 @@ impl Simplex {
         });
         // Some subset is optimal; if none of those with up to three corners, then all four.
         let face = found.unwrap_or_else(|| self.whole());
-        let kept = face.members.iter().map(|&i| self.corners[i].clone()).collect();
+        let kept = listed(face.members.iter().map(|&i| self.corners[i].clone()));
         self.corners = kept;
         self.weights = face.weights;
         self.direction = face.direction;
@@ -118,8 +119,8 @@ impl Simplex {
     fn supporting_vertex(&self, n: usize) -> Option<Face> {
         let direction = self.position(n).clone();
         self.supporting(Face {
-            members: vec![n],
-            weights: vec![IBig::ONE],
+            members: listed([n]),
+            weights: listed([IBig::ONE]),
             height: dot(&direction, &direction),
             direction,
         })
@@ -134,20 +135,20 @@ impl Simplex {
         }
         let direction = [0, 1, 2].map(|k| &weight_n * &pn[k] + &weight_a * &pa[k]);
         let height = dot(&direction, pn);
-        self.supporting(Face { members: vec![n, a], weights: vec![weight_n, weight_a], direction, height })
+        self.supporting(Face { members: listed([n, a]), weights: listed([weight_n, weight_a]), direction, height })
     }
 
     fn supporting_triangle(&self, n: usize, a: usize, b: usize) -> Option<Face> {
         let (pn, pa, pb) = (self.position(n), self.position(a), self.position(b));
         let sides = [cross(pa, pb), cross(pb, pn), cross(pn, pa)];
         let normal = [0, 1, 2].map(|k| &sides[0][k] + &sides[1][k] + &sides[2][k]);
-        let weights = sides.iter().map(|side| dot(&normal, side)).collect::<Vec<_>>();
+        let weights = listed(sides.iter().map(|side| dot(&normal, side)));
         if weights.iter().any(|w| *w <= IBig::ZERO) {
             return None;
         }
         let height = dot(&normal, pn);
         let (direction, height) = if height < IBig::ZERO { (normal.map(|c| -c), -height) } else { (normal, height) };
-        self.supporting(Face { members: vec![n, a, b], weights, direction, height })
+        self.supporting(Face { members: listed([n, a, b]), weights, direction, height })
     }
 
     /// `face` if no corner lies below it. With P_S = 0 (height 0) there is no below.
@@ -163,8 +164,8 @@ impl Simplex {
             let v = dot(self.position(i), &cross(self.position(j), self.position(k)));
             if v < IBig::ZERO { -v } else { v }
         };
-        let weights = vec![volume(1, 2, 3), volume(0, 2, 3), volume(0, 1, 3), volume(0, 1, 2)];
-        Face { members: vec![0, 1, 2, 3], weights, direction: [IBig::ZERO; 3], height: IBig::ZERO }
+        let weights = listed([volume(1, 2, 3), volume(0, 2, 3), volume(0, 1, 3), volume(0, 1, 2)]);
+        Face { members: listed([0, 1, 2, 3]), weights, direction: [IBig::ZERO; 3], height: IBig::ZERO }
     }
 }
 

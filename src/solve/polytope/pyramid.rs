@@ -22,6 +22,7 @@
 use super::support::reach;
 use super::{Rounding, is_in_scale};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
+use crate::base::memory::listed;
 use crate::base::simd::Lanes;
 use crate::polyhedron::Vertex;
 use crate::solve::exact::VertexPair;
@@ -281,13 +282,16 @@ impl Pyramid {
     }
 
     /// The vertex pairs of its triangles, if it is one of these bodies.
+    ///
+    /// # Panics
+    /// Where there is no memory for them, as of [`in_integers`](crate::base::memory::in_integers).
     pub fn triangles<L: Lanes>(&self, frame: &Frame<L>) -> Vec<[VertexPair; 3]> {
         if !self.is_of(frame) {
             return Vec::new();
         }
         let surface = self.surface();
         let pairs = |[a, b, c, _]: &Corners| [a, b, c].map(|corner| self.pairs[usize::from(*corner)]);
-        surface.triangles[..surface.count].iter().map(pairs).collect()
+        listed(surface.triangles[..surface.count].iter().map(pairs))
     }
 
     /// The first pair of its base.
