@@ -9,12 +9,16 @@ use swiftprox::pair::{
     Placed, depth, manifold,
 };
 use swiftprox::verify::{verify_depth, verify_manifold};
+use testkit::manifolds::Gaps;
 use testkit::random::Random;
 
 use crate::geometry::inside;
 
 /// A manifold of bodies of a few thousand vertices may have more; then the first are looked at.
 const MOST_POINTS: usize = 256;
+
+/// Of larger bodies the truth takes too long.
+const MOST_VERTICES: usize = 16;
 
 /// What two bodies remember of their contact.
 #[derive(Default)]
@@ -147,26 +151,40 @@ fn ids(points: &[ManifoldPoint]) -> Vec<u64> {
     ids
 }
 
-/// Gaps are those between the points, along the normal, as far as rounding and the intervals go.
+/// Gaps are those between the points, along the normal, as far as rounding and the intervals go, and of points of the bodies exactly;
+/// points are in line and on their bodies.
 fn measure(bodies: [Placed; 2], found: &Manifold, points: &[ManifoldPoint]) {
     let normal = Vector::from(found.normal);
     assert!((normal.norm() - 1.0).abs() < 1e-14, "{found:?}");
-    let size: f64 = bodies.iter().map(|body| body.shape.polyhedron().radius + body.shape.swept_radius()).sum();
+    let radii: f64 = bodies.iter().map(|body| body.shape.polyhedron().radius + body.shape.swept_radius()).sum();
     let world = bodies.iter().map(|body| {
         let polyhedron = body.shape.polyhedron();
         polyhedron.centre.norm() + body.pose.translation().norm()
     });
-    let rounding = 1e-13 * (size + world.sum::<f64>());
+    let size = radii + world.sum::<f64>();
+    let rounding = 1e-13 * size;
+    let slacks = bodies.map(|body| {
+        let slabs = &body.shape.polyhedron().contact_faces.faces;
+        slabs.iter().map(|face| face.slack).fold(0.0, f64::max)
+    });
+    let is_small = bodies.iter().all(|body| body.shape.polyhedron().vertices.len() <= MOST_VERTICES);
+    let truth = is_small.then(|| Gaps::new(bodies, &found.normal));
     for point in points {
         let apart = Vector::from(point.world1) - Vector::from(point.world2);
         let gap = normal.dot(&apart);
         let holds = point.gap_lower - rounding <= gap && gap <= point.gap_upper + rounding;
         assert!(holds, "{gap:e} {rounding:e} {point:?} {found:?}");
         let off = (apart - normal * gap).norm();
-        assert!(
-            off <= 1e4 * rounding + (point.gap_upper - point.gap_lower),
-            "{off:e} {rounding:e} {point:?} {found:?}"
-        );
+        let in_line = 1e4 * rounding + 4.0 * (slacks[0] + slacks[1]) + (point.gap_upper - point.gap_lower);
+        assert!(off <= in_line + 2_f64.powi(-26) * size, "{off:e} {rounding:e} {point:?} {found:?}");
+        let Some(truth) = &truth else { continue };
+        match truth.check(point) {
+            Ok(outs) => {
+                let is_on = |i: usize| outs[i] <= 2_f64.powi(-38) * size + 1.02 * slacks[i];
+                assert!(is_on(0) && is_on(1), "{outs:?} out: {point:?} {found:?} {}", description(bodies));
+            }
+            Err(text) => panic!("{text}: {point:?} {found:?} {}", description(bodies)),
+        }
     }
 }
 

@@ -122,6 +122,11 @@ impl Pose {
         if entries.into_iter().sum::<f64>().is_nan() { f64::NAN } else { worst }
     }
 
+    /// R makes a vector at most so many times as long: where no entry of RᵀR − I exceeds d, |R·v|² ≤ (1 + 3d)·|v|².
+    pub fn most_stretched(&self) -> f64 {
+        1.0 + 1.5 * (self.rotation_defect() + 8.0 * UNIT_ROUNDOFF)
+    }
+
     /// Accepts a pose of finite numbers with |RᵀR − I| ≤ `limit` in every entry and det R > 0.
     pub fn check(&self, limit: f64) -> Result<()> {
         self.checked_defect(limit).map(|_| ())

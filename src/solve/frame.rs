@@ -355,13 +355,25 @@ struct Centred {
     translations: [[f64; 4]; 2],
 }
 
-/// The offset is summed in double-double arithmetic and rounded once: the two sums may agree in nearly all digits. Each of the
-/// six sums errs by at most 3u² of a partial sum, all by 18u²·M, which M's weight in `separation` covers: 2u·16u·M.
+/// M's weight in `separation` covers what the offset is off by: 2u·16u·M.
 #[cold]
 fn centred(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Centred {
-    let mut offset = [0.0; 4];
+    let ([x, y, z], cancelled) = between_centres(polyhedra, poses);
+    let translations = [0, 1].map(|i| {
+        let world = poses[i].transform(&polyhedra[i].centre);
+        [world.x, world.y, world.z, 0.0]
+    });
+    Centred { offset: [x, y, z, 0.0], cancelled, translations }
+}
+
+/// (T₁ + R₁c₁) − (T₂ + R₂c₂), and the sum M of the magnitudes of the terms that it is the sum of.
+///
+/// Summed in double-double arithmetic and rounded once: the two sums may agree in nearly all digits. Each of the six sums errs by at
+/// most 3u² of a partial sum, all by 18u²·M.
+pub fn between_centres(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> ([f64; 3], f64) {
+    let mut offset = [0.0; 3];
     let mut cancelled = 0.0;
-    for (i, out) in offset.iter_mut().take(3).enumerate() {
+    for (i, out) in offset.iter_mut().enumerate() {
         let mut sum = two_sum(poses[0].rows[i][3], -poses[1].rows[i][3]);
         cancelled += sum.hi.abs();
         for (polyhedron, pose, sign) in [(polyhedra[0], poses[0], 1.0), (polyhedra[1], poses[1], -1.0)] {
@@ -373,9 +385,5 @@ fn centred(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Centred {
         }
         *out = sum.hi;
     }
-    let translations = [0, 1].map(|i| {
-        let world = poses[i].transform(&polyhedra[i].centre);
-        [world.x, world.y, world.z, 0.0]
-    });
-    Centred { offset, cancelled, translations }
+    (offset, cancelled)
 }

@@ -74,6 +74,14 @@ impl Reference {
 pub(super) const FOUR: usize = 4;
 
 /// One contact point: a point of each object, in line along the normal.
+///
+/// Each is on its object, up to rounding and half of what a contact face is thick. They are in line up to 2⁻²⁷ of the pair's size
+/// and twice what the contact faces of both are thick: a corner that is no farther outside the other's face has the nearest point
+/// of that.
+///
+/// The gap is certified: each object has a point, no farther from the one that is said than it may be off, and the gap of these two
+/// along the normal is in the interval. That holds in exact arithmetic, for the doubles of shapes, poses and normal. So an interval
+/// never lies below, or above, the gaps of all points of the objects.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct ManifoldPoint {

@@ -7,6 +7,7 @@
 
 use super::outline::{Chain, Outline};
 use crate::base::math::Vector;
+use std::cmp::Ordering;
 
 /// A corner of the common part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -29,10 +30,16 @@ pub enum CommonCorner {
 #[derive(Debug, Clone, Copy)]
 pub struct Spot {
     pub corner: CommonCorner,
-    /// On either outline; of a vertex its own, twice.
+    /// A point of either patch, which is a point of its body up to the patch's slack and rounding: no plane is taken beyond its sides.
     pub spots: [Vector; 2],
-    /// By how much the gap may be off, where sides cross at a small angle.
+    /// By how much the gap may be off.
     pub error: f64,
+}
+
+impl Spot {
+    fn gap(&self) -> f64 {
+        self.spots[0].z - self.spots[1].z
+    }
 }
 
 /// How exact the sweep is.
@@ -57,10 +64,13 @@ pub fn common_part(outlines: &[Outline; 2], precision: &Precision, mut visit: im
         recent.pass(chain.to.x, &mut visit);
         // Both chains meet at either end: there the lower one speaks.
         let is_end = !chain.has_begun || chain.segments == 0;
-        let other = &chains[1 - body];
-        if (side == 0 || !is_end) && is_between(other, &chain.to, precision) {
+        if (side == 0 || !is_end)
+            && let Some((point, error)) = other_point(outlines, &chains[1 - body], body, &chain.to, precision)
+        {
             let corner = CommonCorner::Vertex { body, corner: chain.corner };
-            recent.report(Spot { corner, spots: [chain.to; 2], error: 0.0 }, &mut visit);
+            let mut spots = [chain.to; 2];
+            spots[1 - body] = point;
+            recent.report(Spot { corner, spots, error }, &mut visit);
         }
         pending[body][side] = chains[body][side].advance();
         if pending[body][side] {
@@ -70,7 +80,8 @@ pub fn common_part(outlines: &[Outline; 2], precision: &Precision, mut visit: im
                 } else {
                     [&chains[0][other], &chains[1][side]]
                 };
-                if let Some(crossing) = crossing(both, precision) {
+                if let Some(mut crossing) = crossing(both, precision) {
+                    crossing.error += error_at_sides(outlines, precision);
                     recent.report(crossing, &mut visit);
                 }
             }
@@ -92,16 +103,51 @@ fn next_event(chains: &[[Chain; 2]; 2], pending: &[[bool; 2]; 2]) -> Option<[usi
     next.map(|(event, _)| event)
 }
 
-/// Whether a place lies between two chains, or at one.
+/// The other patch's point for a corner of a body's, and by how much the gap of the two may be off. `None` where the corner is
+/// neither over that patch nor at one place with a side.
+fn other_point(
+    outlines: &[Outline; 2],
+    others: &[Chain; 2],
+    body: usize,
+    place: &Vector,
+    precision: &Precision,
+) -> Option<(Vector, f64)> {
+    if is_between(others, place, precision)
+        && let Some((height, error)) = height_over(outlines, body, place, precision)
+    {
+        return Some((Vector::new(place.x, place.y, height), error));
+    }
+    // Of two sides the nearer one, or, as of a patch that stands upright, the one that is more towards the body.
+    let towards = if body == 0 { 1.0 } else { -1.0 };
+    let value = |(point, off): (Vector, f64)| (point, towards * point.z - off);
+    let near = others.iter().filter_map(|chain| chain.point_near(place, precision.coincident, towards)).map(value);
+    let (point, _) = near.reduce(|a, b| if b.1 > a.1 { b } else { a })?;
+    Some((point, error_at_sides(outlines, precision)))
+}
+
+/// How high the other outline is over a corner of a body's, and by how much the gap there may be off. `None` where that outline has
+/// no height.
+#[inline(always)]
+pub fn height_over(outlines: &[Outline; 2], body: usize, place: &Vector, precision: &Precision) -> Option<(f64, f64)> {
+    let (height, error) = outlines[1 - body].height_at(place.x, place.y, precision.rounding)?;
+    Some((height, error + outlines[body].slack + precision.rounding))
+}
+
+/// By how much the gap may be off between points of corners and sides.
+#[inline(always)]
+pub fn error_at_sides(outlines: &[Outline; 2], precision: &Precision) -> f64 {
+    outlines[0].slack + outlines[1].slack + 2.0 * precision.rounding
+}
+
+/// Whether a place lies between two chains.
 fn is_between(chains: &[Chain; 2], place: &Vector, precision: &Precision) -> bool {
     let [low, high] = [0, 1].map(|side| chains[side].at(place.x));
     let off = (low.x - place.x).abs().max((high.x - place.x).abs());
-    let is_over = off <= precision.rounding && place.y >= low.y && place.y <= high.y;
-    is_over || chains.iter().any(|chain| chain.is_near(place, precision.coincident))
+    off <= precision.rounding && place.y >= low.y && place.y <= high.y
 }
 
-/// Where the segments of two chains cross, if they do, and neither begins nor ends at the other: such an end
-/// [is between](is_between) the other's chains.
+/// Where the segments of two chains cross, if they do, and neither begins nor ends at the other: such an end has a
+/// [point there](other_point).
 fn crossing(chains: [&Chain; 2], precision: &Precision) -> Option<Spot> {
     let [first, second] = chains;
     if !(first.has_begun && second.has_begun) {
@@ -121,7 +167,8 @@ fn crossing(chains: [&Chain; 2], precision: &Precision) -> Option<Spot> {
     let (begun, other) = if first.from.x > second.from.x { (first, second) } else { (second, first) };
     let (ended, another) = if first.to.x < second.to.x { (first, second) } else { (second, first) };
     let coincident = precision.coincident;
-    if other.is_near(&begun.from, coincident) || another.is_near(&ended.to, coincident) {
+    let is_near = |chain: &Chain, end: &Vector| chain.point_near(end, coincident, 1.0).is_some();
+    if is_near(other, &begun.from) || is_near(another, &ended.to) {
         return None;
     }
     let share = before / (before - after);
@@ -165,7 +212,13 @@ impl Recent<'_> {
             })
         };
         if let Some(at) = self.spots.iter().position(is_near) {
-            if self.spots[at].is_some_and(|known| self.rank(&spot) < self.rank(&known)) {
+            // Corners of a patch that stands upright are at one place, however high.
+            let counts_more = |known: Spot| match self.rank(&spot).cmp(&self.rank(&known)) {
+                Ordering::Less => true,
+                Ordering::Equal => spot.gap() < known.gap() - reach,
+                Ordering::Greater => false,
+            };
+            if self.spots[at].is_some_and(counts_more) {
                 self.spots[at] = Some(spot);
             }
             return;

@@ -28,6 +28,7 @@ use crate::pair::placed::Placed;
 use crate::pair::queries::signed_distance;
 use crate::pair::radii::Radii;
 use crate::pair::signed_distance::SignedDistance;
+use crate::solve::frame::between_centres;
 use answer::FOUR;
 pub(crate) use answer::Reference;
 pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
@@ -306,14 +307,19 @@ fn clip(
     points: &mut Sink,
 ) -> usize {
     let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
-    let between = (poses[0].translation() - poses[1].translation())
-        + (poses[0].rotate(&polyhedra[0].centre) - poses[1].rotate(&polyhedra[1].centre));
+    // Of bodies far from their own origins sums that agree in nearly all digits.
+    let (between, cancelled) = if polyhedra.iter().any(|polyhedron| polyhedron.centre != Vector::zeros()) {
+        between_centres(polyhedra, poses)
+    } else {
+        ((poses[0].translation() - poses[1].translation()).into(), 0.0)
+    };
+    let between = Vector::from(between);
     let size = polyhedra[0].radius + polyhedra[1].radius + between.norm();
     // False for a NaN.
     if !(size < LARGEST) {
         return 0;
     }
-    let rounding = 64.0 * U * size;
+    let rounding = 64.0 * U * (size + U * cancelled);
     let patch = |i: usize| patches.facing[i].map(|facing| facing.patch);
     let beside = outline::first_side(polyhedra[patches.reference], patch(patches.reference));
     let axes = Axes::new(&contact.normal.into(), &poses[patches.reference].rotate(&beside));
@@ -321,7 +327,7 @@ fn clip(
         Outline::new(polyhedra[0], poses[0], between, &axes, patch(0)),
         Outline::new(polyhedra[1], poses[1], Vector::zeros(), &axes, patch(1)),
     ];
-    let noise = outlines[0].thickness() + outlines[1].thickness();
+    let noise = 2.0 * (outlines[0].slack + outlines[1].slack);
     let precision = Precision { rounding, coincident: noise.max(COINCIDENT * size), reference: patches.reference };
     // All corners of so small a body are one place: which are over the other's patch, rounding would say. A point has no others.
     if polyhedra.iter().any(|body| body.radius > 0.0 && body.radius <= precision.coincident) {

@@ -77,6 +77,9 @@ pub struct Outline<'a> {
     pub is_counter_clockwise: bool,
     /// R⁻¹.
     inverse: Option<Matrix>,
+    /// How far a point of its corners and sides is from a point of the body, at most: half of what the slab is thick that the patch
+    /// stands for; 0 of a merged face, whose corners are exact.
+    pub slack: f64,
     /// The patch's normal up to its length, in the axes of the contact, and that length.
     normal: Option<(Vector, f64)>,
     /// Where the first corner is.
@@ -98,6 +101,10 @@ impl<'a> Outline<'a> {
         let normal_of =
             |patch: Patch| inverse.map(|inverse| axes.spot(&(inverse.transpose() * patch.normal(polyhedron))));
         let normal = patch.and_then(normal_of).map(|normal| (normal, normal.norm()));
+        let slack = match patch {
+            Some(Patch::Contact(face)) => polyhedron.contact_faces.faces[face as usize].slack * pose.most_stretched(),
+            _ => 0.0,
+        };
         let [first, second] = &axes.across;
         let turn = Matrix::from_rows(&[first.transpose(), second.transpose(), axes.normal.transpose()]) * rotation;
         let origin = axes.spot(&offset);
@@ -114,6 +121,7 @@ impl<'a> Outline<'a> {
             count,
             is_counter_clockwise,
             inverse,
+            slack,
             normal,
             first,
         };
@@ -167,38 +175,14 @@ impl<'a> Outline<'a> {
         }
     }
 
-    /// The thickness of the slab that the patch stands for; 0 of a merged face, whose corners are exact.
-    pub fn thickness(&self) -> f64 {
-        match self.patch {
-            Some(Patch::Contact(face)) => 2.0 * self.polyhedron.contact_faces.faces[face as usize].slack,
-            _ => 0.0,
-        }
-    }
-
-    /// How far the surface is from its corners and sides along the contact's normal, at most: of a slab half its thickness over the
-    /// cosine; infinite of a slab on edge. A plane that is moved by δ along its unit normal n moves by δ/((R⁻¹)ᵀn)_z along z,
-    /// whatever R is.
-    pub fn slack(&self) -> f64 {
-        match (self.patch, self.normal) {
-            (Some(Patch::Contact(_)), Some((normal, _))) if normal.z.abs() > STEEPEST => {
-                0.5 * self.thickness() / normal.z.abs()
-            }
-            (Some(Patch::Contact(_)), _) => f64::INFINITY,
-            _ => 0.0,
-        }
-    }
-
-    /// How high it is over two coordinates, and what of that may be wrong where lengths are off by `rounding`. `None` of a patch on
-    /// edge.
+    /// How high a patch is over two coordinates, and what of that may be wrong where lengths are off by `rounding`. `None` of a
+    /// patch on edge, and without one.
+    ///
+    /// A plane that is moved by δ along its unit normal n moves by δ/((R⁻¹)ᵀn)_z along z, whatever R is: so a slab reaches half its
+    /// thickness over the cosine up and down. `slack` has a factor by which R may make lengths longer; |(R⁻¹)ᵀn| times that is at
+    /// least 1.
     pub fn height_at(&self, x: f64, y: f64, rounding: f64) -> Option<(f64, f64)> {
-        let Some(patch) = self.patch else {
-            let (from, to) = (self.first, self.spot(self.count - 1));
-            let along = to - from;
-            let share =
-                ((x - from.x) * along.x + (y - from.y) * along.y) / divisor(along.x * along.x + along.y * along.y);
-            return Some((from.z + along.z * share.clamp(0.0, 1.0), rounding));
-        };
-        let (normal, length) = self.normal?;
+        let (patch, (normal, length)) = (self.patch?, self.normal?);
         if !(normal.z.abs() > STEEPEST * length) {
             return None;
         }
@@ -209,8 +193,8 @@ impl<'a> Outline<'a> {
             Patch::Merged(face) => self.polyhedron.faces[face as usize].slack,
             Patch::Contact(_) => 0.0,
         };
-        let error = 2.0 * (slack + rounding) * length / normal.z.abs();
-        Some((corner.z - rise, error + self.slack()))
+        let error = (2.0 * (slack + rounding) + self.slack) * length / normal.z.abs();
+        Some((corner.z - rise, error))
     }
 
     /// A point in the body's frame, in centred coordinates.
@@ -287,14 +271,32 @@ impl Chain<'_> {
         if self.step == 1 { (self.corner + self.outline.count - 1) % self.outline.count } else { self.corner }
     }
 
-    /// Whether a place is within a distance of the segment, across the normal.
-    pub fn is_near(&self, place: &Vector, distance: f64) -> bool {
+    /// The segment's point nearest to a place across the normal, if it is within a distance, and how far it is. Of a segment that is
+    /// no longer than that, seen along the normal, the point is the end that is farther along it, or against it: `towards` is the
+    /// sign.
+    pub fn point_near(&self, place: &Vector, distance: f64, towards: f64) -> Option<(Vector, f64)> {
         let (along, arm) = ((self.to - self.from).xy(), (place - self.from).xy());
         // No squares, which would underflow where lengths do not.
         let length = along.x.hypot(along.y);
         let direction = along / divisor(length);
-        let rest = arm - direction * arm.dot(&direction).clamp(0.0, length);
-        rest.x.abs() <= distance && rest.y.abs() <= distance && rest.x.hypot(rest.y) <= distance
+        let reach = arm.dot(&direction).clamp(0.0, length);
+        let rest = arm - direction * reach;
+        if !(rest.x.abs() <= distance && rest.y.abs() <= distance) {
+            return None;
+        }
+        let off = rest.x.hypot(rest.y);
+        if !(off <= distance) {
+            return None;
+        }
+        let share = if length > distance {
+            reach / length
+        } else if towards * self.to.z > towards * self.from.z {
+            1.0
+        } else {
+            0.0
+        };
+        // Exactly the end where it is one.
+        Some((if share < 1.0 { self.from + (self.to - self.from) * share } else { self.to }, off))
     }
 
     /// The segment's point over a first coordinate.

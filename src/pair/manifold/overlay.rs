@@ -1,7 +1,7 @@
 //! The common part of two outlines of few corners, where no corner is near a side of the other: all corners against all sides at
 //! once, as bits. It says what the [sweep](super::clip) says, sooner, and leaves to that whatever is in doubt.
 
-use super::clip::CommonCorner;
+use super::clip::{CommonCorner, error_at_sides, height_over};
 use super::outline::Outline;
 use super::places::{CommonPoint, Origin, View};
 use crate::base::math::Vector;
@@ -122,7 +122,7 @@ impl Overlay {
     /// are not convex.
     #[inline(always)]
     fn push(&mut self, view: &View, place: CommonPoint) -> Option<bool> {
-        if !(place.error.is_finite() && view.is_near(&place)) {
+        if !view.is_near(&place) {
             return Some(false);
         }
         let is_deep = view.is_deep(&place);
@@ -160,7 +160,7 @@ impl Kernel for Filling<'_> {
                     continue;
                 }
                 let spot = few[body].corners[corner];
-                let Some((height, error)) = self.view.height_over(body, &spot) else { continue };
+                let Some((height, error)) = height_over(outlines, body, &spot, precision) else { continue };
                 let mut spots = [spot; 2];
                 spots[1 - body].z = height;
                 let origin = Origin::Corner(CommonCorner::Vertex { body, corner });
@@ -188,7 +188,7 @@ impl Kernel for Filling<'_> {
                 *crossings.get_mut(crossing_count)? = [spots[0].x, spots[0].y];
                 crossing_count += 1;
                 let origin = Origin::Corner(CommonCorner::Crossing { sides: [first, second] });
-                let error = error + self.view.error_at_crossings();
+                let error = error + error_at_sides(outlines, precision);
                 is_deep |= self.overlay.push(self.view, CommonPoint { origin, spots, error })?;
             }
         }

@@ -70,9 +70,8 @@ impl View<'_> {
     pub fn sweep(&self, mut visit: impl FnMut(&CommonPoint)) -> usize {
         let (mut count, mut is_deep) = (0, false);
         common_part(self.outlines, &self.precision, |spot: &Spot| {
-            if let Some(place) = self.place(spot)
-                && self.is_near(&place)
-            {
+            let place = CommonPoint { origin: Origin::Corner(spot.corner), spots: spot.spots, error: spot.error };
+            if self.is_near(&place) {
                 is_deep |= self.is_deep(&place);
                 count += 1;
                 visit(&place);
@@ -85,10 +84,10 @@ impl View<'_> {
         count
     }
 
-    /// Whether a place may have a gap of at most the margin.
+    /// Whether a place may have a gap of at most the margin, which is then known to within something.
     #[inline(always)]
     pub fn is_near(&self, place: &CommonPoint) -> bool {
-        place.gap() - place.error <= self.margin
+        place.error.is_finite() && place.gap() - place.error <= self.margin
     }
 
     /// Whether a place may be as deep as the witness points.
@@ -101,34 +100,6 @@ impl View<'_> {
     pub fn witness(&self) -> CommonPoint {
         let error = 0.5 * (self.contact.upper - self.contact.lower);
         CommonPoint { origin: Origin::Witness, spots: self.witness_spots, error }
-    }
-
-    fn place(&self, spot: &Spot) -> Option<CommonPoint> {
-        let mut spots = spot.spots;
-        let error = match spot.corner {
-            CommonCorner::Vertex { body, .. } => {
-                let (height, error) = self.height_over(body, &spots[0])?;
-                spots[1 - body].z = height;
-                error
-            }
-            CommonCorner::Crossing { .. } => spot.error + self.error_at_crossings(),
-        };
-        error.is_finite().then_some(CommonPoint { origin: Origin::Corner(spot.corner), spots, error })
-    }
-
-    /// How high the other outline is over a corner of a body's, and by how much the gap there may be off. `None` where that outline
-    /// has no height.
-    #[inline(always)]
-    pub fn height_over(&self, body: usize, place: &Vector) -> Option<(f64, f64)> {
-        let rounding = self.precision.rounding;
-        let (height, error) = self.outlines[1 - body].height_at(place.x, place.y, rounding)?;
-        Some((height, error + self.outlines[body].slack() + rounding))
-    }
-
-    /// By how much the gap may be off where sides cross at a right angle.
-    #[inline(always)]
-    pub fn error_at_crossings(&self) -> f64 {
-        self.outlines[0].slack() + self.outlines[1].slack() + 2.0 * self.precision.rounding
     }
 
     /// Says all of a point at a corner of the common part.

@@ -2,6 +2,7 @@
 //! both surfaces, on the sides that face each other, and its gap is that of its two places.
 
 use super::apart::{verify_disjoint, witnesses};
+use super::bounds::{Bounds, Gap};
 use super::checks::{between_origins, in_default, length, too_large, unverified};
 use super::depth::prove_depth;
 use super::numbers::{Numbers, check_numbers};
@@ -11,7 +12,7 @@ use crate::base::math::{ROTATION_LIMIT, Vector};
 use crate::pair::answer::{FeatureKind, Outcome, PairAnswer};
 use crate::pair::manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, id_of};
 use crate::pair::placed::Placed;
-use crate::pair::radii::Radii;
+use crate::pair::radii::{Radii, sum_above, sum_below};
 use crate::polyhedron::Polyhedron;
 
 /// Of the size of the pair: how far a point may be off the surface that it is on, beside noise and rounding. Places up to 2⁻²⁷ of
@@ -20,6 +21,10 @@ const NEAR: f64 = f64::from_bits((1023 - 25) << 52);
 
 /// The same of the thickness of contact faces.
 const NOISE: f64 = 8.0;
+
+/// How far a point may be out of its body, in units of the rounding: it is over a face up to that, seen along the normal, which may
+/// be flat to the face.
+const OUT: f64 = 256.0;
 
 /// The cosine between the direction to the other body and the normal of a face beyond which that looks away, by 6° at least.
 const AWAY: f64 = -0.1;
@@ -32,15 +37,17 @@ const AWAY: f64 = -0.1;
 /// | verdict, `lower`, `upper` | proved without tolerance, as by [`super::verify`] and [`super::verify_depth`] |
 /// | `normal` | a unit vector; bodies apart are at least `lower` apart along it, others overlap by at most −`lower` |
 /// | the counts, `reference` | no more points are written than found, and one at most without a reference; none beyond the margin |
-/// | points on the bodies | no farther than b out of them, or than b and the gap's width behind a face that looks at the other body; one point in both frames |
+/// | points on the bodies | no farther than c out of them, or than b and the gap's width behind a face that looks at the other body; one point in both frames |
 /// | their features | they are there; a point is no farther than b from its vertex or edge |
-/// | a gap | that of the two points along the normal is in it, up to the allowance a; at most the margin |
+/// | a gap | that of the two points along the normal is in it, up to the allowance a, and so far from its ends as both are out of the bodies; at most the margin |
+/// | … | no interval is below, or above, the gaps of all pairs of points of the bodies; without tolerance |
 /// | both points | in line along the normal up to b |
 /// | all points | one is as deep as the bodies are, up to b, if none was left out |
 /// | `id` | that of the features |
 ///
 /// a is the allowance of [`verify`](super::verify). b is a, 2⁻²⁵ of the size of the pair (both radii and the distance of the
-/// centres), and eight times what contact faces are thick at most. That a face is complete is not checked.
+/// centres), and eight times what contact faces are thick at most; c is 256 a and half of what the body's are. That a face is
+/// complete is not checked.
 ///
 /// # Errors
 /// As of [`verify_depth`](super::verify_depth); [`Error::Argument`] for fewer points than the manifold has.
@@ -125,6 +132,10 @@ struct Check<'a> {
     allowed: f64,
     /// How far a point may be off its surface.
     near: f64,
+    /// How far a point may be out of each body.
+    out: [f64; 2],
+    /// The least gap of two points of the bodies along the normal, and minus the largest; `None` where double-doubles do not reach.
+    reach: Option<(Bounds<'a>, [Gap; 2])>,
 }
 
 impl<'a> Check<'a> {
@@ -140,9 +151,15 @@ impl<'a> Check<'a> {
         let size = polyhedra[0].radius + polyhedra[1].radius + length(&between);
         let slack =
             |polyhedron: &Polyhedron| polyhedron.contact_faces.faces.iter().map(|face| face.slack).fold(0.0, f64::max);
-        let thickness = 2.0 * (slack(polyhedra[0]) + slack(polyhedra[1]));
-        let near = allowed + NEAR * size + NOISE * thickness;
-        Check { bodies, polyhedra, config, radii, manifold, allowed, near }
+        let slacks = polyhedra.map(slack);
+        let near = allowed + NEAR * size + NOISE * 2.0 * (slacks[0] + slacks[1]);
+        let out = slacks.map(|slack| OUT * allowed + slack);
+        let normal = Vector::from(manifold.normal);
+        let reach = Bounds::new(polyhedra, bodies.map(|body| body.pose)).map(|bounds| {
+            let gaps = [bounds.gap(&normal), bounds.gap(&-normal)];
+            (bounds, gaps)
+        });
+        Check { bodies, polyhedra, config, radii, manifold, allowed, near, out, reach }
     }
 
     fn check_point(&self, point: &ManifoldPoint) -> Result<()> {
@@ -164,8 +181,8 @@ impl<'a> Check<'a> {
         };
         let poses = self.bodies.map(|body| body.pose);
         let witnesses = witnesses(self.polyhedra, poses, &self.radii, &said);
-        for (witness, towards) in witnesses.iter().zip([-normal, normal]) {
-            witness.check_point(self.near, &[])?;
+        for ((witness, towards), out) in witnesses.iter().zip([-normal, normal]).zip(self.out) {
+            witness.check_point(out, &[])?;
             self.check_feature(witness)?;
             self.check_facing(witness, &towards, gap_upper - gap_lower)?;
         }
@@ -177,11 +194,48 @@ impl<'a> Check<'a> {
         if !(has_end && is_enclosed && gap_lower <= gap_upper && gap_lower <= self.config.margin) {
             return Err(unverified(format!("a gap of {gap:e} is not in [{gap_lower:e}, {gap_upper:e}]")));
         }
+        self.check_attained(&witnesses, gap, [gap_lower, gap_upper])?;
+        self.check_reach(&normal, [gap_lower, gap_upper])?;
         let sideways = length(&(apart - normal * along));
         if sideways <= self.near {
             return Ok(());
         }
         Err(unverified(format!("its two places are {sideways:e} off a line along the normal")))
+    }
+
+    /// The bodies have points with a gap in the interval: near those that are said, which may be out of them.
+    fn check_attained(&self, witnesses: &[Witness; 2], gap: f64, [lower, upper]: [f64; 2]) -> Result<()> {
+        let margin = (gap - lower).min(upper - gap) + self.allowed;
+        let off = witnesses.each_ref().map(|witness| {
+            let inside = witness.point_inside()?;
+            Some(inside.distance(witness.polyhedron, &witness.centred()) * witness.pose.most_stretched())
+        });
+        let is_within = |[first, second]: [f64; 2]| first + second <= margin + 2.0 * self.allowed;
+        if is_within(off.map(|off| off.unwrap_or(f64::INFINITY))) {
+            return Ok(());
+        }
+        let out = |witness: &Witness| Ok(witness.outside(&[])?.bounds().1 * witness.pose.most_stretched());
+        let out = [out(&witnesses[0])?, out(&witnesses[1])?];
+        if is_within(out) {
+            return Ok(());
+        }
+        Err(unverified(format!(
+            "points {:e} and {:e} out of the objects have a gap of {gap:e} in [{lower:e}, {upper:e}]",
+            out[0], out[1]
+        )))
+    }
+
+    /// No points of the bodies have only gaps above the interval, or below. Ends may be negative: of a unit vector, up to rounding,
+    /// half of |n|² − 1 is |n| − 1 to 2⁻⁹⁹, which the error of lengths covers.
+    fn check_reach(&self, normal: &Vector, [lower, upper]: [f64; 2]) -> Result<()> {
+        let Some((bounds, [least, most])) = &self.reach else { return Ok(()) };
+        let too_low = bounds.prove_lower(least, normal, sum_above(upper, self.radii.upper));
+        let too_high = bounds.prove_lower(most, normal, -sum_below(lower, self.radii.lower));
+        if !(too_low || too_high) {
+            return Ok(());
+        }
+        let side = if too_low { "below" } else { "above" };
+        Err(unverified(format!("a gap in [{lower:e}, {upper:e}] is {side} that of any points of the objects")))
     }
 
     /// A point is near its vertex or edge; the face of a point is there, which may be one of several that are one to a manifold.

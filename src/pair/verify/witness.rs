@@ -107,18 +107,23 @@ impl<'a> Witness<'a> {
 
     /// The point is in the object, up to `allowed`: near a point of its feature, else integers tell.
     fn check_inside(&self, allowed: f64, around: &[u32]) -> Result<()> {
-        let Witness { object, polyhedron, local, .. } = self;
+        let Witness { object, polyhedron, .. } = self;
         if self.point_inside().is_some_and(|inside| inside.distance(polyhedron, &self.centred()) <= allowed) {
             return Ok(());
         }
-        let at_point = Pose::new(&Matrix::identity(), local);
-        let probe = build(&[Vector::zeros()], None)?;
-        let near = listed(around.iter().map(|&vertex| [vertex, 0]));
-        let outside = exact::distance(polyhedron, &Pose::IDENTITY, &probe, &at_point, &near);
+        let outside = self.outside(around)?;
         if outside.compare(allowed).is_le() {
             return Ok(());
         }
         Err(unverified(format!("witness point {object} lies {:e} out of its object", outside.bounds().0)))
+    }
+
+    /// How far the point is out of the object, in integers; `around` are vertices whose hull may hold it.
+    pub fn outside(&self, around: &[u32]) -> Result<exact::ExactDistance> {
+        let at_point = Pose::new(&Matrix::identity(), &self.local);
+        let probe = build(&[Vector::zeros()], None)?;
+        let near = listed(around.iter().map(|&vertex| [vertex, 0]));
+        Ok(exact::distance(self.polyhedron, &Pose::IDENTITY, &probe, &at_point, &near))
     }
 
     /// The object has the feature.
