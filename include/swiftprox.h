@@ -15,10 +15,11 @@
  * SWIFTPROX_ERROR_POISONED from then on and can only be destroyed. What a shape holds never changes once made, so no bug can
  * spoil it. What a failed call does not say is NaN where it is a real number, else 0 or null.
  *
- * Memory. Arrays in proportion to what the caller gives, to a file or to a scene may be refused: the call then ends in
- * SWIFTPROX_ERROR_MEMORY, as each that allocates may, and nothing has changed. What else is allocated is small, in blocks of less
- * than 128 kB that do not grow with the input: a handle's own record, integers of the exact tier, messages with the path of a file.
- * Where that is refused the program ends with a message.
+ * Memory. Arrays in proportion to what the caller gives, to a file or to a scene may be refused, and so may integers of the exact
+ * tier, small as they are: the call then ends in SWIFTPROX_ERROR_MEMORY, as each that allocates may. Nothing has changed but what a
+ * cache remembers of a search, and a scene lives on. What else is allocated is small, in blocks of less than 128 kB that do not
+ * grow with the input: a handle's own record, messages with the path of a file, and a few blocks of less than 256 bytes by which a
+ * lack of memory is told. Where that is refused the program ends with a message.
  *
  * Pointers. They are aligned and live as their types say. A null options, config, query or tuning means the defaults; another null
  * pointer is SWIFTPROX_ERROR_NULL_POINTER unless the function says otherwise. Arrays are copied or only read during the call;
@@ -164,8 +165,9 @@ typedef enum swiftprox_status SWIFTPROX_INT32 {
   /** The library was built without what the call is about. */
   SWIFTPROX_ERROR_UNSUPPORTED = 14,
   /**
-   * There is no memory for an array in proportion to what the caller gave or to a scene: the message says how much was asked
-   * for. Nothing has changed, and the same call may succeed when there is more.
+   * There is no memory for an array in proportion to what the caller gave or to a scene, of which the message says how much was
+   * asked for, or for an integer of the exact tier. Nothing has changed but what a cache remembers of a search, and the same
+   * call may succeed when there is more.
    */
   SWIFTPROX_ERROR_MEMORY = 15,
   /**
@@ -1054,8 +1056,9 @@ typedef struct swiftprox_depth_statistics {
 /**
  * How deep two objects are in each other. Numbers that it does not say are NaN, features of no kind.
  *
- * The depth is the length of the shortest translation after which the objects have no common inner point: 0 of objects that touch
- * or are flat. Moving object 1 by `depth * normal`, or object 2 by the opposite, parts them, as far as the interval is wide.
+ * The depth is the length of the shortest translation after which a plane has one object on either side: 0 of objects that touch,
+ * and of flat ones that lie in one plane. Moving object 1 by `depth * normal`, or object 2 by the opposite, parts them, as far as
+ * the interval is wide.
  */
 typedef struct swiftprox_depth_answer {
   /**
@@ -1823,24 +1826,27 @@ swiftprox_status swiftprox_shape_locate_point(const struct swiftprox_shape *shap
 
 /** A vertex farthest along a direction. Numbers that it does not say are NaN. */
 typedef struct swiftprox_support_vertex {
-  /** Its index in the caller's array: for certain no vertex is farther. Of several that are as far it is any. */
+  /** The vertex's index in the caller's array: for certain no other is farther. Of several that are as far it is any. */
   uint32_t vertex;
   /** Whether integers decided what rounding hides: 1 or 0. They allocate. */
   int32_t exact;
-  /** Where it is, in the body's local frame. */
+  /** Where the body reaches farthest, in its local frame: the vertex, or a point of the ball about it. */
   double local[3];
-  /** Where it is in the world, rounded. */
+  /** The same in the world, rounded. */
   double world[3];
-  /** `height[0]` <= direction * x <= `height[1]` for its exact place x in the world: the largest over the body. */
+  /**
+   * `height[0]` <= direction * x <= `height[1]` for its exact place x in the world: the largest over the body, the ball that is
+   * swept over it included.
+   */
   double height[2];
 } swiftprox_support_vertex;
 
 /**
  * The vertex of a shape at a pose that is farthest along a direction of the world, of any length but 0: for certain no other is
- * farther, whatever the magnitudes.
+ * farther, whatever the magnitudes. Of a shape with a swept radius place and height are those of the ball about the vertex.
  *
  * On failure the answer's numbers are NaN and 0. SWIFTPROX_ERROR_INVALID_ARGUMENT: the direction is 0 or not finite.
- * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_NULL_POINTER.
+ * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
  *
  * Experimental.
  */
@@ -3152,10 +3158,11 @@ typedef struct swiftprox_object_set {
 typedef struct swiftprox_scratch swiftprox_scratch;
 
 /**
- * Makes room to work in for questions about sets of objects; the caller owns it and gives it back with
- * swiftprox_scratch_destroy. One thread at a time uses it, for any scenes. It keeps what pairs remember, which changes how fast
- * an answer comes and which of several nearest points it gives, never a verdict: where bits matter, take a new one. On failure
- * `*scratch` is null.
+ * Makes room to work in for questions that threads ask a scene at once: about sets of objects, and of rays, grounds and
+ * half-spaces. The caller owns it and gives it back with swiftprox_scratch_destroy. One thread at a time uses it, for any scenes.
+ * Of sets it keeps what pairs of objects remember, which changes how fast an answer comes and which of several nearest points it
+ * gives, never a verdict: where bits matter, take a new one. Rays, grounds and half-spaces remember nothing: whatever it has seen,
+ * they are answered bit for bit as with a new one. On failure `*scratch` is null.
  *
  * SWIFTPROX_ERROR_NULL_POINTER.
  *
@@ -3789,8 +3796,8 @@ void swiftprox_library_set_log(swiftprox_log_callback callback,
 /**
  * Gives memory of `size` bytes, not 0 and a multiple of `alignment`, at an address that is one, too. The alignment is a power of
  * two, at least a pointer's and sometimes more than malloc keeps (64, for one). Null if there is no memory, as where the system's
- * runs out: for what grows with the caller's input or a scene the call then ends in SWIFTPROX_ERROR_MEMORY; for what is small the
- * program ends with a message (the head of this file says what that is). `user` is the pointer given to
+ * runs out: for what grows with the caller's input or a scene, and for integers, the call then ends in SWIFTPROX_ERROR_MEMORY; for
+ * what else is small the program ends with a message (the head of this file says what that is). `user` is the pointer given to
  * swiftprox_library_set_allocator.
  */
 typedef void *(*swiftprox_allocate_callback)(void *user, size_t size, size_t alignment);

@@ -38,8 +38,8 @@ pub enum StatusCode {
     /// The library was built without what the call is about.
     ErrorUnsupported = 14,
     /// There is no memory for an array in proportion to what the caller gave or to a scene, of which the message says how much was
-    /// asked for, or for an integer of the exact tier. Nothing has changed but what a cache remembers of a search, and the same call
-    /// may succeed when there is more.
+    /// asked for, or for an integer of the exact tier. Nothing has changed but what a cache remembers of a search, and the same
+    /// call may succeed when there is more.
     ErrorMemory = 15,
     /// The scene is in use: by another thread, which the rules for threads forbid, or by a call that this one was made in. Nothing
     /// has changed.

@@ -39,11 +39,11 @@ impl CSceneRayAnswer {
     const EMPTY: CSceneRayAnswer = CSceneRayAnswer { hits: std::ptr::null(), count: 0 };
 }
 
-/// Makes room to work in for questions that threads ask a scene at once: about sets of objects, and of rays, grounds and half-spaces.
-/// The caller owns it and gives it back with swiftprox_scratch_destroy. One thread at a time uses it, for any scenes. Of sets it
-/// keeps what pairs of objects remember, which changes how fast an answer comes and which of several nearest points it gives, never
-/// a verdict: where bits matter, take a new one. Rays, grounds and half-spaces remember nothing: whatever it has seen, they are
-/// answered bit for bit as with a new one. On failure `*scratch` is null.
+/// Makes room to work in for questions that threads ask a scene at once: about sets of objects, and of rays, grounds and
+/// half-spaces. The caller owns it and gives it back with swiftprox_scratch_destroy. One thread at a time uses it, for any scenes.
+/// Of sets it keeps what pairs of objects remember, which changes how fast an answer comes and which of several nearest points it
+/// gives, never a verdict: where bits matter, take a new one. Rays, grounds and half-spaces remember nothing: whatever it has seen,
+/// they are answered bit for bit as with a new one. On failure `*scratch` is null.
 ///
 /// SWIFTPROX_ERROR_NULL_POINTER.
 #[unsafe(no_mangle)]

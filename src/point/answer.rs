@@ -61,12 +61,12 @@ pub struct SupportVertex {
     pub vertex: u32,
     /// Whether integers decided what rounding hides: 1 or 0. They allocate.
     pub exact: i32,
-    /// Where the body reaches farthest, in its local frame: the vertex, or a point of the ball about it that is swept over the body.
+    /// Where the body reaches farthest, in its local frame: the vertex, or a point of the ball about it.
     pub local: [f64; 3],
     /// The same in the world, rounded.
     pub world: [f64; 3],
-    /// `height[0]` ≤ direction · x ≤ `height[1]` for its exact place x in the world: the largest over the body, the ball that is swept
-    /// over it included.
+    /// `height[0]` ≤ direction · x ≤ `height[1]` for its exact place x in the world: the largest over the body, the ball that is
+    /// swept over it included.
     pub height: [f64; 2],
 }
 

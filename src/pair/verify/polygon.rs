@@ -33,6 +33,7 @@ fn distance_from_prism(corners: &[Vector], normal: &Vector, point: &Vector) -> f
     sides().map(|(tail, head)| distance_from_segment(&[*tail, *head], point)).fold(f64::INFINITY, f64::min)
 }
 
+/// The distance of a point from a segment.
 pub fn distance_from_segment(ends: &[Vector; 2], point: &Vector) -> f64 {
     let along = ends[1] - ends[0];
     let whole = length(&along);

@@ -4,7 +4,7 @@ use super::bounds::PointInside;
 use super::checks::{between_origins, length, unverified};
 use super::polygon::{beyond_nearest, distance_from_segment};
 use crate::base::error::Result;
-use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector, clamp};
+use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::base::memory::listed;
 use crate::build::assembly::build;
 use crate::pair::answer::{Feature, FeatureKind};
