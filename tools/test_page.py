@@ -231,13 +231,38 @@ class Data(Page):
         self.assertNotIn("out.html", os.listdir(self.folder))
 
 
+COUNTER = """
+window.drawn = { frames: 0, lines: 0, triangles: 0, shadows: 0 };
+const context = WebGL2RenderingContext.prototype, draw = context.drawElementsInstanced, clear = context.clear;
+context.drawElementsInstanced = function(kind, length, type, offset, count) {
+  const isSeen = this.getParameter(this.FRAMEBUFFER_BINDING) === null;
+  drawn[kind === this.LINES ? "lines" : isSeen ? "triangles" : "shadows"] += count;
+  return draw.call(this, kind, length, type, offset, count);
+};
+context.clear = function(mask) {
+  const isSeen = this.getParameter(this.FRAMEBUFFER_BINDING) === null;
+  drawn.frames += isSeen && mask & this.COLOR_BUFFER_BIT ? 1 : 0;
+  return clear.call(this, mask);
+};"""
+
+
 class Browser(Page):
-    def open(self, tab, page):
+    def open(self, tab, page, moves=False):
+        """It stands still unless it `moves`, as whoever wants no motion sees it."""
+        tab.call("Emulation.setEmulatedMedia",
+                 features=[{"name": "prefers-reduced-motion", "value": "no-preference" if moves else "reduce"}])
         tab.open("file://" + page)
         failed = [event for event in tab.events if event.get("method") == "Runtime.exceptionThrown"]
         self.assertEqual(failed, [])
         loaded = {event["params"]["request"]["url"] for event in tab.events if event.get("method") == "Network.requestWillBeSent"}
         self.assertEqual(loaded, {"file://" + page})
+
+    def open_counting(self, tab, page, moves=False):
+        """With what its first frames draw in `drawn`: bodies by the kind of their primitives."""
+        script = tab.call("Page.addScriptToEvaluateOnNewDocument", source=COUNTER)["identifier"]
+        self.open(tab, page, moves)
+        tab.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
+        tab.frame()
 
     def around(self, tab, spot, radius=2):
         """The colours about a place of the view."""
@@ -250,8 +275,11 @@ class Browser(Page):
             self.every_pair_says_what_the_tool_prints(tab, self.boxes(), "--query", "contact", "--tolerance", "3")
             self.bodies_are_where_they_are(tab)
             self.pairs_are_picked_by_clicks(tab)
-            self.it_plays_and_obeys_keys(tab)
+            self.it_obeys_keys(tab)
+            self.it_opens_playing_until_somebody_acts(tab)
+            self.a_grid_and_shadows_are_below_the_bodies(tab)
             self.a_crowd_is_drawn_once_and_without_edges_that_nobody_sees(tab)
+            self.a_large_scene_waits_and_throws_no_shadows(tab)
 
     def boxes(self):
         """Three boxes beside each other; the third moves over the second, then into it."""
@@ -283,24 +311,28 @@ class Browser(Page):
         self.assertEqual(sorted(shown), sorted(self.lines(scene, *options)))
 
     def bodies_are_where_they_are(self, tab):
-        """By their projections: a body is drawn there, not another colour, and not where it is no more."""
+        """By their projections: a body is drawn there in a colour of its own, and not where it is no more. What touches is marked."""
         self.open(tab, self.make(self.boxes(), "--query", "contact", "--tolerance", "0"))
         self.assertTrue(tab.run("page.isSolid"))
+        tab.key("g")  # no ground behind them
         paper = {tuple(tab.run("partsOf(readColours().paper).slice(0, 3)"))}
         tab.frame()
         spots = [tab.run(f"page.spotOfBody({body})") for body in range(3)]
-        for spot in spots:
-            self.assertNotIn(paper, [self.around(tab, spot)])
+        colours = [self.around(tab, spot, 0) for spot in spots]
+        self.assertEqual(len(set.union(paper, *colours)), 4)
         before = self.around(tab, spots[2])
         tab.key("ArrowRight")
         tab.frame()
         self.assertEqual(self.around(tab, spots[2]), paper)  # it has gone
         self.assertNotEqual(before, paper)
         self.assertNotEqual(self.around(tab, tab.run("page.spotOfBody(2)")), paper)
-        apart = self.around(tab, tab.run("page.spotOfBody(1)"))
+        touching = tuple(tab.run("partsOf(readColours().touching).slice(0, 3)"))
+        self.assertEqual(tab.run("document.querySelectorAll('#list tbody tr').length"), 0)
         tab.key("ArrowRight")
         tab.frame()
-        self.assertNotEqual(self.around(tab, tab.run("page.spotOfBody(1)")), apart)  # the colour of what intersects
+        self.assertEqual(tab.run("document.querySelector('#list tbody tr').dataset.pair"), "1 2")
+        mark = tab.run("spotOf(pairOf(page.recording, findPair(page.recording, 2, 1, 2)), projector(page.camera))")
+        self.assertIn(touching, self.around(tab, [round(x) for x in mark]))
 
     def pairs_are_picked_by_clicks(self, tab):
         self.open(tab, self.make(self.boxes(), "--query", "distance", "--tolerance", "3"))
@@ -316,16 +348,64 @@ class Browser(Page):
         tab.click(*between)
         self.assertEqual(tab.run("page.state.picked"), [0, 1])
 
-    def it_plays_and_obeys_keys(self, tab):
+    def it_obeys_keys(self, tab):
         self.assertEqual(tab.run("page.state.step"), 0)
         tab.key("End")
         self.assertEqual(tab.run("page.state.step"), 2)
         tab.key("Home")
-        tab.run("document.getElementById('speed').value = '60'")
+        self.assertEqual(tab.run("page.state.step"), 0)
         tab.key(" ")
-        tab.run("new Promise(done => { const look = () => page.state.step === 2 ? done() : setTimeout(look, 10); look(); })")
-        self.assertEqual(tab.run("document.getElementById('step-text').textContent"), "step 2 of 0 to 2")
+        self.assertEqual(tab.run("document.getElementById('play').textContent"), "Pause")
+        tab.key(" ")
         self.assertEqual(tab.run("document.getElementById('play').textContent"), "Play")
+
+    def it_opens_playing_until_somebody_acts(self, tab):
+        def wait_for(step):
+            tab.run(f"new Promise(done => {{ const look = () => page.state.step === {step} ? done() : setTimeout(look, 5); look(); }})")
+
+        def middle_of(selector):
+            return tab.run(f"(() => {{ const box = document.querySelector('{selector}').getBoundingClientRect();"
+                           " return [box.x + box.width / 2, box.y + box.height / 2]; })()")
+
+        def plays():
+            return (tab.run("page.state.isPlaying"), tab.run("document.getElementById('play').textContent"))
+
+        page = self.make(self.boxes(), "--query", "contact", "--tolerance", "3")
+        for selector in ("#play", "#step", "#list tbody tr"):
+            self.open(tab, page, moves=True)
+            self.assertEqual(plays(), (True, "Pause"))
+            self.assertEqual(tab.run("document.getElementById('speed').value"), "1")  # three steps
+            tab.run("(() => { const speed = document.getElementById('speed'); speed.value = '30';"
+                    " speed.dispatchEvent(new Event('change')); })()")
+            wait_for(2)
+            wait_for(0)  # and anew
+            tab.click(*middle_of(selector))
+            self.assertEqual(plays(), (False, "Play"))
+        self.assertIsNotNone(tab.run("page.state.picked"))  # the row, though rows change while it plays
+        self.open(tab, page)
+        self.assertEqual(plays(), (False, "Play"))  # for who wants no motion
+        self.open(tab, self.make(self.file(BOXES + "step\n")), moves=True)
+        self.assertEqual(plays(), (False, "Play"))  # there is one step
+        self.assertEqual(tab.run("Array.from(document.querySelectorAll('details'), details => details.open)"), [False] * 2)
+
+    def a_grid_and_shadows_are_below_the_bodies(self, tab):
+        """The third box floats high above the others. Its shadow is where the light puts it, by arithmetic of its own."""
+        self.open(tab, self.make(self.file(BOXES + "step\n" + at(1, 3) + at(2, 1, -2.5, 2))))
+        middle, ground, light = (tab.run(script) for script in
+                                 ("placeOf(page.recording, moveOf(page.recording, 2, 0))", "page.camera.ground", "lightOf(page.camera)"))
+        self.assertAlmostEqual(middle[2] - ground[2], 2 + 0.3, delta=1e-5)  # the lowest are 0.3 below their centres
+        far = (middle[2] - ground[2]) / light[2]
+        shaded, beside = ([int(x) for x in tab.run(f"projector(page.camera)({point})")] for point in
+                          ([middle[k] - far * light[k] for k in range(3)], [ground[0], ground[1] - 2.5, ground[2]]))
+        shown = [self.around(tab, shaded, 1), self.around(tab, beside, 25)]
+        tab.key("g")
+        tab.frame()
+        hidden = [self.around(tab, shaded, 1), self.around(tab, beside, 25)]
+        paper = {tuple(tab.run("partsOf(readColours().paper).slice(0, 3)"))}
+        self.assertEqual(hidden, [paper, paper])
+        self.assertLess(max(map(sum, shown[0])), sum(*paper) - 60)  # a shadow
+        self.assertGreater(len(shown[1]), 2)  # lines of a grid
+        self.assertLess(min(map(sum, shown[1])), sum(*paper) - 10)
 
     def a_crowd_is_drawn_once_and_without_edges_that_nobody_sees(self, tab):
         """What opening a crowd costs is drawing, where there is no graphics card: each frame of 10,000 bodies seconds of it. Two frames
@@ -334,25 +414,19 @@ class Browser(Page):
         scene = HEAD + f"shape box {MODELS}/box.off\n" + "object box\n" * bodies + "step\n"
         scene += "".join(at(i, *(draw.uniform(-50, 50) for _ in range(3))) for i in range(bodies))
         page = self.make(self.file(scene), "--query", "intersection")
-        counter = """
-            window.drawn = { frames: 0, lines: 0, triangles: 0 };
-            const context = WebGL2RenderingContext.prototype, draw = context.drawElementsInstanced, clear = context.clear;
-            context.drawElementsInstanced = function(kind, length, type, offset, count) {
-              drawn[kind === this.LINES ? "lines" : "triangles"] += count;
-              return draw.call(this, kind, length, type, offset, count);
-            };
-            context.clear = function(mask) {
-              drawn.frames += mask & this.COLOR_BUFFER_BIT ? 1 : 0;
-              return clear.call(this, mask);
-            };"""
-        script = tab.call("Page.addScriptToEvaluateOnNewDocument", source=counter)["identifier"]
-        self.open(tab, page)
-        tab.call("Page.removeScriptToEvaluateOnNewDocument", identifier=script)
-        tab.frame()
-        self.assertEqual(tab.run("drawn"), {"frames": 1, "lines": 0, "triangles": bodies})
+        self.open_counting(tab, page)
+        self.assertEqual(tab.run("drawn"), {"frames": 1, "lines": 0, "triangles": bodies, "shadows": bodies})
         near = tab.run("(() => { const { camera, recording } = page; camera.target = placeOf(recording, moveOf(recording, 7, 0));"
                        " camera.distance = 10; page.draw(); return drawn.lines; })()")
         self.assertTrue(0 < near < bodies, near)
+
+    def a_large_scene_waits_and_throws_no_shadows(self, tab):
+        bodies, draw = 1251, random.Random(5)  # of 400 triangles: half a million
+        scene = HEAD + f"shape body {MODELS}/ellipsoid.off\n" + "object body\n" * bodies + "step\n"
+        scene += "".join(at(i, *(draw.uniform(-90, 90) for _ in range(3))) for i in range(bodies)) + "step\n" + at(0, 1)
+        self.open_counting(tab, self.make(self.file(scene), "--query", "intersection"), moves=True)
+        self.assertEqual(tab.run("drawn"), {"frames": 1, "lines": 0, "triangles": bodies, "shadows": 0})
+        self.assertFalse(tab.run("page.state.isPlaying"))
 
     def test_without_webgl_edges_are_drawn_and_words_say_so(self):
         with browser.Browser(1000, 700, ["--disable-3d-apis"]) as tab:

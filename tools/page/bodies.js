@@ -7,14 +7,18 @@ const BODY_WORDS = 9;
 /* Edges of bodies with a smaller radius in pixels would hide their faces; they appear up to twice that. */
 const LEAST_EDGED = 12;
 
-/* Triangles of all bodies up to which outlines are smooth: without a graphics card that more than doubles the time of a frame. */
-const MOST_SMOOTHED = 500000;
+/* Triangles of all bodies from which on a scene is large: without a graphics card a frame takes a second of it. Outlines are not
+ * smoothed then, which more than doubles that, nor are there shadows. */
+const MOST_TRIANGLES = 500000;
 
 const VERTEX_SHADER = `#version 300 es
 uniform mat4 view;
 uniform float pixels; /* of a length of 1 at a distance of 1 */
 uniform float radius;
-uniform int mode;     /* 0: faces, 1: edges, 2: numbers */
+uniform int mode;     /* 0: faces, 1: edges, 2: numbers, 3: shadows */
+uniform vec4 plane;   /* the ground: upwards, and how high */
+uniform vec3 light;   /* towards it */
+uniform float extent; /* of the scene */
 layout(location = 0) in vec3 vertex;
 layout(location = 1) in vec3 place;
 layout(location = 2) in vec4 turn;
@@ -28,7 +32,12 @@ void main() {
   gl_Position = view * vec4(world, 1.0);
   float size = radius * pixels / max(gl_Position.w, 1e-30);
   float share = clamp(size / ${LEAST_EDGED}.0 - 1.0, 0.0, 1.0);
-  paint = mode == 2 ? number : mode == 1 ? vec4(colour.rgb * 0.55, share * colour.a) : colour;
+  paint = mode == 2 ? number : mode == 1 ? vec4(colour.rgb * 0.5, share * colour.a) : colour;
+  if (mode == 3) { /* fainter from above; what is below throws none */
+    float high = max(dot(plane.xyz, world) - plane.w, 0.0);
+    gl_Position = dot(plane.xyz, place) < plane.w ? vec4(2.0) : view * vec4(world - light * high / dot(plane.xyz, light), 1.0);
+    paint = vec4(max(1.0 - 0.5 * high / extent, 0.2));
+  }
 }`;
 
 const FRAGMENT_SHADER = `#version 300 es
@@ -37,6 +46,7 @@ precision highp int;
 uniform int mode;
 uniform vec3 eye;
 uniform vec3 light;
+uniform vec4 plane;
 in vec3 world;
 in vec4 paint;
 out vec4 result;
@@ -45,14 +55,17 @@ void main() {
   if (mode == 0) {
     vec3 normal = normalize(cross(dFdx(world), dFdy(world)));
     if (dot(normal, eye - world) < 0.0) { normal = -normal; }
-    float shade = 0.62 + 0.24 * max(dot(normal, light), 0.0) + 0.2 * max(dot(normal, normalize(eye - world)), 0.0);
-    result.rgb *= shade;
+    vec3 back = normalize(eye - world);
+    float sky = 0.5 + 0.5 * dot(normal, plane.xyz);
+    float shade = 0.56 + 0.18 * sky + 0.32 * max(dot(normal, light), 0.0) + 0.08 * max(dot(normal, back), 0.0);
+    float gloss = 0.1 * pow(max(dot(normal, normalize(light + back)), 0.0), 24.0);
+    result.rgb = min(result.rgb * shade + gloss, 1.0);
   }
 }`;
 
-function makeProgram(gl) {
+function makeProgram(gl, ...sources) {
   const program = gl.createProgram();
-  for (const [type, source] of [[gl.VERTEX_SHADER, VERTEX_SHADER], [gl.FRAGMENT_SHADER, FRAGMENT_SHADER]]) {
+  for (const [type, source] of [[gl.VERTEX_SHADER, sources[0]], [gl.FRAGMENT_SHADER, sources[1]]]) {
     const shader = gl.createShader(type);
     gl.shaderSource(shader, source);
     gl.compileShader(shader);
@@ -64,6 +77,8 @@ function makeProgram(gl) {
   }
   return program;
 }
+
+const uniformsOf = (gl, program, names) => Object.fromEntries(names.map(name => [name, gl.getUniformLocation(program, name)]));
 
 function makeBuffer(gl, target, data) {
   const buffer = gl.createBuffer();
@@ -90,23 +105,23 @@ function mergeShapes(shapes) {
   return merged;
 }
 
-function countTriangles(recording) {
+/* Whether bodies have so many triangles that a frame takes long without a graphics card. */
+function isLarge(recording) {
   let count = 0;
   for (let body = 0; body < recording.bodyCount; body++) {
     count += recording.shapes[shapeOf(recording, body)].triangles.length / 3;
   }
-  return count;
+  return count >= MOST_TRIANGLES;
 }
 
 /* What draws with WebGL 2, or null where there is none. */
 function makeSolids(canvas, recording) {
-  const gl = canvas.getContext("webgl2", { antialias: countTriangles(recording) < MOST_SMOOTHED, alpha: false });
+  const gl = canvas.getContext("webgl2", { antialias: !isLarge(recording), alpha: false });
   if (!gl) {
     return null;
   }
-  const program = makeProgram(gl);
-  const uniform = name => gl.getUniformLocation(program, name);
-  const uniforms = Object.fromEntries(["view", "pixels", "radius", "mode", "eye", "light"].map(name => [name, uniform(name)]));
+  const program = makeProgram(gl, VERTEX_SHADER, FRAGMENT_SHADER);
+  const uniforms = uniformsOf(gl, program, ["view", "pixels", "radius", "mode", "eye", "light", "plane", "extent"]);
   const merged = mergeShapes(recording.shapes);
   const vertices = makeBuffer(gl, gl.ARRAY_BUFFER, merged.vertices);
   const bodies = gl.createBuffer(), edged = gl.createBuffer();
@@ -124,7 +139,7 @@ function makeSolids(canvas, recording) {
   });
   gl.bindVertexArray(null);
   return { gl, canvas, recording, uniforms, program, parts: merged.parts, bodies, edged, arrays, words: new Float32Array(0), groups: [],
-    picking: null };
+    picking: null, ground: makeGround(gl) };
 }
 
 /* The bodies of a step, by shape; those that are picked come last and are drawn over the others. `paintOf` gives the colour of a
@@ -155,6 +170,7 @@ function loadBodies(solids, step, paintOf, picked) {
     }
   }));
   solids.words = words;
+  solids.ground.isShadowDue = true;
   gl.bindBuffer(gl.ARRAY_BUFFER, solids.bodies);
   gl.bufferData(gl.ARRAY_BUFFER, words, gl.DYNAMIC_DRAW);
 }
@@ -181,7 +197,7 @@ function loadEdged(solids, camera) {
   return groups;
 }
 
-const FACES = 0, EDGES = 1, NUMBERS = 2;
+const FACES = 0, EDGES = 1, NUMBERS = 2, SHADOWS = 3;
 
 function drawGroup(solids, group, mode) {
   const { gl, uniforms, parts, recording } = solids;
@@ -209,19 +225,25 @@ const pixelsOf = canvas => canvas.height / 2 / Math.tan(FIELD_OF_VIEW / 2);
 
 function setView(solids, camera) {
   const { gl, uniforms } = solids;
-  const { right, up, back } = axesOf(camera);
+  const up = worldAxes(camera.up)[2];
   gl.useProgram(solids.program);
   gl.viewport(0, 0, solids.canvas.width, solids.canvas.height);
   gl.uniformMatrix4fv(uniforms.view, false, matrixOf(camera));
   gl.uniform1f(uniforms.pixels, pixelsOf(solids.canvas));
-  gl.uniform3fv(uniforms.eye, add(camera.target, back, camera.distance));
-  gl.uniform3fv(uniforms.light, unit(add(add(back.map(x => 0.5 * x), right, -0.5), up, 0.8)));
+  gl.uniform3fv(uniforms.eye, eyeOf(camera));
+  gl.uniform3fv(uniforms.light, lightOf(camera));
+  gl.uniform4f(uniforms.plane, ...up, dot(up, camera.ground));
   gl.enable(gl.DEPTH_TEST);
 }
 
-/* Faces before their edges, which would else fight with them. Of bodies that are picked one sees through the faces. */
-function drawSolids(solids, camera, paper) {
+/* Faces before their edges, which would else fight with them. Of bodies that are picked one sees through the faces. `ink`: of the
+ * grid, or null for no ground. */
+function drawSolids(solids, camera, paper, ink) {
   const { gl } = solids;
+  const hasShadows = ink && !isLarge(solids.recording);
+  if (hasShadows && solids.ground.isShadowDue) {
+    drawShadows(solids, camera);
+  }
   setView(solids, camera);
   gl.clearColor(...paper.map(part => part / 255), 1);
   gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
@@ -238,6 +260,10 @@ function drawSolids(solids, camera, paper) {
     drawGroup(solids, group, FACES);
     gl.depthMask(true);
     drawGroup(solids, edged[isPicked], EDGES);
+    if (ink && !isPicked) {
+      drawGround(solids, camera, ink, hasShadows);
+      gl.useProgram(solids.program);
+    }
   });
 }
 

@@ -6,11 +6,11 @@ const element = id => document.getElementById(id);
 function readColours() {
   const style = getComputedStyle(document.documentElement);
   const names = ["paper", "ink", "quiet", "alone", "fixed", "near", "touching", "undecided", "one", "two", "normal", "manifold"];
-  const colours = Object.fromEntries(names.map(name => [name, style.getPropertyValue("--" + name).trim()]));
-  colours.nearMark = colours.one;
-  colours.touchingMark = colours.two;
-  return colours;
+  return Object.fromEntries(names.map(name => [name, style.getPropertyValue("--" + name).trim()]));
 }
+
+/* Okabe and Ito, "Color Universal Design", 2008: those who are blind to a colour tell them apart, too. Black is left out. */
+const BODY_COLOURS = ["#0072b2", "#e69f00", "#009e73", "#56b4e9", "#d55e00", "#f0e442", "#cc79a7"];
 
 /* #rrggbb as 4 parts. */
 const partsOf = (colour, alpha = 255) => [1, 3, 5].map(at => parseInt(colour.slice(at, at + 2), 16)).concat(alpha);
@@ -22,20 +22,16 @@ function startPage(recording) {
   const context = overlay.getContext("2d");
   const solids = makeSolids(canvas, recording);
   const camera = makeCamera();
-  const state = { step: 0, picked: null, body: NO_BODY, isPlaying: false, begun: 0 };
-  let colours = readColours(), spots = [], moveLine = () => {}, isDue = false, outcomes = new Map(), answer = null;
+  const state = { step: 0, picked: null, body: NO_BODY, isPlaying: false, begun: 0, hasGround: true };
+  let colours = readColours(), spots = [], moveLine = () => {}, isDue = false, near = new Set(), answer = null;
 
   /* -- drawing -- */
 
   const paintOf = body => {
-    const outcome = outcomes.get(body);
-    const name = isFixed(recording, body) ? "fixed" : outcome !== undefined ? colourOfOutcome(outcome) : "alone";
-    const parts = partsOf(colours[name]);
-    if (!state.picked && body === state.body) {
-      return partsOf(colours.one);
-    }
+    const own = BODY_COLOURS[objectOf(recording, body) % BODY_COLOURS.length];
+    const parts = partsOf(isFixed(recording, body) ? colours.fixed : own);
     if (!state.picked || !answer) {
-      return parts;
+      return state.body === NO_BODY || near.has(body) ? parts : mixed(parts, partsOf(colours.paper), 0.75);
     }
     const place = state.picked.indexOf(body);
     const alpha = isFixed(recording, body) ? 40 : 120; /* the ground does not hide what stands on it */
@@ -49,7 +45,7 @@ function startPage(recording) {
     context.clearRect(0, 0, camera.width, camera.height);
     context.font = "12px " + getComputedStyle(document.body).fontFamily;
     if (solids) {
-      drawSolids(solids, camera, partsOf(colours.paper));
+      drawSolids(solids, camera, partsOf(colours.paper), state.hasGround ? partsOf(colours.quiet) : null);
     } else {
       drawOutlines(context, recording, state.step, camera, paintOf);
     }
@@ -90,20 +86,15 @@ function startPage(recording) {
     const { step, picked } = state;
     const pair = picked ? findPair(recording, step, ...picked) : -1;
     answer = pair < 0 ? null : pairOf(recording, pair);
-    outcomes = new Map();
-    for (let at = recording.firstPair[step]; at < recording.firstPair[step + 1]; at++) {
-      for (const body of recording.pairBodies.subarray(2 * at, 2 * at + 2)) {
-        const known = outcomes.get(body);
-        outcomes.set(body, known === INTERSECTING ? known : recording.code(at, 0));
-      }
-    }
+    const pairs = listedPairs(recording, state);
+    near = new Set([state.body, ...pairs.flatMap(at => Array.from(recording.pairBodies.subarray(2 * at, 2 * at + 2)))]);
     if (solids) {
       loadBodies(solids, step, paintOf, answer ? picked : []);
     }
     element("step").value = step;
     element("step-text").value = `step ${step} of 0 to ${recording.stepCount - 1}`;
     showPair(element("pair"), recording, state, answer, { forget: () => pick(null), look: lookAtPair });
-    showList(recording, state, listedPairs(recording, state), pick);
+    showList(recording, state, pairs, pick);
     showTallies(element("tallies"), recording, step);
     moveLine(step);
     drawSoon();
@@ -120,7 +111,7 @@ function startPage(recording) {
       }
     }
     const title = state.picked ? "Gap of " + pairName(recording, state.picked) : "Nearest or deepest pair of each step";
-    moveLine = drawPlot(element("plot"), title, series, recording.stepCount, goTo);
+    moveLine = drawPlot(element("plot"), title, series, recording.stepCount, goByHand);
     moveLine(state.step);
   };
 
@@ -140,6 +131,7 @@ function startPage(recording) {
   const setPlaying = isPlaying => {
     state.isPlaying = isPlaying;
     element("play").textContent = isPlaying ? "Pause" : "Play";
+    element("pair").setAttribute("aria-live", isPlaying ? "off" : "polite");
     if (isPlaying) {
       if (state.step === recording.stepCount - 1) {
         goTo(0);
@@ -148,23 +140,22 @@ function startPage(recording) {
     }
   };
 
+  /* Again and again, with a second's rest at the end. */
   const startClock = () => {
     const [from, start, rate] = [state.step, performance.now(), Number(element("speed").value)];
+    const last = recording.stepCount - 1;
     state.begun++;
     const round = state.begun;
     const tick = now => {
       if (!state.isPlaying || round !== state.begun) {
         return;
       }
-      const step = from + Math.floor((now - start) / 1000 * rate);
-      if (step > state.step) {
+      const passed = from + Math.floor(Math.max(0, now - start) / 1000 * rate);
+      const step = Math.min(last, passed % (last + rate));
+      if (step !== state.step) {
         goTo(step);
       }
-      if (state.step === recording.stepCount - 1) {
-        setPlaying(false);
-      } else {
-        requestAnimationFrame(tick);
-      }
+      requestAnimationFrame(tick);
     };
     requestAnimationFrame(tick);
   };
@@ -274,6 +265,10 @@ function startPage(recording) {
     ArrowDown: () => neighbour(1),
     f: showAll,
     l: lookAtPair,
+    g: () => {
+      state.hasGround = !state.hasGround;
+      drawSoon();
+    },
     Escape: () => {
       state.body = NO_BODY;
       pick(null);
@@ -289,12 +284,19 @@ function startPage(recording) {
   });
   element("step").max = recording.stepCount - 1;
   element("step").addEventListener("input", () => goByHand(Number(element("step").value)));
+  /* A row or a button that the next step replaces could not be clicked, nor a moving slider be held. */
+  for (const id of ["step", "list", "pair"]) {
+    element(id).addEventListener("pointerdown", () => setPlaying(false));
+  }
   element("play").addEventListener("click", () => setPlaying(!state.isPlaying));
   element("speed").addEventListener("change", () => state.isPlaying && startClock());
   element("frame").addEventListener("click", showAll);
   element("up").addEventListener("change", () => {
     camera.up = Number(element("up").value);
-    drawSoon();
+    if (solids) {
+      solids.ground.isShadowDue = true;
+    }
+    showAll();
   });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
     colours = readColours();
@@ -322,6 +324,12 @@ function startPage(recording) {
   describe(recording, Boolean(solids));
   refreshPlot();
   refresh();
+  /* The slowest speed that shows all within ten seconds. A large scene waits: its frames are not free. */
+  const speeds = Array.from(element("speed").options, option => option.value);
+  element("speed").value = speeds.find(speed => 10 * speed >= recording.stepCount) || speeds[speeds.length - 1];
+  if (recording.stepCount > 1 && !isLarge(recording) && !matchMedia("(prefers-reduced-motion: reduce)").matches) {
+    setPlaying(true);
+  }
   return { state, camera, recording, goTo, pick, draw, isSolid: Boolean(solids),
     spotOfBody: body => projector(camera)(placeOf(recording, moveOf(recording, body, state.step))) };
 }
@@ -342,7 +350,7 @@ function describe(recording, isSolid) {
     element("notice").hidden = false;
     element("notice").textContent = "This browser gives no WebGL 2, so that bodies are drawn as their edges alone, and of a large scene not all.";
   }
-  const entries = [["touching", "intersecting"], ["near", "listed as near"], ["undecided", "undecided"], ["alone", "not listed"], ["fixed", "fixed"]];
+  const entries = [["touching", "intersecting"], ["near", "near"], ["undecided", "undecided"], ["fixed", "fixed"]];
   const used = entries.filter(([name]) => name !== "undecided" || hasUndecided(recording));
   element("legend").replaceChildren(...used.map(([name, words]) => {
     const dot = make("i", {});

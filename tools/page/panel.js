@@ -128,8 +128,8 @@ function showList(recording, state, pairs, onPick) {
   if (pairs.length > MOST) {
     notes.push(`${counted(MOST)} of ${counted(pairs.length)} are shown; click a body to see all of its own.`);
   }
-  document.getElementById("list-title").textContent = state.body === NO_BODY ? "Who is near" :
-    "Who is near body " + nameOf(recording, state.body);
+  document.getElementById("list-title").textContent = state.body === NO_BODY ? "Near pairs" :
+    "Near pairs of body " + nameOf(recording, state.body);
   document.getElementById("list-note").textContent = notes.join(" ") || (pairs.length ? "" : "No pair in this step.");
 }
 
