@@ -1,6 +1,6 @@
 /* A tower of ten boxes and a pile of hulls from files, under gravity: what contact manifolds are for.
  *
- * Prints how far the tower's boxes have moved after 10 simulated seconds, and how many contact points were known again from step
+ * Prints how far the tower's boxes have moved after some simulated seconds, and how many contact points were known again from step
  * to step. It fails if a box has moved by a twentieth of its side, or if one point of 500 was not known again. With a noise
  * the coordinates of the tower's corners are off by up to that, and their sides no longer flat. The picture shows
  * both from the side, at four times. */
@@ -16,18 +16,19 @@
 
 static const struct program PROGRAM = {
     "tower",
-    "usage: tower [--svg FILE] [--record FILE] [--noise LENGTH] [FOLDER]\n",
+    "usage: tower [--svg FILE] [--record FILE] [--seconds COUNT] [--noise LENGTH] [FOLDER]\n",
     "\n"
-    "Lets a tower of ten boxes stand and a pile come to rest for 10 simulated seconds. Fails if the tower does not stand.\n"
+    "Lets a tower of ten boxes stand and a pile come to rest. Fails if the tower does not stand.\n"
     "\n"
     "  FOLDER             where the shipped models are (default: examples/models)\n"
     "  --svg FILE         pictures from the side, at four times\n"
     "  --record FILE      what swiftprox-replay plays back, and shows by --html\n"
+    "  --seconds COUNT    simulated, from 3 on (default: 10)\n"
     "  --noise LENGTH     by how much coordinates of the tower's corners are off, up to (default: 0)\n"
     "  --help, --version  print this text, the version\n",
 };
 
-enum { BOXES = 10, STEPS_A_SECOND = 240, SECONDS = 10 };
+enum { BOXES = 10, STEPS_A_SECOND = 240, REST = 2 };
 
 /* From −1 to 1, the same on every run (Lehmer 1951, with the constants of Park & Miller 1988). */
 static double next_random(void)
@@ -108,15 +109,21 @@ int main(int argc, char **argv)
 {
     const char *svg = NULL, *record = NULL, *folder = "examples/models";
     double noise = 0;
+    size_t seconds = 10;
     struct program_option options[] = {{.name = "--svg", .kind = OPTION_OUTPUT, .value = &svg},
                                        {.name = "--record", .kind = OPTION_OUTPUT, .value = &record},
+                                       {.name = "--seconds", .kind = OPTION_COUNT, .most = 3600, .value = &seconds},
                                        {.name = "--noise", .kind = OPTION_AMOUNT, .value = &noise}};
     struct command_line line = {
-        .program = &PROGRAM, .options = options, .option_count = 3, .operands = &folder, .most_operands = 1};
+        .program = &PROGRAM, .options = options, .option_count = 4, .operands = &folder, .most_operands = 1};
     int status;
     if (!command_line_read(&line, argc, argv, &status)) {
         return status;
     }
+    if (seconds <= REST) {
+        return program_refuse(&PROGRAM, "--seconds wants 3 or more: it takes 2 until all is at rest");
+    }
+    const int steps = (int)seconds * STEPS_A_SECOND;
     struct world *const world = world_create();
     if (!world) {
         fputs("tower: no memory\n", stderr);
@@ -129,21 +136,21 @@ int main(int argc, char **argv)
     struct strip *const strip = strip_create();
     double deepest = 0;
     size_t known = 0, points = 0;
-    for (int step = 0; step <= SECONDS * STEPS_A_SECOND; step++) {
-        if (step == 0 || step == STEPS_A_SECOND || step == 3 * STEPS_A_SECOND || step == SECONDS * STEPS_A_SECOND) {
+    for (int step = 0; step <= steps; step++) {
+        if (step == 0 || step == STEPS_A_SECOND || step == 3 * STEPS_A_SECOND || step == steps) {
             strip_add(strip, world, (double)step / STEPS_A_SECOND);
         }
-        if (step < SECONDS * STEPS_A_SECOND) {
+        if (step < steps) {
             world_step(world, 1.0 / STEPS_A_SECOND);
         }
-        const bool is_at_rest = step > 2 * STEPS_A_SECOND;
+        const bool is_at_rest = step > REST * STEPS_A_SECOND;
         deepest = is_at_rest ? fmax(deepest, world_depth(world)) : 0;
-        if (is_at_rest && step < SECONDS * STEPS_A_SECOND) {
+        if (is_at_rest && step < steps) {
             world_count_points(world, BOXES, &known, &points);
         }
     }
     const double moved = displacement(world);
-    printf("after %d s no box of the tower is farther than %.4f from where it began; no pair is deeper than %.4f\n", SECONDS,
+    printf("after %zu s no box of the tower is farther than %.4f from where it began; no pair is deeper than %.4f\n", seconds,
            moved, deepest);
     printf("of %zu contact points of the tower at rest %zu were known from the step before\n", points, known);
     const bool written = !svg || strip_write(strip, svg);
