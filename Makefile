@@ -1,4 +1,5 @@
-# make demo                   flies polyhedra around each other: a table, and build/demo.svg; MODELS="a.obj b.stl": your own
+# make demo                   flies polyhedra around each other: a table, and build/demo.svg; then build/demo.html, a tower and a pile
+#                             in 3-D, for a browser; MODELS="a.obj b.stl": your own fly, in 3-D, too
 # make check                  the daily loop, minutes of it: unit tests, C tests and lint
 # make test                   everything that is tested: lint, test-rust, test-c, test-fuzz, proofs and loom, side by side
 # make proofs                 bounds on rounding, proved of the code by Gappa and Coq: docs/proofs.md (a part of make test, too)
@@ -73,7 +74,10 @@ build:
 	+cmake --build $(BUILD)
 
 demo: build
-	$(BUILD)/examples/demo --svg $(BUILD)/demo.svg $(MODELS)
+	$(BUILD)/examples/demo --svg $(BUILD)/demo.svg $(if $(MODELS),--record $(BUILD)/demo.swiftprox) $(MODELS)
+	$(if $(MODELS),,$(BUILD)/examples/tower --seconds 4 --record $(BUILD)/demo.swiftprox)
+	$(BUILD)/tools/swiftprox-replay $(BUILD)/demo.swiftprox --html $(BUILD)/demo.html $(if $(MODELS),,--query contact --tolerance 0.05)
+	@echo "to open in a browser: $(abspath $(BUILD)/demo.html)"
 
 # The library is made once, for unit tests and C tests. What takes long is left to `make test`: valgrind, programs that are installed,
 # other libraries, further compilers, a browser.

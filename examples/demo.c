@@ -140,6 +140,32 @@ static bool verify(const struct flight *flight)
     return true;
 }
 
+/* Writes down the flight as a scene with a query each degree, for swiftprox-replay. */
+static bool record(const struct flight *flight, const char *path)
+{
+    swiftprox_scene *scene;
+    if (swiftprox_scene_create(NULL, &scene) != SWIFTPROX_OK) {
+        return failed("no scene");
+    }
+    swiftprox_scene_query query;
+    swiftprox_scene_query_init(&query);
+    query.distance_tolerance = INFINITY;
+    swiftprox_object_id ids[2];
+    bool good = swiftprox_scene_record(scene, path) == SWIFTPROX_OK;
+    for (int k = 0; k < 2 && good; k++) {
+        good = swiftprox_scene_add_shape(scene, flight->shapes[k], NULL, &ids[k]) == SWIFTPROX_OK;
+    }
+    for (int i = 0; i < POSES && good; i += POSES / 360) {
+        swiftprox_scene_answer answer;
+        good = swiftprox_scene_set_pose(scene, ids[0], flight->poses[i][0]) == SWIFTPROX_OK &&
+               swiftprox_scene_set_pose(scene, ids[1], flight->poses[i][1]) == SWIFTPROX_OK &&
+               swiftprox_scene_query_contact(scene, &query, &answer) == SWIFTPROX_OK;
+    }
+    good = good && swiftprox_scene_record(scene, NULL) == SWIFTPROX_OK; /* what could not be written comes up here */
+    good = good || failed(path);
+    return swiftprox_scene_destroy(scene) == SWIFTPROX_OK && good;
+}
+
 /* ---- the table ---- */
 
 static unsigned steps_of(const swiftprox_pair_answer *answer)
@@ -210,12 +236,13 @@ static void report(struct flight *flight)
 struct arguments {
     const char *models[2];
     const char *svg;
+    const char *record; /* null: nothing is recorded */
     double orbit;
 };
 
 static const struct program PROGRAM = {
     "demo",
-    "usage: demo [--orbit F] [--svg FILE] [MODEL [MODEL]]\n",
+    "usage: demo [--orbit F] [--svg FILE] [--record FILE] [MODEL [MODEL]]\n",
     "\n"
     "The second model (or a copy of the first) flies around the first one; without models, samples fly. Of a model that is not\n"
     "convex its hull flies.\n"
@@ -223,6 +250,7 @@ static const struct program PROGRAM = {
     "  --orbit F          the smallest distance of the two centres, from above 0 to 1e6 (default: 0.8), as a multiple of the\n"
     "                     sum of the two radii\n"
     "  --svg FILE         where the chart of distances over time goes (default: demo.svg)\n"
+    "  --record FILE      the first flight, for swiftprox-replay, which shows it by --html\n"
     "  --help, --version  print this text, the version\n",
 };
 
@@ -233,6 +261,7 @@ static bool read_arguments(int argc, char **argv, struct arguments *arguments, i
     struct program_option options[] = {
         {.name = "--orbit", .kind = OPTION_AMOUNT, .value = &arguments->orbit},
         {.name = "--svg", .kind = OPTION_OUTPUT, .value = &arguments->svg},
+        {.name = "--record", .kind = OPTION_OUTPUT, .value = &arguments->record},
     };
     struct command_line line = {.program = &PROGRAM,
                                 .options = options,
@@ -310,6 +339,9 @@ static bool run(struct flight *flights, int count, const struct arguments *argum
         }
         report(flight);
         panels[i] = (struct chart_panel){flight->title, flight->subtitle, flight->distances, POSES};
+    }
+    if (arguments->record && !record(&flights[0], arguments->record)) {
+        return false;
     }
     if (!chart_write(arguments->svg, panels, (size_t)count)) {
         fprintf(stderr, "demo: %s: cannot be written: %s\n", arguments->svg, strerror(errno));

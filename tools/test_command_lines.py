@@ -22,11 +22,13 @@ OPTIONS = {"swiftprox-query": ("--query", "--tolerance", "--error", "--start", "
            "swiftprox-replay": ("--query", "--tolerance", "--error", "--budget", "--input", "--workers", "--bench", "--html"),
            "swiftprox-tune": ("--query", "--tolerance", "--error", "--input", "--workers", "--passes"),
            "swiftprox-sweep": ("--out", "--share", "--margin", "--input", "--times"), "certified_edge": ("--svg",),
-           "demo": ("--orbit", "--svg"), "tower": ("--svg", "--record"), "crowd": ("--svg",)}
+           "demo": ("--orbit", "--svg", "--record"),
+           "tower": ("--svg", "--record", "--seconds"), "crowd": ("--svg",)}
 CHOICES = {"--query", "--start", "--levels", "--input"}
 NUMBERS = {"--error": ("-1", "x", "nan", ""), "--tolerance": ("-1", "x", "nan", ""), "--budget": ("-1", "x", "nan", ""),
            "--margin": ("-1", "x", "nan", ""), "--share": ("0", "x", "1048577"), "--orbit": ("-1", "0", "x", "1e6"),
-           "--count": ("0", "-1", "x", " 1", "9" * 30), "--bench": ("0", "x", "1.5"), "--workers": ("0", "1025", "many"), "--passes": ("0", "x")}
+           "--count": ("0", "-1", "x", " 1", "9" * 30), "--bench": ("0", "x", "1.5"), "--workers": ("0", "1025", "many"), "--passes": ("0", "x"),
+           "--seconds": ("0", "2", "3601", "x")}
 
 
 def run(name, *arguments):
@@ -114,8 +116,8 @@ class CommandLines(unittest.TestCase):
         self.refused("swiftprox-replay", "--verify has no meaning beside --bench", recording, "--verify", "--bench", "1")
 
     def test_files_to_be_written_are_tried_first(self):
-        for name, option in (("demo", "--svg"), ("certified_edge", "--svg"), ("tower", "--svg"), ("tower", "--record"), ("crowd", "--svg"),
-                             ("swiftprox-replay", "--html")):
+        for name, option in (("demo", "--svg"), ("demo", "--record"), ("certified_edge", "--svg"), ("tower", "--svg"),
+                             ("tower", "--record"), ("crowd", "--svg"), ("swiftprox-replay", "--html")):
             for path in (os.path.join(self.folder, "none", "a.svg"), self.folder):
                 self.refused(name, path, option, path)
         # The trial leaves no file behind, and none changed, where the program goes on to refuse something else.

@@ -22,7 +22,8 @@ const FIELD_OF_VIEW = 35 * Math.PI / 180;
 
 function makeCamera() {
   /* extent: half of what moves; reach: how far anything is from the origin; ground: the point of it below the scene */
-  return { target: [0, 0, 0], yaw: -1.05, pitch: 0.3, distance: 1, extent: 1, reach: 1, ground: [0, 0, 0], up: 2, width: 1, height: 1 };
+  return { target: [0, 0, 0], yaw: -1.05, pitch: 0.3, distance: 1, extent: 1, reach: 1, ground: [0, 0, 0], up: 2,
+    width: 1, height: 1 };
 }
 
 /* The axes of the world, of which the last goes up. */
@@ -93,66 +94,58 @@ function zoomCamera(camera, factor) {
   camera.distance = Math.min(20 * camera.extent, Math.max(1e-5 * camera.extent, camera.distance * factor));
 }
 
-/* A few moves of a body over time. */
-function samplesOf(recording, body) {
+/* Spheres around bodies at a few moves of each over time, seen from the origin. */
+function sampleSpheres(recording) {
   const { first, order, places } = recording.moves;
-  const stride = Math.max(1, Math.floor((first[body + 1] - first[body]) / 8));
-  const samples = [];
-  for (let at = first[body]; at < first[body + 1]; at += stride) {
-    if (!Number.isNaN(places[3 * order[at]])) {
-      samples.push(order[at]);
+  const spheres = [];
+  for (let body = 0; body < recording.bodyCount; body++) {
+    const { radius } = recording.shapes[shapeOf(recording, body)];
+    const stride = Math.max(1, Math.floor((first[body + 1] - first[body]) / 8));
+    for (let at = first[body]; at < first[body + 1]; at += stride) {
+      const move = order[at], [x, y, z] = places.subarray(3 * move, 3 * move + 3);
+      if (!Number.isNaN(x)) {
+        spheres.push({ body, move, radius, place: [x, y, z] });
+      }
     }
   }
-  return samples;
+  return spheres;
 }
 
-/* A box that holds most of the bodies: one that is flung away does not make the others small. Null of no bodies. */
-function boxOf(recording, bodies) {
-  const lower = [[], [], []], upper = [[], [], []];
-  for (const body of bodies) {
-    const radius = recording.shapes[shapeOf(recording, body)].radius;
-    for (const move of samplesOf(recording, body)) {
-      placeOf(recording, move).forEach((x, k) => {
-        lower[k].push(x - radius);
-        upper[k].push(x + radius);
-      });
-    }
-  }
-  const quantile = (numbers, part) => Float64Array.from(numbers).sort()[Math.round(part * (numbers.length - 1))];
-  return lower[0].length === 0 ? null :
-    [lower.map(numbers => quantile(numbers, 0.01)), upper.map(numbers => quantile(numbers, 0.99))];
+/* A box that holds most of the spheres: one that is flung away does not make the others small. Null of none. */
+function boxOf(spheres) {
+  const quantile = (numbers, part) => numbers.sort()[Math.round(part * (numbers.length - 1))];
+  const ends = (part, side) => [0, 1, 2].map(k =>
+    quantile(Float64Array.from(spheres, ({ place, radius }) => place[k] + side * radius), part));
+  return spheres.length === 0 ? null : [ends(0.01, -1), ends(0.99, 1)];
 }
 
-/* Puts spheres, as [x, y, z, radius], into the picture with a little room about them. */
+/* Puts spheres into the picture with a little room about them. */
 function fitSpheres(camera, spheres) {
   const { right, up, back } = axesOf(camera);
   const slope = Math.tan(FIELD_OF_VIEW / 2), wide = slope * camera.width / camera.height;
   for (const axis of [right, up]) {
-    const ends = [-1, 1].map(side => spheres.reduce((most, sphere) => Math.max(most, side * dot(axis, sphere) + sphere[3]), -Infinity));
-    camera.target = add(camera.target, axis, (ends[1] - ends[0]) / 2 - dot(axis, camera.target));
+    const end = side => spheres.reduce((most, { place, radius }) => Math.max(most, side * dot(axis, place) + radius), -Infinity);
+    camera.target = add(camera.target, axis, (end(1) - end(-1)) / 2 - dot(axis, camera.target));
   }
-  camera.distance = spheres.reduce((most, sphere) => {
-    const from = add(sphere.slice(0, 3), camera.target, -1);
-    const aside = Math.max((Math.abs(dot(right, from)) + sphere[3]) / wide, (Math.abs(dot(up, from)) + sphere[3]) / slope);
-    return Math.max(most, 1.05 * aside + dot(back, from));
+  const [x, y, z] = [right, up, back].map(axis => dot(axis, camera.target));
+  camera.distance = spheres.reduce((most, { place, radius }) => {
+    const aside = Math.max((Math.abs(dot(right, place) - x) + radius) / wide, (Math.abs(dot(up, place) - y) + radius) / slope);
+    return Math.max(most, 1.05 * aside + dot(back, place) - z);
   }, 0);
 }
 
-/* How low bodies get, those aside whose spheres get lower than `floor`. Spheres say which are worth a look. */
-function lowestOf(recording, bodies, up, floor) {
-  const axis = worldAxes(up)[2], near = [];
-  for (const body of bodies) {
-    const { radius, vertices } = recording.shapes[shapeOf(recording, body)];
-    samplesOf(recording, body).forEach(move => near.push({ move, vertices, least: recording.moves.places[3 * move + up] - radius }));
-  }
+/* How low the bodies in the spheres get, or `floor` without any. The spheres say which are worth a look. */
+function lowestOf(recording, spheres, up, floor) {
+  const axis = worldAxes(up)[2];
   let lowest = Infinity;
-  for (const { move, vertices, least } of near.filter(sample => sample.least >= floor).sort((a, b) => a.least - b.least)) {
-    if (least >= lowest) {
+  for (const { body, move, radius, place } of spheres.slice().sort((a, b) => a.place[up] - a.radius - b.place[up] + b.radius)) {
+    if (place[up] - radius >= lowest) {
       break;
     }
+    const { vertices } = recording.shapes[shapeOf(recording, body)];
     const [x, y, z, w] = turnOf(recording, move), down = turned([-x, -y, -z, w], axis);
     for (let v = 0; v < vertices.length; v += 3) {
-      lowest = Math.min(lowest, recording.moves.places[3 * move + up] + dot(down, vertices.subarray(v, v + 3)));
+      lowest = Math.min(lowest, place[up] + dot(down, vertices.subarray(v, v + 3)));
     }
   }
   return Number.isFinite(lowest) ? lowest : floor;
@@ -160,25 +153,21 @@ function lowestOf(recording, bodies, up, floor) {
 
 /* Shows what moves, and of what is fixed all that is no larger than that and not far away. */
 function frameScene(camera, recording) {
-  const all = Array.from({ length: recording.bodyCount }, (_, body) => body);
-  const radiusOf = body => recording.shapes[shapeOf(recording, body)].radius;
-  const moving = all.filter(body => !isFixed(recording, body));
-  let box = boxOf(recording, moving), shown = all;
-  if (box) {
-    const target = middle(...box), extent = Math.hypot(...add(box[1], box[0], -1)) / 2;
-    const isBeside = body => radiusOf(body) <= extent &&
-      samplesOf(recording, body).some(move => Math.hypot(...add(placeOf(recording, move), target, -1)) <= 2 * extent);
-    shown = moving.concat(all.filter(body => isFixed(recording, body) && isBeside(body)));
-    box = boxOf(recording, shown);
+  const all = sampleSpheres(recording), moving = all.filter(({ body }) => !isFixed(recording, body));
+  let shown = moving.length > 0 ? moving : all;
+  let box = boxOf(shown) || [[-1, -1, -1], [1, 1, 1]];
+  const halfOf = () => Math.hypot(...add(box[1], box[0], -1)) / 2;
+  if (moving.length > 0) {
+    const target = middle(...box), extent = halfOf();
+    shown = all.filter(({ body, radius, place }) => !isFixed(recording, body) ||
+      (radius <= extent && Math.hypot(...add(place, target, -1)) <= 2 * extent));
+    box = boxOf(shown);
   }
-  box = box || boxOf(recording, all) || [[-1, -1, -1], [1, 1, 1]];
   camera.target = middle(...box);
-  camera.extent = Math.max(Math.hypot(...add(box[1], box[0], -1)) / 2, 1e-30);
-  camera.reach = all.reduce((most, body) => samplesOf(recording, body)
-    .reduce((far, move) => Math.max(far, Math.hypot(...placeOf(recording, move)) + radiusOf(body)), most), camera.extent);
+  camera.extent = Math.max(halfOf(), 1e-30);
+  camera.reach = all.reduce((far, { place, radius }) => Math.max(far, Math.hypot(...place) + radius), camera.extent);
+  const within = shown.filter(({ place }) => place.every((x, k) => x >= box[0][k] && x <= box[1][k]));
   camera.ground = camera.target.slice();
-  camera.ground[camera.up] = lowestOf(recording, shown, camera.up, box[0][camera.up]);
-  const spheres = shown.flatMap(body => samplesOf(recording, body).map(move => [...placeOf(recording, move), radiusOf(body)]))
-    .filter(sphere => [0, 1, 2].every(k => sphere[k] >= box[0][k] && sphere[k] <= box[1][k]));
-  fitSpheres(camera, spheres.length > 0 ? spheres : [[...camera.target, camera.extent]]);
+  camera.ground[camera.up] = lowestOf(recording, within, camera.up, box[0][camera.up]);
+  fitSpheres(camera, within.length > 0 ? within : [{ place: camera.target, radius: camera.extent }]);
 }

@@ -84,7 +84,8 @@ function drawShadows(solids, camera) {
   gl.blendEquation(gl.MAX);
   gl.clearColor(0, 0, 0, 0);
   gl.clear(gl.COLOR_BUFFER_BIT);
-  solids.groups.forEach(group => drawGroup(solids, group.filter(({ shape }) => recording.shapes[shape].radius <= camera.extent), SHADOWS));
+  const throwsOne = ({ shape }) => recording.shapes[shape].radius <= camera.extent;
+  solids.groups.forEach(group => drawGroup(solids, group.filter(throwsOne), SHADOWS));
   gl.blendEquation(gl.FUNC_ADD);
   gl.bindFramebuffer(gl.FRAMEBUFFER, null);
   gl.bindTexture(gl.TEXTURE_2D, ground.shadows);

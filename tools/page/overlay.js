@@ -63,30 +63,34 @@ function mark(context, spot, colours, colour, isFilled) {
   }
 }
 
-/* The lines between all pairs, the nearest of many, and dots where they touch. Returns where a click finds them. */
+/* The lines between all pairs, the nearest of many, and where they touch or nearly do. Returns where a click finds them. Without a
+ * graphics card the marks of a crowd would take longer than its bodies: there are plain lines and dots instead. */
 function drawPairs(context, recording, step, project, colours) {
-  const MOST = 3000;
+  const MOST = 3000, MOST_MARKED = 300;
   const spots = [];
   const [from, to] = [recording.firstPair[step], recording.firstPair[step + 1]];
-  context.lineWidth = 1;
+  const isMarked = to - from <= MOST_MARKED;
   for (let pair = from; pair < Math.min(to, from + MOST); pair++) {
     const answer = pairOf(recording, pair);
     const spot = spotOf(answer, project);
     if (!spot) {
       continue;
     }
-    spots.push({ pair, spot });
+    const colour = colours[colourOfOutcome(answer.outcome)];
+    spots.push({ pair, spot, colour, isIntersecting: answer.isIntersecting });
     if (!answer.isIntersecting) {
-      for (const [width, colour] of [[4, colours.paper], [1.5, colours.near]]) {
+      for (const [width, shade] of isMarked ? [[4, colours.paper], [1.5, colour]] : [[1, colour]]) {
         context.lineWidth = width;
-        context.strokeStyle = colour;
+        context.strokeStyle = shade;
         line(context, ...answer.drawn.map(project));
       }
+    } else if (!isMarked) {
+      context.fillStyle = colour;
+      disc(context, spot, 2);
     }
   }
-  for (const { pair, spot } of spots) {
-    const isIntersecting = recording.code(pair, 0) === INTERSECTING;
-    mark(context, spot, colours, isIntersecting ? colours.touching : colours.near, isIntersecting);
+  if (isMarked) {
+    spots.forEach(({ spot, colour, isIntersecting }) => mark(context, spot, colours, colour, isIntersecting));
   }
   return spots;
 }

@@ -293,7 +293,9 @@ function startPage(recording) {
   element("frame").addEventListener("click", showAll);
   element("up").addEventListener("change", () => {
     camera.up = Number(element("up").value);
-    solids && (solids.ground.isShadowDue = true);
+    if (solids) {
+      solids.ground.isShadowDue = true;
+    }
     showAll();
   });
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", () => {
