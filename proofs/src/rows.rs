@@ -159,7 +159,7 @@ pub fn rows(kernels: &[Kernel]) -> Vec<Row> {
         row("normal `unit`", "a component", 4.0, most("normals", &["unit"]), "C"),
         row("slack `HEIGHT`", "of the magnitudes", HEIGHT / U, most("normals", &["height"]) + 1.0, "C"),
         // The loss is at most B, as the excess is at most 2B; its own rounding and that of the rise count twice and once. The ends'
-        // directions are of unit length up to 4u; a gap below 0 may be too high by 8u of itself, as `ends` takes it times less than 1.
+        // directions are of unit length up to 4u; a gap below 0 may be too high by 8u of itself.
         row(
             "motion `least_between`",
             "of both gaps and B",
