@@ -123,7 +123,7 @@ test-fuzz:
 	scripts/fuzz.sh --as-test
 
 # Where Gappa and Coq cannot be had the tapes are compared all the same, by test-rust.
-PROVERS = gappa=gappa coqc=coq /usr/lib/ocaml/coq/user-contrib/Flocq=libcoq-flocq
+PROVERS = gappa=gappa coqc=coq $(shell coqc -where 2>/dev/null)/user-contrib/Flocq=libcoq-flocq
 test-proofs:
 	-@scripts/require.sh $(CC_PACKAGES) $(PROVERS)
 	scripts/proofs.sh --if-there

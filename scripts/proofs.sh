@@ -1,16 +1,16 @@
 #!/bin/sh
 # Makes scripts of what the code computes, and has Gappa and Coq prove them: docs/proofs.md.
 #
-#   proofs.sh [--if-there]      --if-there: nothing to do without Gappa or Coq
+#   [PROFILE=daily] proofs.sh [--if-there]      --if-there: without Gappa, Coq or Flocq nothing is done
 set -e
 cd "${0%/*}/.."
 folder=build/proofs
-if [ "$1" = --if-there ] && ! { command -v gappa && command -v coqc; } >/dev/null 2>&1; then
-    echo 'gappa or coqc is missing: bounds on rounding are not proved' >&2
+if [ "$1" = --if-there ] && ! { gappa --version && [ -e "$(coqc -where)/user-contrib/Flocq" ]; } >/dev/null 2>&1; then
+    echo 'Gappa, Coq or Flocq is missing: bounds on rounding are not proved' >&2
     exit 0
 fi
 rm -rf "$folder"
-cargo run --locked --quiet --profile checked --package proofs -- "$folder"
+cargo run --locked --quiet --profile "${PROFILE:-checked}" --package proofs -- "$folder"
 cp proofs/coq/*.v "$folder"
 cd "$folder"
 for script in *.g; do

@@ -22,7 +22,7 @@ pub(super) struct Along<'a> {
 
 impl Along<'_> {
     /// The lowest of body 1 over the highest of body 2, at most: per unit of the direction's length. −∞ where the magnitudes are
-    /// beyond what doubles bound.
+    /// beyond what doubles bound. Below 0 it may be too high by 8u of itself, which `least_between` allows for.
     pub fn gap(mut self) -> f64 {
         let gap = simd::dispatch(&mut self);
         if gap > f64::NEG_INFINITY { gap } else { self.gap_of_spheres() }
