@@ -241,8 +241,8 @@ typedef enum swiftprox_input SWIFTPROX_INT32 {
   /** Admit bodies without interior (a two-sided polygon); otherwise as strict. */
   SWIFTPROX_INPUT_FLAT = 1,
   /**
-   * Take the convex hull of the vertices, of any dimension. Faces label the hull if one of the other two would admit the
-   * mesh; otherwise they are ignored, and a face's label is its own index.
+   * Take the convex hull of the vertices, of any dimension, also of those that belong to no face. Faces label the hull if one of
+   * the other two would admit the mesh; otherwise they are ignored, and a face's label is its own index.
    */
   SWIFTPROX_INPUT_HULL = 2,
   /**
@@ -254,8 +254,8 @@ typedef enum swiftprox_input SWIFTPROX_INT32 {
    */
   SWIFTPROX_INPUT_NEARLY_CONVEX = 3,
   /**
-   * The faces are a part of the surface of their vertices' hull, as a piece of a decomposition is: that hull counts, of any
-   * dimension. Vertices of no face are left out. A face of the hull on which no face of the mesh lies is called
+   * The faces are a part of the surface of their vertices' hull, or all of it: that hull counts, of any dimension. Vertices of no
+   * face, which some mesh files have, are left out. A face of the hull on which no face of the mesh lies is called
    * SWIFTPROX_NO_FACE. Whether the faces do lie on the hull is not checked: no verdict and no distance depends on it.
    */
   SWIFTPROX_INPUT_PATCH = 4

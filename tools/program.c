@@ -35,16 +35,25 @@ void program_print_library_message(void)
     static const char *const WORDS[][2] = {
         {"the input policy Flat (SWIFTPROX_INPUT_FLAT)", "--input flat"},
         {"the input policy Hull (SWIFTPROX_INPUT_HULL)", "--input hull"},
+        {"the input policy Patch (SWIFTPROX_INPUT_PATCH)", "--input patch"},
     };
-    const char *const message = swiftprox_library_last_error_message();
-    for (size_t i = 0; i < sizeof WORDS / sizeof *WORDS; i++) {
-        const char *const found = strstr(message, WORDS[i][0]);
-        if (found) {
-            fprintf(stderr, "%.*s%s%s\n", (int)(found - message), message, WORDS[i][1], found + strlen(WORDS[i][0]));
+    const char *message = swiftprox_library_last_error_message();
+    for (;;) {
+        const char *found = NULL, *const *words = NULL;
+        for (size_t i = 0; i < sizeof WORDS / sizeof *WORDS; i++) {
+            const char *const at = strstr(message, WORDS[i][0]);
+            if (at && (!found || at < found)) {
+                found = at;
+                words = WORDS[i];
+            }
+        }
+        if (!found) {
+            fprintf(stderr, "%s\n", message);
             return;
         }
+        fprintf(stderr, "%.*s%s", (int)(found - message), message, words[1]);
+        message = found + strlen(words[0]);
     }
-    fprintf(stderr, "%s\n", message);
 }
 
 int program_end(const struct program *program, int status)

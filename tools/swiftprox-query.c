@@ -18,7 +18,7 @@
 static const char USAGE[] = "usage: swiftprox-query A B POSES [--query contact|distance|intersection|approximate|depth|cast]\n"
                             "                       [--tolerance T] [--margin M]\n"
                             "                       [--error E] [--start auto|cache|table|cold] [--levels auto|none|quadric|dk|outer]\n"
-                            "                       [--input strict|flat|hull] [--count N] [--bench PASSES]\n";
+                            "                       [--input POLICY] [--count N] [--bench PASSES]\n";
 
 static const char HELP[] =
     "\n"
@@ -56,7 +56,9 @@ static const char HELP[] =
     "                        (--levels and --start: not for the query depth)\n"
     "  --input strict        refuse a mesh that is not closed and convex with an interior (the default)\n"
     "  --input flat          admit bodies without interior as well, such as a two-sided polygon\n"
-    "  --input hull          take the convex hull of the vertices\n"
+    "  --input hull          take the convex hull of the vertices, also of those of no face\n"
+    "  --input patch         take the convex hull of the faces\n"
+    "                        (nearly-convex: as flat, up to the precision of the coordinates)\n"
     "  --count N             answer the first N queries only\n"
     "  --bench PASSES        print times instead of answers, see below\n"
     "  --help, --version     print this text, the version\n"

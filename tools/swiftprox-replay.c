@@ -18,7 +18,7 @@
 #include "text.h"
 
 static const char USAGE[] = "usage: swiftprox-replay FILE [--query intersection|distance|contact|approximate] [--tolerance T]\n"
-                            "                        [--error E] [--budget B] [--input strict|flat|hull] [--workers K] [--verify]\n"
+                            "                        [--error E] [--budget B] [--input POLICY] [--workers K] [--verify]\n"
                             "                        [--bench PASSES | --html OUT]\n";
 
 static const char HELP[] =
@@ -45,7 +45,9 @@ static const char HELP[] =
     "                        query approximate (default: infinite)\n"
     "  --input strict        refuse a mesh that is not closed and convex with an interior (the default)\n"
     "  --input flat          admit bodies without interior as well, such as a two-sided polygon\n"
-    "  --input hull          take the convex hull of the vertices\n"
+    "  --input hull          take the convex hull of the vertices, also of those of no face\n"
+    "  --input patch         take the convex hull of the faces\n"
+    "                        (nearly-convex: as flat, up to the precision of the coordinates)\n"
     "  --workers K           let K threads share poses and queries (default: 1); it changes no bit of any answer\n"
     "  --verify              check each answer against the shapes alone, and the answers to recorded queries against the\n"
     "                        recorded ones; the first that does not hold ends the program\n"

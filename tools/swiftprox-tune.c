@@ -12,7 +12,7 @@
 #include "tune_settings.h"
 
 static const char USAGE[] = "usage: swiftprox-tune FILE [--query intersection|distance|contact] [--tolerance T] [--error E]\n"
-                            "                      [--input strict|flat|hull|nearly-convex] [--workers K] [--passes N]\n";
+                            "                      [--input POLICY] [--workers K] [--passes N]\n";
 
 static const char HELP[] =
     "\n"

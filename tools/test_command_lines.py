@@ -130,7 +130,8 @@ class CommandLines(unittest.TestCase):
         square = self.file("square.off", "OFF\n4 2 0\n0 0 0\n1 0 0\n1 1 0\n0 1 0\n4 0 1 2 3\n4 3 2 1 0\n")
         point = self.file("open.off", "OFF\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n")
         scene = "# swiftprox scene 1\nshape a %s\nobject a\nstep\n"
-        for mesh, option in ((square, "--input flat"), (point, "--input hull")):
+        stray = self.file("stray.off", "OFF\n5 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n5 5 5\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+        for mesh, option in ((square, "--input flat"), (point, "--input hull"), (stray, "--input hull"), (stray, "--input patch")):
             for done in (run("swiftprox-query", mesh, mesh, "POSES"),
                          run("swiftprox-replay", self.file("scene.txt", scene % mesh))):
                 self.assertEqual(done.returncode, 2)

@@ -1,5 +1,5 @@
 //! The readers of mesh files: any bytes in any format are a mesh or a refusal that names the file, and a mesh that was read is
-//! made into a shape or refused.
+//! made into a shape or refused. A body that is written in a dialect of a format is read as that body or refused.
 #![no_main]
 
 use std::fmt::Write;
@@ -12,13 +12,19 @@ use swiftprox::mesh::PolygonMesh;
 use swiftprox::mesh_io::{Format, parse_mesh};
 use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use testkit::mesh_dialects::MeshFile;
 
 const FORMATS: [Option<Format>; 5] =
     [None, Some(Format::TriPoly), Some(Format::Off), Some(Format::Obj), Some(Format::Stl)];
 
-// The first byte is the format.
+/// From this on, a first byte says that the others choose a body and a dialect, below it the format of a file that they are.
+const FIRST_OF_DIALECTS: u8 = 192;
+
 fuzz_target!(|input: (u8, &[u8])| {
     let (format, bytes) = input;
+    if format >= FIRST_OF_DIALECTS {
+        return check_dialect(bytes);
+    }
     let format = FORMATS[usize::from(format) % FORMATS.len()];
     match parse_mesh(bytes, format, "the file") {
         Ok(mesh) => {
@@ -31,6 +37,17 @@ fuzz_target!(|input: (u8, &[u8])| {
         Err(error) => panic!("another kind of error: {error:?}"),
     }
 });
+
+/// Each choice takes a byte, and is 0 behind the last.
+fn check_dialect(bytes: &[u8]) {
+    let mut bytes = bytes.iter();
+    let file = MeshFile::any(&mut |n| bytes.next().map_or(0, |byte| usize::from(*byte) % n));
+    match parse_mesh(&file.bytes, Some(file.format), "the file") {
+        Ok(mesh) => assert!(file.is_body(&mesh), "another body"),
+        Err(Error::File(message)) => assert!(!file.is_plain, "{message}"),
+        Err(error) => panic!("another kind of error: {error:?}"),
+    }
+}
 
 fn check_mesh(mesh: &PolygonMesh) {
     assert!(!mesh.vertices.is_empty());

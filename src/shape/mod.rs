@@ -16,7 +16,9 @@ use crate::base::memory::{OnNeed, copied, found, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
 use crate::build::assembly::build_in_steps;
-use crate::build::check::{FLAT_HINT, HULL_HINT, check_convexity, check_mesh_in_steps, check_surface, is_inside_out};
+use crate::build::check::{
+    FLAT_HINT, HULL_HINT, check_convexity, check_mesh_in_steps, check_surface, is_inside_out, vertex_of_no_face,
+};
 use crate::build::contact_faces::{default_noise, find_contact_faces};
 use crate::build::hull::{check_points, convex_hull_in_steps};
 use crate::build::mass::inertia;
@@ -37,13 +39,26 @@ pub(crate) use triangle::{Triangle, TriangleShape};
 /// What takes every mesh of finite vertices.
 const CURE: &str = "the input policy Hull (SWIFTPROX_INPUT_HULL) takes the hull of the vertices";
 
+/// What takes a mesh without its vertices of no face, if each face has three corners.
+const CURE_BY_FACES: &str = "the input policy Patch (SWIFTPROX_INPUT_PATCH) takes the hull of the faces";
+
 /// A refusal of a mesh with what would take it, where it does not say that itself.
-fn with_cure(error: Error) -> Error {
-    match error {
-        Error::Mesh(message) if ![FLAT_HINT, HULL_HINT].iter().any(|hint| message.ends_with(hint)) => {
-            Error::Mesh(format!("{message}; {CURE}"))
+fn with_cure(error: Error, mesh: &PolygonMesh) -> Error {
+    let Error::Mesh(message) = &error else {
+        return error;
+    };
+    if [FLAT_HINT, HULL_HINT].iter().any(|hint| message.ends_with(hint)) {
+        return error;
+    }
+    match vertex_of_no_face(mesh, &mut Progress::new(&mut |_| true)) {
+        Err(error @ Error::Memory(_)) => error,
+        // Whoever takes the hull of all should know how far it reaches.
+        Ok(Some(v)) => {
+            let is_patch = (0..mesh.face_count()).all(|f| mesh.face(f).len() >= 3);
+            let by_faces = if is_patch { format!("{CURE_BY_FACES}, ") } else { String::new() };
+            Error::Mesh(format!("{message}; {by_faces}{CURE}, also of those in no face (such as vertex {v})"))
         }
-        other => other,
+        Ok(None) | Err(_) => Error::Mesh(format!("{message}; {CURE}")),
     }
 }
 
@@ -79,8 +94,8 @@ pub enum InputPolicy {
     Strict = 0,
     /// Admit bodies without interior (a two-sided polygon); otherwise as strict.
     Flat = 1,
-    /// Take the convex hull of the vertices, of any dimension. Faces label the hull if one of the other two would admit the
-    /// mesh; otherwise they are ignored, and a face's label is its own index.
+    /// Take the convex hull of the vertices, of any dimension, also of those that belong to no face. Faces label the hull if one of
+    /// the other two would admit the mesh; otherwise they are ignored, and a face's label is its own index.
     Hull = 2,
     /// As flat, for a mesh that is convex up to the precision of its coordinates: the convex hull counts. A mesh whose faces all
     /// run clockwise seen from outside is turned. Vertices and faces keep the caller's indices. What the hull swallows is never
@@ -88,8 +103,8 @@ pub enum InputPolicy {
     /// of those that share. Without a convexity tolerance the coordinates say it, before the input transform: four units of the
     /// last place in which they are written (decimals, significant digits, floats), at most 0.005 of the bounding box's diagonal.
     NearlyConvex = 3,
-    /// The faces are a part of the surface of their vertices' hull, as a piece of a decomposition is: that hull counts, of any
-    /// dimension. Vertices of no face are left out. A face of the hull on which no face of the mesh lies is called
+    /// The faces are a part of the surface of their vertices' hull, or all of it: that hull counts, of any dimension. Vertices of no
+    /// face, which some mesh files have, are left out. A face of the hull on which no face of the mesh lies is called
     /// SWIFTPROX_NO_FACE. Whether the faces do lie on the hull is not checked: no verdict and no distance depends on it.
     Patch = 4,
 }
@@ -252,7 +267,7 @@ impl Shape {
         let mut of_body = progress.part(0.0, options.share_of_body());
         let allow_flat = options.input != InputPolicy::Strict;
         let check_as_given = |mesh: &PolygonMesh, progress: &mut Progress| {
-            check_mesh_in_steps(mesh, tolerance, allow_flat, progress).map_err(with_cure)
+            check_mesh_in_steps(mesh, tolerance, allow_flat, progress).map_err(|error| with_cure(error, mesh))
         };
         // All that follows walks over the surface, so it does that in an order that keeps neighbours near each other.
         let order = along_curve(&mesh.vertices, &mut of_body.part(0.0, 0.02))?;

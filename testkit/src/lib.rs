@@ -6,6 +6,7 @@ pub mod random;
 pub mod counting;
 pub mod files;
 pub mod hard;
+pub mod mesh_dialects;
 pub mod models;
 pub mod orbits;
 pub mod provenance;

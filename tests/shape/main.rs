@@ -1,5 +1,6 @@
 //! Mesh files, shapes, saved shapes, and the bodies that tests share.
 
+mod mesh_dialects;
 mod mesh_io;
 mod nearly_convex;
 mod scaled;

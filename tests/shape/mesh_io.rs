@@ -11,8 +11,18 @@ use swiftprox::mesh_io::{Format, parse_mesh, read_mesh, register_mesh_reader, un
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use testkit::random::Random;
 
-const FIXTURES: [&str; 7] =
-    ["cube.off", "cube_one_line.off", "cube_colours.off", "cube.poly", "cube.obj", "cube.stl", "tetrahedron.tri"];
+const FIXTURES: [&str; 10] = [
+    "cube.off",
+    "cube_one_line.off",
+    "cube_colours.off",
+    "cube_silent_colours.off",
+    "cube_glued.off",
+    "cube.poly",
+    "cube.obj",
+    "cube_cr.obj",
+    "cube.stl",
+    "tetrahedron.tri",
+];
 
 fn fixture(name: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/meshes").join(name)
@@ -77,9 +87,128 @@ fn refusal(text: &str, format: Format) -> String {
 
 #[test]
 fn every_liberty_of_the_formats_gives_the_same_cube() {
-    for name in ["cube.off", "cube_one_line.off", "cube_colours.off", "cube.poly", "cube.obj"] {
+    for name in FIXTURES.into_iter().filter(|name| name.starts_with("cube") && *name != "cube.stl") {
         assert_eq!(read_mesh(&fixture(name)), Ok(cube()), "{name}");
     }
+    // By its extension alone: by content it could be anything.
+    assert_eq!(read_mesh(&fixture("cube_no_word.off")), Ok(cube()));
+    assert!(parse_mesh(&bytes_of("cube_no_word.off"), None, "m").is_err());
+}
+
+/// The words that Geomview's grammar has, and those that files have: MeshLab begins with the normals, others write lower case.
+#[test]
+fn off_words_say_what_vertices_have() {
+    let cube_of = |word: &str, behind: &str| {
+        let lines =
+            |line: &str| if line.split(' ').count() == 3 { format!("{line}{behind}\n") } else { format!("{line}\n") };
+        let text = String::from_utf8(bytes_of("cube_no_word.off")).unwrap().replace("8 6\n0\n", "");
+        parse_mesh(
+            format!("{word}8 6 0\n{}", text.lines().map(lines).collect::<String>()).as_bytes(),
+            Some(Format::Off),
+            "m",
+        )
+    };
+    for word in [
+        "OFF", "off", "COFF", "NOFF", "CNOFF", "STOFF", "STCOFF", "STNOFF", "STCNOFF", "NCOFF", "coff", "noff",
+        "stcnoff",
+    ] {
+        for behind in ["", " 1 0 0", " 1 0 0 1", " 0.5 0.5 0.5 1", " 0 0 1 255 255 255 255 0.5 0.25"] {
+            for gap in ["", " ", "\n", "\n\n# counts\n"] {
+                assert_eq!(cube_of(&format!("{word}{gap}"), behind), Ok(cube()), "{word}{gap:?}{behind}");
+            }
+        }
+    }
+    for word in ["4OFF", "ST4OFF", "nOFF", "C4nOFF", "CCOFF", "STSTOFF", "XOFF", "OFFX", "OFFER "] {
+        let message = cube_of(&format!("{word}\n"), "").unwrap_err().to_string();
+        assert!(message.starts_with(&format!("m: line 1: \"{}\" ", word.trim())), "{message}");
+    }
+    // Lower case may say n dimensions as well: such a file has their number first.
+    let message = refusal("noff\n3\n4 1 0\n0 0 0\n1 0 0\n0 1 0\n1 1 0\n3 0 1 2\n", Format::Off);
+    assert_eq!(message, "m: line 3: \"0\" behind the counts: vertices begin on the next line");
+}
+
+/// Plain OFF with numbers behind the vertices was read number by number, so that colours were vertices and faces of another body.
+/// Of the cube [3, 4] x [4, 5] x [4, 5] with red vertices (1 0 0 1) came one of [0, 5] in all directions, without a word.
+#[test]
+fn numbers_behind_vertices_are_never_another_body() {
+    let corners = "3 4 4|3 4 5|3 5 4|3 5 5|4 4 4|4 4 5|4 5 4|4 5 5";
+    let faces = "4 0 1 3 2\n4 4 6 7 5\n4 0 4 5 1\n4 2 3 7 6\n4 0 2 6 4\n4 1 5 7 3\n";
+    let off = |behind: &str| format!("OFF\n8 6 0\n{}{behind}\n{faces}", corners.replace('|', &format!("{behind}\n")));
+    let plain = parse_mesh(off("").as_bytes(), None, "m").unwrap();
+    assert_eq!((plain.vertices.len(), plain.vertices[0]), (8, Vector::new(3.0, 4.0, 4.0)));
+    for behind in [" 1 0 0 1", " 1 1 1", " 255 0 0 255", " .5 .5 .5 1", " 0", " 0 0 1 1 0"] {
+        assert_eq!(parse_mesh(off(behind).as_bytes(), None, "m"), Ok(plain.clone()), "{behind}");
+    }
+}
+
+/// Both readings fit, so it is refused; each cure that the message tells makes one of them certain.
+#[test]
+fn two_bodies_in_one_file_are_refused_with_a_cure() {
+    let faces = "9 0 1\n2 4 5\n6 7 8\n3 0 1 2\n3 2 1 0\n";
+    let text = format!("OFF\n9 2 0\n0 0 0 1 0 0\n0 1 0 0 0 1\n1 1 0 1 0 1\n0 1 1\n1 1 1\n2 2 2\n{faces}");
+    let message = refusal(&text, Format::Off);
+    assert!(message.starts_with("m: line 2: behind these counts there are two bodies"), "{message}");
+    assert!(
+        message.contains("begin the file with COFF, else give each vertex a line with nothing but its coordinates")
+    );
+    let read = |text: String| parse_mesh(text.as_bytes(), None, "m").unwrap();
+    // By lines, with colours at the first three vertices or without.
+    let coloured = read(format!("C{text}"));
+    assert_eq!((coloured.vertices[1], coloured.face(0)), (Vector::y(), &[0, 1, 2][..]));
+    assert_eq!(read(text.replace(" 1 0 0\n", "\n").replace(" 0 0 1\n", "\n").replace(" 1 0 1\n", "\n")), coloured);
+    // In free form, each vertex on its line.
+    let free =
+        read(text.replace(" 1 0 0\n", "\n1 0 0\n").replace(" 0 0 1\n", "\n0 0 1\n").replace(" 1 0 1\n", "\n1 0 1\n"));
+    assert_eq!((free.vertices[1], free.face(0)), (Vector::x(), &[0, 1, 2, 4, 5, 6, 7, 8, 3][..]));
+}
+
+/// Nobody writes colours into free form, but what would come of it must not be another body.
+#[test]
+fn free_form_that_fits_with_colours_as_well_is_refused_with_a_cure() {
+    let read = |text: &str| parse_mesh(text.as_bytes(), None, "m");
+    let message = refusal("OFF 4 2 0\n0 0 0 1 0 0 0 1 0 0 0 1 3 0 1 2 3 0 1 2\n3 2 1 0\n", Format::Off);
+    assert_eq!(
+        message,
+        "m: line 1: behind these counts there are two bodies, one with 3 numbers at each vertex and one with 4; give each vertex \
+         and each face a line of its own"
+    );
+    let plain = read("OFF 4 2 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 1 2\n3 2 1 0\n").unwrap();
+    assert_eq!(plain.vertices[3], Vector::z());
+    let coloured = read("OFF 4 2 0\n0 0 0 1\n0 0 0 1\n0 0 0 1\n3 0 1 2\n3 0 1 2\n3 2 1 0\n").unwrap();
+    assert_eq!(coloured.vertices[3], Vector::new(3.0, 0.0, 1.0));
+}
+
+/// What says that the counts are wrong, or that a body is not all there.
+#[test]
+fn off_files_that_do_not_fit_are_refused() {
+    let cube = |change: &[(&str, &str)]| {
+        let text = String::from_utf8(bytes_of("cube_silent_colours.off")).unwrap();
+        change.iter().fold(text, |text, (from, to)| text.replacen(from, to, 1))
+    };
+    let bare = |text: String| text.replace(" 1 0 0 1\n", "\n");
+    let cases = [
+        (bare(cube(&[("8 6 0", "7 6 0")])), "m: line 10: face 0 of 6: \"-1\" is not a whole number"),
+        (
+            cube(&[("8 6 0", "8 5 0")]),
+            "m: line 16: \"4\" behind the last face: the file says that it has 8 vertices and 5 faces",
+        ),
+        (cube(&[("8 6 0", "8 7 0")]), "m: line 17: face 6 of 7: the file ends here"),
+        (cube(&[("4 1 2 6 5", "4 1 2 6")]), "m: line 14: face 3 of 6: 3 of 4 corners on its line"),
+        (cube(&[("1 1 -1 1 0 0 1", "1 1")]), "m: line 5: vertex 2 of 8: 2 of 3 coordinates on its line"),
+        (cube(&[("1 1 -1", "1 one -1")]), "m: line 5: vertex 2 of 8: \"one\" is not a number"),
+        (
+            "OFF 3 1 0 0 0 0 1 0 0 0 1 0 2 0 1".into(),
+            "m: line 1: face 0 of 1: it has not three different corners or more; \
+          if it is one, give each vertex and each face a line of its own",
+        ),
+    ];
+    for (text, expected) in cases {
+        assert_eq!(refusal(&text, Format::Off), expected);
+    }
+    // The advice, followed.
+    assert!(parse_mesh(b"OFF 3 1 0\n0 0 0\n1 0 0\n0 1 0\n2 0 1", None, "m").is_ok());
+    // Words are no part of a body.
+    assert!(parse_mesh(cube(&[]).as_bytes(), None, "m") == parse_mesh((cube(&[]) + "}\n\x1a").as_bytes(), None, "m"));
 }
 
 #[test]
@@ -112,6 +241,74 @@ fn stl_welds_zeros_of_either_sign() {
     let welded = parse_mesh(&binary_stl(&mesh, ""), None, "m").unwrap();
     // The square x = 0 twice, a quadrilateral for each side; the other four sides have no area.
     assert_eq!((welded.vertices.len(), welded.face_count()), (4, 4));
+}
+
+/// HalfDonut.stl of numpy-stl has a byte behind its triangles. Others are filled up to whole blocks, or have data of their own
+/// there; some programs leave the count at 0. All that was refused.
+#[test]
+fn binary_stl_files_of_another_length() {
+    let stl = binary_stl(&cube(), "");
+    let read = |bytes: &[u8]| parse_mesh(bytes, Some(Format::Stl), "m");
+    let expected = read(&stl);
+    assert_eq!(expected.as_ref().map(|mesh| mesh.face_count()), Ok(12));
+    let with = |behind: &[u8]| read(&[&stl, behind].concat());
+    for behind in [&b"\n"[..], b"\r\n", &[7; 49], &[0; 340], &[0; 50], &[0; 5000], &[0xff; 149]] {
+        assert_eq!(with(behind), expected, "{} bytes", behind.len());
+    }
+    let counted = |count: u32| [&stl[..80], &count.to_le_bytes(), &stl[84..]].concat();
+    assert_eq!(read(&counted(0)), expected);
+    // A count that is less than what is there, as far as the length tells.
+    let message = read(&counted(10)).unwrap_err().to_string();
+    assert_eq!(
+        message,
+        "m: the triangle count is 10, and behind these is as much as 2 more would take; if they are triangles, make the count 12, \
+         else cut the file off behind 584 bytes"
+    );
+    assert_eq!(read(&counted(12)), expected);
+    assert_eq!(read(&counted(10)[..584]).map(|mesh| mesh.face_count()), Ok(10));
+    let message = read(&[&counted(0)[..], b"\n"].concat()).unwrap_err().to_string();
+    assert_eq!(message, "m: the triangle count is 0, and what follows is no whole number of triangles of 50 bytes");
+    assert!(read(&[0; 84]).is_err() && read(&[0; 984]).is_err());
+}
+
+/// A place of zeros that no triangle was written to made a vertex at the origin, and hulls reached to it.
+#[test]
+fn stl_triangles_of_one_point_leave_no_vertex() {
+    let mut mesh = cube();
+    mesh.vertices.iter_mut().for_each(|v| v.x += 7.0);
+    let mut stl = binary_stl(&mesh, "");
+    let expected = parse_mesh(&stl, None, "m").unwrap();
+    stl.splice(84..84, [0; 50]);
+    stl[80..84].copy_from_slice(&13_u32.to_le_bytes());
+    assert_eq!(parse_mesh(&stl, None, "m"), Ok(expected));
+}
+
+#[test]
+fn stl_words_in_two_and_old_line_ends() {
+    let text = String::from_utf8(bytes_of("cube.stl")).unwrap();
+    let expected = read_mesh(&fixture("cube.stl"));
+    for (from, to) in
+        [("endloop", "end loop"), ("endfacet", "End Facet"), ("endsolid", "end solid"), ("ENDSOLID", "END SOLID")]
+    {
+        assert!(text.contains(from) || from == "ENDSOLID", "{from}");
+        assert_eq!(parse_mesh(text.replace(from, to).as_bytes(), None, "m"), expected, "{to}");
+    }
+    let message = refusal("solid\nend\nloop", Format::Stl);
+    assert_eq!(message, "m: line 3: \"loop\" where \"solid\" should be");
+}
+
+/// Old Mac systems ended lines with a carriage return: all such a file was one line.
+#[test]
+fn all_text_may_have_any_line_ends() {
+    for name in FIXTURES {
+        let text = String::from_utf8(bytes_of(name)).unwrap().replace("\r\n", "\n").replace('\r', "\n");
+        for ends in ["\n", "\r\n", "\r"] {
+            let read = parse_mesh(text.replace('\n', ends).as_bytes(), None, name);
+            assert_eq!(read, read_mesh(&fixture(name)), "{name} {ends:?}");
+        }
+    }
+    let lines = refusal("v 0 0 0\rv 1 0 0\r\r\nv 0 1\r", Format::Obj);
+    assert_eq!(lines, "m: line 4: vertex 2 has 2 numbers; 3 are needed");
 }
 
 #[test]
@@ -175,13 +372,25 @@ fn refusals_name_the_line() {
             "POLY 3 1\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3",
             "m: line 5: face 0, corner 2: vertex index 3 is out of range (3 vertices)",
         ),
-        (Off, "4OFF\n", "m: line 1: \"4OFF\" is not supported: vertices must have three coordinates"),
-        (Off, "OFF BINARY\n", "m: line 1: binary OFF is not supported"),
-        (Off, "8 6 0\n", "m: line 1: \"8\" where OFF should be"),
+        (
+            Off,
+            "4OFF\n",
+            "m: line 1: \"4OFF\" is not supported: vertices must have three coordinates; divide them by the fourth and write OFF",
+        ),
+        (
+            Off,
+            "nOFF\n",
+            "m: line 1: \"nOFF\" is not supported: vertices must have three coordinates; write OFF if they have, NOFF if normals \
+             follow",
+        ),
+        (Off, "OFF BINARY\n", "m: line 1: binary OFF is not supported: save the file as text"),
+        (Off, "COFF\nBinary\n", "m: line 1: binary OFF is not supported: save the file as text"),
+        (Off, "ply\n", "m: line 1: \"ply\" where OFF should be"),
+        (Off, "8 6 0\n", "m: line 2: vertex 0 of 8: the file ends here"),
         (Off, "OFF\n# none\n\n", "m: line 4: the number of vertices: the file ends here"),
         (Off, "OFF 0 0 0\n", "m: there are no vertices in it"),
         (Obj, "v 0 0\n", "m: line 1: vertex 0 has 2 numbers; 3 are needed"),
-        (Obj, "v 0 0 0\rv 1 0 0\r", "m: line 1: vertex 0: \"v\" is not a number"),
+        (Obj, "v 0 0 0\rv 1 0\r", "m: line 2: vertex 1 has 2 numbers; 3 are needed"),
         (Obj, "v 0 0 0\nf 1 1/ 0\n", "m: line 2: vertex 0: OBJ counts from 1"),
         (Obj, "v 0 0 0\nf 1 a 1\n", "m: line 2: \"a\" is not a vertex number"),
         (Obj, "v 0 0 0\n\nf 1 2 3\n", "m: line 3: vertex 2 does not exist; the file has 1"),
@@ -239,7 +448,8 @@ fn absurd_counts_are_refused() {
     let cases = [
         (Format::Off, "OFF\n4000000000 1 0\n0 0 0\n", "vertex 1 of 4000000000: the file ends here"),
         (Format::Off, "OFF\n1 4000000000 0\n0 0 0\n", "face 0 of 4000000000: the file ends here"),
-        (Format::Off, "OFF\n1 1 0\n0 0 0\n4294967295 0 0\n", "face 0 of 1: the file ends here"),
+        (Format::Off, "OFF\n1 1 0\n0 0 0\n4294967295 0 0\n", "face 0 of 1: 2 of 4294967295 corners on its line"),
+        (Format::Off, "OFF 1 1 0 0 0 0 4294967295 0 0\n", "face 0 of 1: the file ends here"),
         (Format::Off, "OFF\n4294967296 1 0\n", "the number of vertices: \"4294967296\" does not fit 32 bits"),
         (Format::TriPoly, "TRI 4000000000 4000000000 0 0 0", "vertex 1 of 4000000000: the file ends here"),
         (

@@ -206,6 +206,56 @@ fn meshes_of_nothing_are_told() {
     assert!(Shape::from_mesh(&no_faces, &with(InputPolicy::Hull)).is_ok());
 }
 
+/// The message recommended the hull of all vertices alone, which reaches to those of no face. Of tablelegs-*.obj of mujoco_warp 48
+/// of 120 are, and the hull is 0.381 wide where the surface is 0.325. Whoever follows the message now knows, and has both.
+#[test]
+fn vertices_of_no_face_are_told_of_and_may_be_left_out() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/fixtures/meshes/stray.obj");
+    let of_file = |policy| Shape::from_file(&path, &with(policy));
+    let cure = "; the input policy Patch (SWIFTPROX_INPUT_PATCH) takes the hull of the faces, the input policy Hull \
+                (SWIFTPROX_INPUT_HULL) takes the hull of the vertices, also of those in no face (such as vertex 8)";
+    for policy in [InputPolicy::Strict, InputPolicy::Flat, InputPolicy::NearlyConvex] {
+        let expected = format!("{}: vertex 8 belongs to no face{cure}", path.display());
+        assert_eq!(mesh_message(of_file(policy)), expected);
+    }
+    let reach = |shape: &Shape| {
+        let polyhedron = shape.polyhedron();
+        let vertices = (0..polyhedron.vertices.len() as u32).map(|v| polyhedron.local_position(v).x);
+        (polyhedron.vertices.len(), vertices.fold(f64::MIN, f64::max))
+    };
+    let (by_faces, of_all) = (of_file(InputPolicy::Patch).unwrap(), of_file(InputPolicy::Hull).unwrap());
+    assert_eq!((reach(&by_faces), reach(&of_all)), ((8, 1.0), (9, 5.0)));
+    let of_cube = Shape::from_file(&path.with_file_name("cube.obj"), &ShapeOptions::default()).unwrap();
+    assert_eq!(by_faces.polyhedron().face_labels, of_cube.polyhedron().face_labels);
+    assert_eq!(by_faces.polyhedron().vertex_labels, of_cube.polyhedron().vertex_labels);
+
+    // Whatever else is wrong; a vertex that equals one of a face is no other.
+    let mut mesh = cube();
+    mesh.vertices.extend([Vector::zeros(), Vector::new(0.5, 0.5, 9.0)]);
+    mesh.indices.truncate(20);
+    mesh.starts.truncate(6);
+    let message = mesh_message(Shape::from_mesh(&mesh, &ShapeOptions::default()));
+    assert!(message.ends_with(&cure.replace("vertex 8", "vertex 9")), "{message}");
+    let (by_faces, of_all) =
+        (Shape::from_mesh(&mesh, &with(InputPolicy::Patch)), Shape::from_mesh(&mesh, &with(InputPolicy::Hull)));
+    assert_eq!((by_faces.unwrap().polyhedron().vertices.len(), of_all.unwrap().polyhedron().vertices.len()), (8, 9));
+    mesh.vertices.pop();
+    let message = mesh_message(Shape::from_mesh(&mesh, &ShapeOptions::default()));
+    assert!(
+        message.ends_with("; the input policy Hull (SWIFTPROX_INPUT_HULL) takes the hull of the vertices"),
+        "{message}"
+    );
+    // A face without an area is no part of a patch, so that policy is not recommended.
+    mesh.vertices.push(Vector::new(0.5, 0.5, 9.0));
+    mesh.push_face(&[0, 1]).unwrap();
+    let message = mesh_message(Shape::from_mesh(&mesh, &ShapeOptions::default()));
+    assert!(message.contains("face 5 is degenerate") && !message.contains("PATCH"), "{message}");
+    assert!(
+        message.ends_with("takes the hull of the vertices, also of those in no face (such as vertex 9)"),
+        "{message}"
+    );
+}
+
 #[test]
 fn files_whose_mesh_is_refused_are_named() {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("open.off");

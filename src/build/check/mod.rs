@@ -57,11 +57,22 @@ pub fn check_surface(mesh: &PolygonMesh, progress: &mut Progress) -> Result<()> 
     check_indices(mesh)?;
     let corners = Corners::new(mesh, &mut progress.part(0.0, 0.3))?;
     corners.check_faces(&mut progress.part(0.3, 0.4))?;
-    corners.check_use()?;
+    if let Some(v) = corners.unused_vertex()? {
+        return violation(format!("vertex {v} belongs to no face"));
+    }
     let twins = corners.match_edges(&mut progress.part(0.4, 0.7))?;
     corners.check_fans(&twins, &mut progress.part(0.7, 0.85))?;
     corners.check_connected(&twins, &mut progress.part(0.85, 0.95))?;
     corners.check_genus(&twins, mesh, &mut progress.part(0.95, 1.0))
+}
+
+/// The first vertex that belongs to no face, if there is one: the hull of all vertices reaches to it, whether or not the surface does.
+///
+/// # Errors
+/// As [`check_surface`], for what is wrong with indices alone.
+pub fn vertex_of_no_face(mesh: &PolygonMesh, progress: &mut Progress) -> Result<Option<usize>> {
+    check_indices(mesh)?;
+    Corners::new(mesh, progress)?.unused_vertex()
 }
 
 /// What keeps the rest from failing on indices: [`PolygonMesh`] has public fields.
@@ -162,16 +173,13 @@ impl Corners {
         Ok(())
     }
 
-    /// Every vertex, or one exactly equal to it, is used.
-    fn check_use(&self) -> Result<()> {
+    /// The first vertex that no face has, nor one exactly equal to it.
+    fn unused_vertex(&self) -> Result<Option<usize>> {
         let mut used = filled(false, self.first.len())?;
         for &v in &self.vertex {
             used[v as usize] = true;
         }
-        match self.first.iter().position(|&v| !used[v as usize]) {
-            Some(v) => violation(format!("vertex {v} belongs to no face")),
-            None => Ok(()),
-        }
+        Ok(self.first.iter().position(|&v| !used[v as usize]))
     }
 
     /// The corner across the edge of each corner.

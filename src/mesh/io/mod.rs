@@ -63,7 +63,7 @@ impl Format {
             b"TRI" | b"POLY" => Some(Format::TriPoly),
             b"v" | b"vn" | b"vt" | b"f" | b"o" | b"g" | b"s" | b"mtllib" | b"usemtl" | b"OBJ" => Some(Format::Obj),
             _ if word.eq_ignore_ascii_case(b"solid") => Some(Format::Stl),
-            _ if word.ends_with(b"OFF") => Some(Format::Off),
+            _ if off::is_keyword(word) => Some(Format::Off),
             _ => None,
         }
     }

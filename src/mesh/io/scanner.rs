@@ -1,4 +1,5 @@
-//! Words of a text file, with the line they are on.
+//! Words of a text file, with the line they are on. A line ends with a line feed (Unix), a carriage return (old Mac systems) or
+//! both (Windows), whichever the others of the file end with.
 
 use std::fmt;
 use std::num::IntErrorKind;
@@ -60,7 +61,7 @@ impl<'a> Scanner<'a> {
             if continued > 0 {
                 self.rest = &self.rest[continued..];
                 self.line += 1;
-            } else if self.rest.first().is_some_and(|&b| b != b'\n' && is_space(b)) {
+            } else if self.rest.first().is_some_and(|&b| !is_line_end(b) && is_space(b)) {
                 self.rest = &self.rest[1..];
             } else {
                 break;
@@ -78,9 +79,10 @@ impl<'a> Scanner<'a> {
 
     /// Skips to the line after this one; false when this one is the last.
     pub fn next_line(&mut self) -> bool {
-        match self.rest.iter().position(|&b| b == b'\n') {
+        match self.rest.iter().position(|&b| is_line_end(b)) {
             Some(end) => {
-                self.rest = &self.rest[end + 1..];
+                let both = self.rest[end..].starts_with(b"\r\n");
+                self.rest = &self.rest[end + if both { 2 } else { 1 }..];
                 self.line += 1;
                 true
             }
@@ -94,8 +96,8 @@ impl<'a> Scanner<'a> {
     /// The length of the continued line end that `bytes` start with, or 0.
     fn continuation(&self, bytes: &[u8]) -> usize {
         match bytes {
-            [b'\\', b'\n', ..] if self.continuations => 2,
             [b'\\', b'\r', b'\n', ..] if self.continuations => 3,
+            [b'\\', b'\n' | b'\r', ..] if self.continuations => 2,
             _ => 0,
         }
     }
@@ -114,6 +116,11 @@ impl<'a> Scanner<'a> {
     /// The next whole number from 0; `of` says in messages what it is.
     pub fn index(&mut self, of: fmt::Arguments) -> Result<u32> {
         let token = self.token().ok_or_else(|| self.ended(of))?;
+        self.parse_index(token, of)
+    }
+
+    /// A word as a whole number from 0; `of` says in messages what it is.
+    pub fn parse_index(&self, token: &[u8], of: fmt::Arguments) -> Result<u32> {
         match text(token).map(u32::from_str) {
             Some(Ok(index)) => Ok(index),
             Some(Err(e)) if *e.kind() == IntErrorKind::PosOverflow => {
@@ -161,6 +168,10 @@ pub fn shown(token: &[u8]) -> String {
 
 fn text(token: &[u8]) -> Option<&str> {
     std::str::from_utf8(token).ok()
+}
+
+fn is_line_end(byte: u8) -> bool {
+    byte == b'\n' || byte == b'\r'
 }
 
 /// White space as C's `isspace` has it.

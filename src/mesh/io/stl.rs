@@ -2,7 +2,12 @@
 //!
 //! STL repeats every vertex in every triangle: exactly equal ones become one here, in order of first occurrence. A
 //! triangle with two equal corners has no area, and its other two sides coincide, so the surface closes without it: it is
-//! dropped, and later triangles move up. Normals are not read: vertices say the same, more accurately.
+//! dropped, and later triangles move up. One with three equal corners is a place that nobody filled in, and no vertex comes of it.
+//! Normals are not read: vertices say the same, more accurately.
+//!
+//! A binary file may go on behind its triangles: with what is no whole number of them or with zeros. Where its count is 0, as
+//! programs leave it that do not come back to the header, its length says how many there are, if it is that of whole triangles.
+//! Of ASCII words `endloop`, `endfacet` and `endsolid` may be two words.
 //!
 //! The coordinates of a binary file are single precision. So are nearly always those of an ASCII file, being printed from
 //! the same programs' floats, hence both are marked as such.
@@ -22,34 +27,52 @@ const HEADER: usize = 84;
 /// Normal and three corners in single precision, and two free bytes.
 const TRIANGLE: usize = 50;
 
-/// Whether the file has exactly the size that its triangle count says as a binary file. This is safer than the first word:
-/// the free bytes of a binary file may well start with "solid".
+/// Whether the file has exactly the size that its triangle count says as a binary file. This is safer than the first word: the
+/// free bytes of a binary file may well start with "solid". Only who knows that a file is STL may take another size ([`parse`]).
 pub fn is_binary(bytes: &[u8]) -> bool {
     claimed_size(bytes) == Some(bytes.len() as u64)
 }
 
 /// Reads an STL file.
 pub fn parse(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
-    if is_binary(bytes) {
-        return parse_binary(bytes, name);
-    }
     // Text has no zero bytes; the count of a binary file ends in one unless the file has 16,777,216 triangles or more.
     let head = &bytes[..bytes.len().min(HEADER)];
     let word = Scanner::plain(bytes, name).token().unwrap_or_default();
-    if word.eq_ignore_ascii_case(b"solid") && !head.contains(&0) {
+    if !is_binary(bytes) && word.eq_ignore_ascii_case(b"solid") && !head.contains(&0) {
         return parse_ascii(bytes, name);
     }
-    Err(Error::File(match claimed_size(bytes) {
-        Some(size) => format!(
-            "{name}: neither ASCII STL (which starts with \"solid\") nor binary: its triangle count asks for {size} \
-             bytes, the file has {}",
-            bytes.len()
-        ),
-        None => format!(
-            "{name}: neither ASCII STL (which starts with \"solid\") nor binary: {} bytes are too few",
-            bytes.len()
-        ),
-    }))
+    parse_binary(triangles_of(bytes, name)?, name)
+}
+
+/// The triangles of a binary file, without what stands before and behind them.
+fn triangles_of<'a>(bytes: &'a [u8], name: &str) -> Result<&'a [u8]> {
+    let length = bytes.len() as u64;
+    let refusal = |problem: String| {
+        Err(Error::File(format!("{name}: neither ASCII STL (which starts with \"solid\") nor binary: {problem}")))
+    };
+    let Some(size) = claimed_size(bytes) else {
+        return refusal(format!("{length} bytes are too few"));
+    };
+    let body = &bytes[HEADER..];
+    let has_whole_triangles = body.len().is_multiple_of(TRIANGLE);
+    if size > length {
+        return refusal(format!("its triangle count asks for {size} bytes, the file has {length}"));
+    }
+    if size == HEADER as u64 {
+        let problem = "the triangle count is 0, and what follows is no whole number of triangles of 50 bytes";
+        return if has_whole_triangles { Ok(body) } else { Err(Error::File(format!("{name}: {problem}"))) };
+    }
+    // It fits: no more than the length.
+    let (triangles, rest) = body.split_at(size as usize - HEADER);
+    if has_whole_triangles && rest.iter().any(|byte| *byte != 0) {
+        let (said, more) = (triangles.len() / TRIANGLE, rest.len() / TRIANGLE);
+        return Err(Error::File(format!(
+            "{name}: the triangle count is {said}, and behind these is as much as {more} more would take; if they are triangles, \
+             make the count {}, else cut the file off behind {size} bytes",
+            said + more
+        )));
+    }
+    Ok(triangles)
 }
 
 /// The size of a binary file with the triangle count that is at its place; `None` for a file without that place.
@@ -58,9 +81,9 @@ fn claimed_size(bytes: &[u8]) -> Option<u64> {
     Some(HEADER as u64 + TRIANGLE as u64 * u64::from(u32::from_le_bytes(*count)))
 }
 
-fn parse_binary(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
+fn parse_binary(triangles: &[u8], name: &str) -> Result<PolygonMesh> {
     let mut welder = Welder::default();
-    for (t, triangle) in bytes[HEADER..].chunks_exact(TRIANGLE).enumerate() {
+    for (t, triangle) in triangles.chunks_exact(TRIANGLE).enumerate() {
         let coordinate = |k: usize| {
             let at = 12 + 4 * k;
             let b = &triangle[at..at + 4];
@@ -86,7 +109,11 @@ fn parse_ascii(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
         loop {
             let of = format_args!("triangle {triangle_count} or \"endsolid\"");
             let word = scanner.token().ok_or_else(|| scanner.ended(of))?;
-            if word.eq_ignore_ascii_case(b"endsolid") {
+            let is_half = word.eq_ignore_ascii_case(b"end");
+            if is_half {
+                expect_next(&mut scanner, of, "solid")?;
+            }
+            if is_half || word.eq_ignore_ascii_case(b"endsolid") {
                 scanner.next_line();
                 break;
             }
@@ -113,9 +140,18 @@ fn read_facet(scanner: &mut Scanner, of: fmt::Arguments) -> Result<[Vector; 3]> 
         expect_next(scanner, of, "vertex")?;
         *corner = scanner.point(of)?;
     }
-    expect_next(scanner, of, "endloop")?;
-    expect_next(scanner, of, "endfacet")?;
+    expect_end(scanner, of, "endloop")?;
+    expect_end(scanner, of, "endfacet")?;
     Ok(corners)
+}
+
+/// A word that begins with "end", which may be a word of its own.
+fn expect_end(scanner: &mut Scanner, of: fmt::Arguments, expected: &str) -> Result<()> {
+    let word = scanner.token().ok_or_else(|| scanner.ended(of))?;
+    if word.eq_ignore_ascii_case(b"end") {
+        return expect_next(scanner, of, expected.trim_start_matches("end"));
+    }
+    expect(scanner, word, expected)
 }
 
 fn expect_next(scanner: &mut Scanner, of: fmt::Arguments, expected: &str) -> Result<()> {
@@ -148,6 +184,11 @@ impl Default for Welder {
 
 impl Welder {
     fn push_triangle(&mut self, corners: [Vector; 3]) -> Result<()> {
+        // Not of what is no number: that is refused below.
+        let is_point = corners.iter().all(|corner| corner == &corners[0] && corner.iter().all(|x| x.is_finite()));
+        if is_point {
+            return Ok(());
+        }
         let mut face = [0; 3];
         for (index, corner) in face.iter_mut().zip(&corners) {
             *index = self.vertex(corner)?;
