@@ -239,6 +239,11 @@ static void motions()
     CHECK(std::strlen(swiftprox::to_string(hit.value.outcome)) > 0);
     const std::array<double, 6> written{0.125, 0.25, 0.5, 1.123, 2.25, 3.5};
     CHECK(swiftprox::try_estimate_tolerance(written).value > 1e-9);
+    // Coordinates behind the last whole point were left out: the array is of other numbers, or of others than the caller thinks.
+    for (const std::size_t count : {1, 4, 5}) {
+        const auto odd = swiftprox::try_estimate_tolerance(swiftprox::Range<const double>(written.data(), count));
+        CHECK(odd.status == SWIFTPROX_ERROR_INVALID_ARGUMENT && std::strstr(odd.message(), "not a multiple of 3"));
+    }
     // A tetrahedron is one piece, an open one three.
     const std::array<double, 12> corners{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
     const std::array<std::uint32_t, 12> faces{0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
@@ -484,6 +489,16 @@ static void mesh_readers(const std::string &folder)
     std::FILE *file = std::fopen(path.c_str(), "w");
     CHECK(file != nullptr && std::fputs("CORNER\n", file) >= 0 && std::fclose(file) == 0);
     CHECK(Shape::try_from_file(path).value.try_info().value.vertex_count == 4);
+    // A vertex that is not whole refuses the file, whatever the callback says.
+    const auto read_odd = [](void *, const char *, std::size_t, swiftprox_mesh_sink *raw) {
+        swiftprox::MeshSink sink(raw);
+        CHECK(!sink.try_add_vertices(std::array<double, 13>{0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 5}));
+        static_cast<void>(sink.try_add_faces(std::array<std::uint32_t, 12>{0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2}));
+        return 0;
+    };
+    CHECK_OK(swiftprox::library::try_register_mesh_reader("CORNER", read_odd).status);
+    const auto refused = Shape::try_from_file(path);
+    CHECK(refused.status == SWIFTPROX_ERROR_FILE && std::strstr(refused.message(), "vertices: the number of coordinates"));
     CHECK_OK(swiftprox::library::try_register_mesh_reader("CORNER", nullptr).status);
     CHECK(std::strcmp(swiftprox::to_string(SWIFTPROX_OUTCOME_SEPARATED),
                       swiftprox_library_outcome_string(SWIFTPROX_OUTCOME_SEPARATED)) == 0);

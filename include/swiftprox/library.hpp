@@ -59,13 +59,15 @@ class MeshSink
     explicit MeshSink(swiftprox_mesh_sink *sink) noexcept : sink_(sink) {}
     Result<void> try_add_vertices(Range<const double> vertices) noexcept
     {
+        if (const char *fault = detail::mesh_fault(vertices, {}, {})) {
+            return refuse(fault);
+        }
         return detail::status(swiftprox_mesh_sink_add_vertices(sink_, vertices.data(), vertices.size() / 3));
     }
     Result<void> try_add_faces(Range<const std::uint32_t> indices, Range<const std::uint32_t> valences = {}) noexcept
     {
         if (const char *fault = detail::mesh_fault({}, indices, valences)) {
-            static_cast<void>(swiftprox_mesh_sink_fail(sink_, fault));
-            return detail::refused<void>(fault);
+            return refuse(fault);
         }
         return detail::status(swiftprox_mesh_sink_add_faces(sink_, indices.data(), valences.empty() ? nullptr : valences.data(),
                                                             valences.empty() ? indices.size() / 3 : valences.size()));
@@ -74,6 +76,13 @@ class MeshSink
     Result<void> try_fail(const char *message) noexcept { return detail::status(swiftprox_mesh_sink_fail(sink_, message)); }
 
   private:
+    /* The file, for what C could not see. */
+    Result<void> refuse(const char *fault) noexcept
+    {
+        static_cast<void>(swiftprox_mesh_sink_fail(sink_, fault));
+        return detail::refused<void>(fault);
+    }
+
     swiftprox_mesh_sink *sink_;
 };
 

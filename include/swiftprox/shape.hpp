@@ -235,6 +235,9 @@ class Shape
 /** How far a vertex may lie outside a face by the precision of the coordinates, relative to the bounding box's diagonal. */
 inline Result<double> try_estimate_tolerance(Range<const double> vertices) noexcept
 {
+    if (const char *fault = detail::mesh_fault(vertices, {}, {})) {
+        return detail::refused<double>(fault);
+    }
     return detail::asked<double>([&](double *tolerance) {
         return swiftprox_mesh_estimate_tolerance(vertices.data(), vertices.size() / 3, tolerance);
     });
