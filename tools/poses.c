@@ -67,6 +67,7 @@ bool pose_list_read(const char *path, size_t moments, size_t limit, struct pose_
             list->lines[list->count++] = line.number;
         }
     }
+    good = good && !file.is_refused;
     text_close(&file);
     return good;
 }

@@ -203,6 +203,7 @@ bool scene_file_read(const char *path, struct scene_file *scene)
     while (good && text_next(&file, &line)) {
         good = read_line(&line, scene);
     }
+    good = good && !file.is_refused;
     text_close(&file);
     return good;
 }

@@ -65,6 +65,7 @@ bool sweep_items_read(const char *path, struct sweep_items *items)
         items->digest = sweep_digest(items->digest, numbers, items->kind * sizeof *numbers);
         items->count += good;
     }
+    good = good && !file.is_refused;
     text_close(&file);
     return good;
 }

@@ -19,7 +19,7 @@
 /* So that numbers of a share are counted by an int, as MPI does. */
 enum { DEFAULT_SHARE = 256, MOST_SHARE = 1 << 20 };
 
-static const char USAGE[] = "usage: swiftprox-sweep SCENE POSES --out FILE [--share N] [--margin M] [--input strict|flat|hull]\n"
+static const char USAGE[] = "usage: swiftprox-sweep SCENE POSES --out FILE [--share N] [--margin M] [--input POLICY]\n"
                             "                       [--times FILE]\n";
 
 static const char HELP[] =
@@ -31,12 +31,15 @@ static const char HELP[] =
     "  POSES              poses of that object, 12 numbers a line, the row-major 3x4 [R|T]; or edges, 24 numbers a line,\n"
     "                     the poses at the times 0 and 1, between which it turns by the shortest way about its origin, which\n"
     "                     goes on a line; blank lines and lines that start with # are skipped; rank 0 reads it\n"
-    "  --out FILE         where results are written: to FILE.part first, which a later run goes on with\n"
+    "  --out FILE         where results are written: to FILE.part first, which a later run goes on with; FILE.part.sums\n"
+    "                     has its checksums\n"
     "  --share N          how many items a rank is handed at once (default: 256)\n"
     "  --margin M         of edges: free means farther apart than this (default: 0)\n"
     "  --input strict     refuse a mesh that is not closed and convex with an interior (the default)\n"
     "  --input flat       admit bodies without interior as well, such as a two-sided polygon\n"
-    "  --input hull       take the convex hull of the vertices\n"
+    "  --input hull       take the convex hull of the vertices, also of those of no face\n"
+    "  --input patch      take the convex hull of the faces\n"
+    "                     (nearly-convex: as flat, up to the precision of the coordinates)\n"
     "  --times FILE       write how many seconds of its rank's processor each share took, a line each\n"
     "                     and in the order in which they came\n"
     "  --help, --version  print this text, the version\n"

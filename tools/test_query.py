@@ -167,7 +167,8 @@ class Query(unittest.TestCase):
         for bad, message in ((b"1 2 3", "3 numbers"), (APART.encode() + b" 7", "25 numbers"),
                              (APART.encode()[:-1] + b"nan", "not finite"), (APART.encode()[:-1] + b"-inf", "not finite"),
                              (APART.encode()[:-1] + b"1e999", "not finite"), (b"1 2x 3", "'2x' is not a number"),
-                             (b"\x00\xff", "not a number")):
+                             (b"\x00\xff", "a zero byte"), (b"\x00", "a zero byte"), (b"# a\x00b", "a zero byte"),
+                             (APART.encode() + b"\x00", "a zero byte"), (b"1\x00 2", "a zero byte")):
             poses = self.file("bad.poses", APART.encode() + b"\n# comment\n" + bad + b"\n")
             self.refused(2, "bad.poses:3: ", BOX, BOX, poses)
             self.refused(2, message, BOX, BOX, poses)

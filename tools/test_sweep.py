@@ -27,6 +27,24 @@ def numbers(count, seed, words):
     return "".join(" ".join(place() for _ in range(words)) + "\n" for _ in range(count))
 
 
+def fnv(digest, text):
+    """FNV-1a, 64 bits."""
+    for byte in text.encode():
+        digest = (digest ^ byte) * 0x100000001b3 % 2**64
+    return digest
+
+
+def sums(lines, share):
+    """The checksums of whole shares behind a head: of all up to the end of each."""
+    digest, text = fnv(0xcbf29ce484222325, lines[0]) if lines else 0, ""
+    for first in range(1, len(lines), share):
+        if first + share > len(lines) < 1001:
+            break  # the last share of all is shorter
+        digest = fnv(digest, "".join(lines[first:first + share]))
+        text += "%016x\n" % digest
+    return text
+
+
 class Sweep(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -143,10 +161,43 @@ class Sweep(unittest.TestCase):
         lines = whole.splitlines(keepends=True)
         for kept, from_before in ((0, 0), (1, 0), (64, 0), (65, 64), (300, 256), (1001, 1000)):
             for more in ("", lines[min(kept, 1000)][:9] if kept < 1001 else ""):
-                self.file("out.part", "".join(lines[:kept]) + more)
-                told = self.good(0, self.scene, self.poses, "--out", self.path("out"), "--share", "64")
-                self.assertIn(f"from an earlier run {from_before}\n", told)
-                self.assertEqual(self.read("out"), whole)
+                for summed in {kept, 1001}:
+                    # A run may be killed between the two files, whichever comes first on the disk.
+                    self.file("out.part", "".join(lines[:kept]) + more)
+                    self.file("out.part.sums", sums(lines[:summed], 64) + "1234" if summed else "")
+                    told = self.good(0, self.scene, self.poses, "--out", self.path("out"), "--share", "64")
+                    self.assertIn(f"from an earlier run {from_before}\n", told)
+                    self.assertEqual(self.read("out"), whole)
+        self.assertEqual([name for name in os.listdir(self.folder) if name.startswith("out.part")], [])
+
+    def test_a_part_that_was_changed_is_done_again(self):
+        """Only the head and the ends of lines were looked at, so a line that was changed stayed as it was."""
+        self.good(0, self.scene, self.poses, "--out", self.path("whole"), "--share", "64")
+        whole = self.read("whole")
+        lines = whole.splitlines(keepends=True)
+        at = 1 + 64 * 3 + 10  # in the fourth share
+        digit = lines[at][:-3] + chr(ord(lines[at][-3]) ^ 1) + lines[at][-2:]
+        changed = {"a digit": lines[:at] + [digit] + lines[at + 1:],
+                   "a zero byte": lines[:at] + [lines[at][:5] + "\0" + lines[at][6:]] + lines[at + 1:],
+                   "a long line": lines[:at] + [" " * 5000 + lines[at]] + lines[at + 1:],
+                   "a line less": lines[:at] + lines[at + 1:],
+                   "lines that changed places": lines[:at] + lines[at + 1:at - 1:-1] + lines[at + 2:],
+                   "shares that changed places": lines[:193] + lines[257:321] + lines[193:257] + lines[321:]}
+        for what, found in changed.items():
+            self.file("out.part", "".join(found[:900]))
+            self.file("out.part.sums", sums(lines[:900], 64))
+            done = self.run_sweep(0, self.scene, self.poses, "--out", self.path("out"), "--share", "64")
+            self.assertEqual(done.returncode, 0, what)
+            self.assertIn("out.part: it was changed behind result 192: what follows is answered again", done.stderr, what)
+            self.assertIn("from an earlier run 192\n", done.stdout, what)
+            self.assertEqual(self.read("out"), whole, what)
+        # So is one whose checksums were changed, and without them nothing is believed.
+        for changed, from_before in ((sums(lines[:900], 64).replace("\n", "x", 1), 0), ("", 0)):
+            self.file("out.part", "".join(lines[:900]))
+            self.file("out.part.sums", changed)
+            done = self.run_sweep(0, self.scene, self.poses, "--out", self.path("out"), "--share", "64")
+            self.assertEqual((done.returncode, self.read("out")), (0, whole))
+            self.assertIn(f"from an earlier run {from_before}\n", done.stdout)
 
     def test_a_part_of_another_sweep_is_kept(self):
         for content in ("something else\n", "# swiftprox-sweep 1 poses 3 share 256 margin 0 scene 0 items 0\n"):
@@ -175,7 +226,7 @@ class Sweep(unittest.TestCase):
     def test_what_is_no_file_is_not_replaced(self):
         pipe = self.path("pipe")
         os.mkfifo(pipe)
-        for name in ("out", "out.part"):
+        for name in ("out", "out.part", "out.part.sums"):
             os.symlink(pipe, self.path(name))
             self.refused("it is no regular file", self.scene, self.poses, "--out", self.path("out"))
             self.assertTrue(os.path.islink(self.path(name)))
@@ -188,6 +239,12 @@ class Sweep(unittest.TestCase):
         self.refused("none", self.scene, self.path("none"), *out)
         self.refused("bad:2: ", self.scene, self.file("bad", "# poses\n1 2 3\n"), *out)
         self.refused("bad:2: ", self.scene, self.file("bad", (IDENTITY + "\n1 2\n") % (0.0, 0.0, 0.0)), *out)
+        # The words of a line were counted up to a zero byte, again and again.
+        pose = IDENTITY % (0.0, 0.0, 0.0)
+        for number, text in ((1, "\0"), (1, "\0\n" + pose), (1, "# a\0b\n" + pose), (1, pose + "\0"), (2, pose + "\n\0\0"),
+                             (1, "1 2\0 3\n")):
+            self.refused(f"nul:{number}: a zero byte", self.scene, self.file("nul", text), *out)
+        self.refused("nul.txt:3: a zero byte", self.file("nul.txt", SCENE.replace("object", "obj\0ect", 1)), self.poses, *out)
         self.refused("--margin has no meaning for poses", self.scene, self.poses, "--margin", "1", *out)
         self.refused("one has to move", self.file("fixed.txt", SCENE.replace("object box\n", "object box fixed\n")), self.poses, *out)
         skewed = self.file("skewed", "2 0 0 0 0 1 0 0 0 0 1 0\n")

@@ -133,8 +133,13 @@ bool text_next(struct text_file *file, struct text_line *line)
         file->next = end + 1;
         file->line++;
         char *const first = text_skip_blanks(start);
+        *line = (struct text_line){file->path, file->line, first, end};
+        /* Who looks for the end of a word would find one here. */
+        if (strlen(first) < (size_t)(end - first)) {
+            file->is_refused = true;
+            return text_refuse(line, "a zero byte: this is UTF-16 or no text at all; save it as UTF-8 or ASCII");
+        }
         if (first != end) {
-            *line = (struct text_line){file->path, file->line, first, end};
             return true;
         }
     }

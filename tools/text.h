@@ -11,14 +11,15 @@ struct text_file {
     char *next; /* where the next line starts */
     char *end;
     size_t line;
+    bool is_refused; /* a line of it, after a message */
 };
 
-/* A line that is not blank. It lives as long as its file and ends with a zero byte. */
+/* A line that is not blank. It lives as long as its file and ends with a zero byte, the only one in it. */
 struct text_line {
     const char *path;
     size_t number; /* counted from 1 */
     char *text;    /* from its first character that is not blank */
-    char *end;     /* its zero byte: a zero byte before that is content */
+    char *end;     /* its zero byte */
 };
 
 /* Whether this is a regular file, and neither the standard input nor a pipe or device. */
@@ -32,7 +33,8 @@ bool text_is_same(const char *left, const char *right);
  * false; there is nothing to close then. */
 bool text_open(const char *path, struct text_file *file);
 
-/* The next line that is not blank, false at the end. */
+/* The next line that is not blank. False at the end, and after a message where a line has a zero byte: the file is no text. Look at
+ * `is_refused` for which it was. */
 bool text_next(struct text_file *file, struct text_line *line);
 
 void text_close(struct text_file *file);
