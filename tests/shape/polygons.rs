@@ -189,7 +189,9 @@ fn so_it_is_of_flat_plates() {
         let turn = if round % 2 == 0 { random.quarter_turns() } else { random.rotation() };
         let rounding = ROUNDINGS[1 + round % 3];
         let (mut mesh, mut places) = (PolygonMesh::default(), Vec::new());
-        (0..corners).for_each(|k| drop(mesh.push_vertex((turn * position(k)).map(rounding)).unwrap()));
+        for k in 0..corners {
+            mesh.push_vertex((turn * position(k)).map(rounding)).unwrap();
+        }
         for k in 1..corners - 1 {
             for (fan, normal) in [([0, k, k + 1], Vector::z()), ([1, k + 2, k + 1], -Vector::z())] {
                 mesh.push_face(&fan.map(|corner| (corner % corners) as u32)).unwrap();

@@ -74,7 +74,7 @@ impl<'a> BesideLine<'a> {
 impl NearestToLine {
     /// The distance against a finite double that is not negative.
     pub fn compare(&self, length: f64) -> Ordering {
-        ExactDistance::of_nearest(self.simplex.clone()).compare(length)
+        ExactDistance::of_nearest(self.simplex.copied()).compare(length)
     }
 
     /// Whether the distance of a single place that is outside the body gets less or greater along the line.

@@ -38,6 +38,16 @@ impl Simplex {
         Simplex { corners: listed([corner]), weights: listed([IBig::ONE]), direction, height }
     }
 
+    /// The same simplex again, its lists asked for like all lists here.
+    pub fn copied(&self) -> Simplex {
+        Simplex {
+            corners: listed(self.corners.iter().cloned()),
+            weights: listed(self.weights.iter().cloned()),
+            direction: self.direction.clone(),
+            height: self.height.clone(),
+        }
+    }
+
     /// Whether P is the origin.
     pub fn holds_origin(&self) -> bool {
         self.height.is_zero()
