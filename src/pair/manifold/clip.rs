@@ -31,6 +31,9 @@ pub struct Spot {
     pub corner: CommonCorner,
     /// On either outline; of a vertex its own, twice.
     pub spots: [Vector; 2],
+    /// Of a vertex beside the other outline, by no more than is one place, how high the nearest side is: the plane goes on, and where
+    /// it is steep leaves the body by many times as much.
+    pub beside: Option<f64>,
     /// By how much the gap may be off, where sides cross at a small angle.
     pub error: f64,
 }
@@ -58,9 +61,11 @@ pub fn common_part(outlines: &[Outline; 2], precision: &Precision, mut visit: im
         // Both chains meet at either end: there the lower one speaks.
         let is_end = !chain.has_begun || chain.segments == 0;
         let other = &chains[1 - body];
-        if (side == 0 || !is_end) && is_between(other, &chain.to, precision) {
+        if (side == 0 || !is_end)
+            && let Some(beside) = place_of(other, &chain.to, precision)
+        {
             let corner = CommonCorner::Vertex { body, corner: chain.corner };
-            recent.report(Spot { corner, spots: [chain.to; 2], error: 0.0 }, &mut visit);
+            recent.report(Spot { corner, spots: [chain.to; 2], beside, error: 0.0 }, &mut visit);
         }
         pending[body][side] = chains[body][side].advance();
         if pending[body][side] {
@@ -92,12 +97,16 @@ fn next_event(chains: &[[Chain; 2]; 2], pending: &[[bool; 2]; 2]) -> Option<[usi
     next.map(|(event, _)| event)
 }
 
-/// Whether a place lies between two chains, or at one.
-fn is_between(chains: &[Chain; 2], place: &Vector, precision: &Precision) -> bool {
+/// Of a place that lies between two chains nothing; of one that is at one how high that is there.
+fn place_of(chains: &[Chain; 2], place: &Vector, precision: &Precision) -> Option<Option<f64>> {
     let [low, high] = [0, 1].map(|side| chains[side].at(place.x));
     let off = (low.x - place.x).abs().max((high.x - place.x).abs());
-    let is_over = off <= precision.rounding && place.y >= low.y && place.y <= high.y;
-    is_over || chains.iter().any(|chain| chain.is_near(place, precision.coincident))
+    if off <= precision.rounding && place.y >= low.y && place.y <= high.y {
+        return Some(None);
+    }
+    let [below, above] = chains.each_ref().map(|chain| chain.nearest(place));
+    let (height, distance) = if above.1 < below.1 { above } else { below };
+    (distance <= precision.coincident).then_some(Some(height))
 }
 
 /// Where the segments of two chains cross, if they do, and neither begins nor ends at the other: such an end
@@ -120,8 +129,7 @@ fn crossing(chains: [&Chain; 2], precision: &Precision) -> Option<Spot> {
     }
     let (begun, other) = if first.from.x > second.from.x { (first, second) } else { (second, first) };
     let (ended, another) = if first.to.x < second.to.x { (first, second) } else { (second, first) };
-    let coincident = precision.coincident;
-    if other.is_near(&begun.from, coincident) || another.is_near(&ended.to, coincident) {
+    if other.nearest(&begun.from).1.min(another.nearest(&ended.to).1) <= precision.coincident {
         return None;
     }
     let share = before / (before - after);
@@ -130,7 +138,7 @@ fn crossing(chains: [&Chain; 2], precision: &Precision) -> Option<Spot> {
     let off = (2.0 * precision.rounding / (before - after).abs()).min(1.0);
     let gaps = [begin[0].z - begin[1].z, end[0].z - end[1].z];
     let corner = CommonCorner::Crossing { sides: [first.side(), second.side()] };
-    Some(Spot { corner, spots, error: off * (gaps[0] - gaps[1]).abs() })
+    Some(Spot { corner, spots, beside: None, error: off * (gaps[0] - gaps[1]).abs() })
 }
 
 /// Corners that are told later, as another at the same place may speak for them.

@@ -287,14 +287,15 @@ impl Chain<'_> {
         if self.step == 1 { (self.corner + self.outline.count - 1) % self.outline.count } else { self.corner }
     }
 
-    /// Whether a place is within a distance of the segment, across the normal.
-    pub fn is_near(&self, place: &Vector, distance: f64) -> bool {
+    /// How high the segment's point is that is nearest to a place, and how far from it that is across the normal.
+    pub fn nearest(&self, place: &Vector) -> (f64, f64) {
         let (along, arm) = ((self.to - self.from).xy(), (place - self.from).xy());
         // No squares, which would underflow where lengths do not.
         let length = along.x.hypot(along.y);
         let direction = along / divisor(length);
-        let rest = arm - direction * arm.dot(&direction).clamp(0.0, length);
-        rest.x.abs() <= distance && rest.y.abs() <= distance && rest.x.hypot(rest.y) <= distance
+        let part = arm.dot(&direction).clamp(0.0, length);
+        let rest = arm - direction * part;
+        (self.from.z + (self.to.z - self.from.z) * (part / divisor(length)), rest.x.hypot(rest.y))
     }
 
     /// The segment's point over a first coordinate.

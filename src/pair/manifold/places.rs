@@ -108,7 +108,7 @@ impl View<'_> {
         let error = match spot.corner {
             CommonCorner::Vertex { body, .. } => {
                 let (height, error) = self.height_over(body, &spots[0])?;
-                spots[1 - body].z = height;
+                spots[1 - body].z = spot.beside.unwrap_or(height);
                 error
             }
             CommonCorner::Crossing { .. } => spot.error + self.error_at_crossings(),
