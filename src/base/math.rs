@@ -16,6 +16,9 @@ pub const UNIT_ROUNDOFF: f64 = f64::EPSILON / 2.0;
 /// The largest |RᵀR − I| entry at which a rotation is accepted unless the caller tightens it.
 pub const ROTATION_LIMIT: f64 = 1e-2;
 
+/// The spectral norm of a rotation whose RᵀR − I has entries up to [`ROTATION_LIMIT`] is at most √(1 + 3·1e-2).
+pub const STRETCH: f64 = 1.015;
+
 /// `x` put into [`low`, `high`]; `low` for a NaN. In one comparison each, which `f64::max` and `f64::min` are not: they treat NaN
 /// differently.
 #[inline(always)]

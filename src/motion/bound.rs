@@ -24,7 +24,7 @@ use super::carried::Carried;
 use super::kinds::{Callback, Motion, Screw};
 use super::turn::{LARGEST_ANGLE, Turn};
 use crate::base::error::{Error, Result};
-use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{Pose, STRETCH, UNIT_ROUNDOFF as U, Vector};
 use crate::base::scalar::{Scalar, constant};
 use crate::polyhedron::LARGEST;
 
@@ -33,9 +33,6 @@ pub(super) const LARGEST_TIME: f64 = f64::from_bits((1023 + 100) << 52);
 
 /// What products of numbers in range may lose to underflow, several times over.
 pub(super) const UNDERFLOW: f64 = f64::from_bits((1023 - 800) << 52);
-
-/// The spectral norm of a rotation whose RᵀR − I has entries up to 1e-2 is at most √1.03.
-pub(super) const STRETCH: f64 = 1.015;
 
 /// The bounds of one object over a range of times.
 #[derive(Debug, Clone, Copy)]

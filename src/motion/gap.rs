@@ -1,10 +1,10 @@
 //! The gap of two placed bodies along a given direction, rounded down.
 
-use super::bound::{STRETCH, UNDERFLOW};
-use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
+use super::bound::UNDERFLOW;
+use crate::base::math::{Pose, ROTATION_LIMIT, STRETCH, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::polyhedron::Polyhedron;
-use crate::solve::certificate::{interval, of_vertex, reciprocal_length};
+use crate::solve::certificate::{by_all_vertices, interval, of_vertex, reciprocal_length};
 use crate::solve::frame::Frame;
 use crate::solve::gjk::towards;
 use crate::solve::voronoi::climb;
@@ -61,9 +61,9 @@ impl Kernel for Along<'_> {
             Some(vertices) => vertices,
             None => [look_up(body1, towards1.to_vector()), look_up(body2, towards2.to_vector())],
         };
-        let vertices = [climb(body1, towards1, begin[0]), climb(body2, towards2, begin[1])];
-        let excess =
-            of_vertex(body1, vertices[0], &towards1.to_vector()) + of_vertex(body2, vertices[1], &towards2.to_vector());
+        let (vertex1, excess1) = support(body1, towards1, begin[0]);
+        let (vertex2, excess2) = support(body2, towards2, begin[1]);
+        let (vertices, excess) = ([vertex1, vertex2], excess1 + excess2);
         let [v, w] = vertices.map(|vertex| vertex as usize);
         let difference = frame.difference(&body1.vertices[v].position, &body2.vertices[w].position);
         let direction = L::from_vector(self.direction);
@@ -76,4 +76,21 @@ impl Kernel for Along<'_> {
         // A NaN proves nothing.
         if lower > f64::NEG_INFINITY { lower } else { f64::NEG_INFINITY }
     }
+}
+
+/// A vertex of a body about farthest along a direction, and by how much the body reaches beyond it at most. On slivers a climb may
+/// end below the farthest vertex, where edges prove next to nothing: then all vertices tell.
+#[inline(always)]
+fn support<L: Lanes>(body: &Polyhedron, towards: L, begin: u32) -> (u32, f64) {
+    let direction = towards.to_vector();
+    let vertex = climb(body, towards, begin);
+    let excess = of_vertex(body, vertex, &direction);
+    if excess <= 64.0 * U * body.radius * direction.lp_norm(1) { (vertex, excess) } else { of_all(body, &direction) }
+}
+
+#[cold]
+fn of_all(body: &Polyhedron, direction: &Vector) -> (u32, f64) {
+    let height = |vertex: u32| direction.dot(&body.vertices[vertex as usize].position);
+    let farthest = (1..body.vertices.len() as u32).fold(0, |best, v| if height(v) > height(best) { v } else { best });
+    (farthest, by_all_vertices(body, farthest, direction))
 }

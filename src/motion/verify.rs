@@ -8,7 +8,7 @@ use super::moving::{Moment, MovingPair};
 use super::sweep::{Ahead, FreeStep, Sweep, Wanted, depth_at, is_contact, upper_bound};
 use crate::base::error::{Error, Result};
 use crate::base::simd::environment::with_default;
-use crate::pair::verify::{Bounds, verify, verify_depth};
+use crate::pair::verify::{Bounds, holds_ball, verify, verify_depth};
 use crate::pair::{DepthCache, Outcome, PairCache, sum_above};
 
 /// Steps after which a proof is given up.
@@ -150,7 +150,7 @@ fn prove_contact(pair: &MovingPair, margin: f64, answer: &CastAnswer) -> Result<
         return check_upper(pair, &there, answer);
     }
     verify(pair.placed(&there), &answer.contact)?;
-    if there.rounding == 0.0 {
+    if there.rounding == 0.0 || holds_ball(pair.placed(&there), &answer.contact, there.rounding.next_up()) {
         return Ok(());
     }
     let mut cache = DepthCache::default();

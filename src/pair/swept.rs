@@ -11,7 +11,7 @@ use super::placed::Placed;
 use super::radii::{Radii, moved};
 use super::signed_distance::{SignedDistance, SignedDistanceCache, of_polyhedra};
 use crate::base::error::Result;
-use crate::base::math::clamp;
+use crate::base::math::{Vector, clamp};
 use crate::base::memory::in_integers;
 use crate::base::simd::environment::with_default;
 use crate::solve::exact::{self, ExactDistance};
@@ -98,13 +98,19 @@ fn undecided(radii: &Radii, found: &PairAnswer) -> PairAnswer {
     PairAnswer { outcome: Outcome::Undecided, distance, lower: 0.0, upper, ..said }
 }
 
-/// Of polyhedra that are apart and bodies that are not: the middle of what both have of the shortest connection.
+/// Of polyhedra that are apart and bodies that are not: the middle of what both have of the shortest connection. It is one point on
+/// the line between the witness points, beside which the normal may lead: of thin bodies that are parallel by 1e-8 of the way.
 fn fill_common_point(answer: &mut PairAnswer, bodies: [Placed; 2], radii: &Radii, found: &PairAnswer) {
     let [radius1, radius2] = radii.each;
     let from2 = 0.5 * ((found.distance - radius1).max(0.0) + found.distance.min(radius2));
-    let by = [from2 - found.distance, from2];
+    let share = clamp(from2 / found.distance, 0.0, 1.0);
     let points = PlacedPoints { local: [found.local1, found.local2], world: [found.world1, found.world2] };
-    let points = moved(&points, bodies.map(|body| body.pose), &found.normal, by);
+    let poses = bodies.map(|body| body.pose);
+    // An eighth of everything, so that terms which cancel cannot overflow.
+    let [place1, place2] = poses.map(|pose| 0.125 * pose.translation());
+    let [arm1, arm2] = [0, 1].map(|i| poses[i].rotate(&(0.125 * Vector::from(points.local[i]))));
+    let eighth = (place1 - place2) + (arm1 - arm2);
+    let points = moved(&points, poses, &eighth.into(), [8.0 * (share - 1.0), 8.0 * share]);
     ([answer.local1, answer.local2], [answer.world1, answer.world2]) = (points.local, points.world);
     (answer.normal, answer.feature1, answer.feature2) = (found.normal, found.feature1, found.feature2);
 }

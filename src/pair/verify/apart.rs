@@ -1,17 +1,15 @@
 //! The checks of polyhedra that are apart: the interval, less the swept radii of the bodies, the normal and the points.
 
 use super::bounds::{Bounds, PointInside};
-use super::checks::{allowed, between_origins, check_normal, check_unit, too_large, unverified};
-use super::witness::{Witness, distance_between};
+use super::checks::{allowed, between_origins, check_normal, check_unit, length, too_large, unverified};
+use super::witness::{Witness, difference_of};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, Vector};
 use crate::base::memory::listed;
 use crate::pair::answer::{Outcome, PairAnswer};
-use crate::pair::contact::PlacedPoints;
-use crate::pair::radii::{Radii, moved, sum_above, sum_below};
+use crate::pair::radii::{Radii, sum_above, sum_below};
 use crate::polyhedron::Polyhedron;
 use crate::solve::exact::{self, VertexPair};
-use std::cmp::Ordering;
 
 /// Proves verdict and interval, and checks the normal; returns what rounding may make of a length.
 pub(super) fn verify_disjoint(
@@ -49,7 +47,7 @@ fn prove_interval(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii,
     let Some(bounds) = Bounds::new(polyhedra, poses) else { return nothing };
     let normal = Vector::from(answer.normal);
     let gap = bounds.gap(&normal);
-    let witnesses = witnesses(polyhedra, poses, radii, answer);
+    let witnesses = Witness::of_both(polyhedra, poses, radii, &normal, answer);
     let points = [0, 1].map(|i| witnesses[i].point_inside().unwrap_or(PointInside::vertex(gap.vertices[i])));
     let mut near: Vec<VertexPair> = listed(points[0].vertices.iter().flat_map(|&v| points[1].vertices.map(|w| [v, w])));
     near.sort_unstable();
@@ -72,10 +70,7 @@ fn prove_interval_exactly(
 ) -> Result<()> {
     let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], near);
     let [radius1, radius2] = radii.each;
-    let against = |length: f64| match length {
-        f64::INFINITY => Ordering::Less,
-        _ => truth.compare_sum(&[length, radius1, radius2]),
-    };
+    let against = |length: f64| truth.compare_sum(&[length, radius1, radius2]);
     // Not 0, even where it is less than the least double.
     let is_verdict_right = answer.outcome == Outcome::Intersecting || against(0.0).is_gt();
     if !(is_verdict_right && against(answer.lower).is_ge() && against(answer.upper).is_le()) {
@@ -106,27 +101,27 @@ pub(super) fn check_points(
     answer: &PairAnswer,
 ) -> Result<()> {
     let PairAnswer { lower, upper, .. } = *answer;
-    let witnesses = witnesses(polyhedra, poses, radii, answer);
-    for witness in &witnesses {
-        witness.check_point(allowed, &[])?;
-        // A point is on the surface as far as the interval tells that it is nearest.
-        witness.check_on_feature(allowed + (upper - lower))?;
-    }
-    let apart = distance_between(polyhedra, poses, &witnesses);
+    let apart = length(&check_on_features(polyhedra, poses, radii, allowed, answer)?);
     if apart >= lower + radii.lower - allowed && apart <= upper + radii.upper + allowed {
         return Ok(());
     }
     Err(unverified(format!("the witness points are {apart:e} apart, not in [{lower:e}, {upper:e}] and the radii")))
 }
 
-/// What the answer says of each polyhedron: points of the surfaces are moved back by the radii.
-pub(super) fn witnesses<'a>(
-    polyhedra: [&'a Polyhedron; 2],
-    poses: [&'a Pose; 2],
+/// The points are on their features; from that of the second polyhedron to that of the first, in the world.
+pub(super) fn check_on_features(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
     radii: &Radii,
+    allowed: f64,
     answer: &PairAnswer,
-) -> [Witness<'a>; 2] {
-    let said = PlacedPoints { local: [answer.local1, answer.local2], world: [answer.world1, answer.world2] };
-    let said = if radii.upper > 0.0 { moved(&said, poses, &answer.normal, radii.inwards()) } else { said };
-    Witness::of_both(polyhedra, poses, radii, &said, [answer.feature1, answer.feature2])
+) -> Result<Vector> {
+    let witnesses = Witness::of_both(polyhedra, poses, radii, &answer.normal.into(), answer);
+    for witness in &witnesses {
+        witness.check_point(allowed)?;
+        witness.check_feature()?;
+        // A point is on the surface as far as the interval tells that it is nearest.
+        witness.check_on_feature(allowed + (answer.upper - answer.lower))?;
+    }
+    Ok(difference_of(polyhedra, poses, &witnesses))
 }

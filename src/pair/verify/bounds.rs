@@ -199,11 +199,14 @@ impl PointInside {
         PointInside { vertices: corners, weights: weights.map(|weight| weight * scale) }
     }
 
-    /// About how far it is from a point.
-    pub fn distance(&self, polyhedron: &Polyhedron, point: &Vector) -> f64 {
+    /// About how far it is in the world from a point of the object's frame that is moved by a vector of the world.
+    pub fn distance(&self, polyhedron: &Polyhedron, pose: &Pose, local: &Vector, moved: &Vector) -> f64 {
         // Products in double-double split their factors, which takes 27 bits of the range.
         let unit = power_of_two(if polyhedron.radius > 1.0 { -64 } else { 0 });
-        length(&(narrow(&self.position(polyhedron, unit)) - point * unit)) / unit
+        let (inside, said) =
+            (self.position(polyhedron, unit), wide_difference(&(local * unit), &(polyhedron.centre * unit)));
+        let apart = rotate(pose, &[0, 1, 2].map(|k| inside[k] - said[k]));
+        length(&narrow(&[0, 1, 2].map(|k| apart[k] - DoubleDouble::from(moved[k] * unit)))) / unit
     }
 
     /// In the polyhedron's frame, times a power of two.

@@ -5,22 +5,21 @@
 //! arithmetic or integers, and that it surrounds the origin by a ray that crosses it: not by the orientation of all triangles, as
 //! in the search.
 
-use super::apart::{check_points, verify_disjoint};
+use super::apart::{check_on_features, check_points, verify_disjoint};
 use super::bounds::Bounds;
 use super::checks::{allowed, between_origins, check_normal, check_unit, in_default, length, too_large, unverified};
 use super::facets;
 use super::numbers::{are_points_said, check_numbers};
-use super::witness::{Witness, difference_of};
+use super::proof_of;
 use crate::base::double_double::{narrow, wide_cross, wide_dot, widen};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::base::memory::listed;
 use crate::base::scalar::determinant;
 use crate::pair::answer::{Outcome, PairAnswer};
-use crate::pair::contact::PlacedPoints;
 use crate::pair::depth::{DepthAnswer, DepthCache, PYRAMIDS, ProofFrom, proof};
 use crate::pair::placed::Placed;
-use crate::pair::radii::{Radii, moved, sum_above, sum_below};
+use crate::pair::radii::{Radii, sum_above, sum_below};
 use crate::polyhedron::Polyhedron;
 use crate::solve::exact::{self, Differences, Position, Supports, VertexPair};
 use std::cmp::Ordering;
@@ -47,16 +46,15 @@ use std::cmp::Ordering;
 /// As of [`super::verify`]; [`Error::Argument`] also for an `upper` of infinity, a depth beyond the largest double.
 pub fn verify_depth(bodies: [Placed; 2], cache: &DepthCache, answer: &DepthAnswer) -> Result<()> {
     let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
-    let radii = Radii::of(&bodies);
+    let radii = Radii::of(&bodies).unwrap_or(Radii::NONE);
     in_default(|| {
         poses.iter().try_for_each(|pose| pose.check(ROTATION_LIMIT))?;
         if answer.outcome != Outcome::None {
             check_numbers(&answer.into())?;
         }
-        match (answer.outcome, &radii) {
-            (Outcome::Intersecting, None) => check_overlapping(polyhedra, poses, cache, &Radii::NONE, answer),
-            (Outcome::Intersecting, Some(radii)) => check_swept(polyhedra, poses, cache, radii, answer),
-            (Outcome::Separated, radii) => check_separated(polyhedra, poses, &radii.unwrap_or(Radii::NONE), answer),
+        match answer.outcome {
+            Outcome::Intersecting => check_overlapping(polyhedra, poses, cache, &radii, answer),
+            Outcome::Separated => check_separated(polyhedra, poses, &radii, answer),
             _ => Err(Error::Argument("the answer holds no depth".into())),
         }
     })
@@ -104,74 +102,84 @@ fn check_overlapping(
     radii: &Radii,
     answer: &DepthAnswer,
 ) -> Result<()> {
-    let DepthAnswer { lower, depth, upper, .. } = *answer;
+    let &DepthAnswer { outcome, lower, depth, upper, local1, local2, world1, world2, normal, .. } = answer;
+    let &DepthAnswer { feature1, feature2, .. } = answer;
     check_interval(answer)?;
-    let normal = Vector::from(answer.normal);
-    let allowed = prove_overlap(polyhedra, poses, cache, radii, &normal, [lower, upper])?;
-    let witnesses = witnesses(polyhedra, poses, radii, answer);
-    // The interval is of the world, features are measured in the object's frame: no entry of RᵀR − I is beyond the limit L, so
-    // |x| ≤ |R·x| / √(1 − 3L).
-    let local_width = (upper - lower) / (1.0 - 3.0 * ROTATION_LIMIT).sqrt();
-    for witness in &witnesses {
-        witness.check_point(allowed, &[])?;
-        witness.check_on_feature(allowed + local_width)?;
+    let normal = Vector::from(normal);
+    let (position, allowed) = prove_depth(polyhedra, poses, cache, radii, &normal, [lower, upper])?;
+    let signed = PairAnswer {
+        outcome,
+        lower: -upper,
+        distance: -depth,
+        upper: -lower,
+        local1,
+        local2,
+        world1,
+        world2,
+        normal: normal.into(),
+        feature1,
+        feature2,
+        ..PairAnswer::UNSAID
+    };
+    if position == Polyhedra::Apart {
+        return check_points(polyhedra, poses, radii, allowed, &signed);
     }
-    let apart = difference_of(polyhedra, poses, &witnesses);
-    let off = length(&(apart + normal * depth));
+    let apart = check_on_features(polyhedra, poses, radii, allowed, &signed)?;
+    let off = length(&(apart + normal * (depth - radii.upper)));
     if off <= allowed + (upper - lower) {
         return Ok(());
     }
     Err(unverified(format!("the witness points are {off:e} off the translation by {depth:e} along the normal")))
 }
 
-/// Proves that the depth of polyhedra is in an interval, and checks the normal; returns what rounding may make of a length.
-fn prove_overlap(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    cache: &DepthCache,
-    radii: &Radii,
-    normal: &Vector,
-    [lower, upper]: [f64; 2],
-) -> Result<f64> {
-    check_unit(normal)?;
-    let facts = Facts::new(polyhedra, poses);
-    let between = between_origins(polyhedra, poses);
-    let allowed = allowed(polyhedra, &between, radii.each).ok_or_else(too_large)?;
-    check_upper(&facts, normal, upper, allowed)?;
-    if lower > 0.0 {
-        prove_lower(&facts, cache, lower)?;
-    } else {
-        check_position(polyhedra, poses, upper)?;
-    }
-    Ok(allowed)
+/// Where the polyhedra of objects with a common point are.
+#[derive(PartialEq)]
+pub(super) enum Polyhedra {
+    /// They have a common point, too.
+    Meeting,
+    /// Only the balls that are swept over them meet.
+    Apart,
 }
 
-/// The same of bodies, balls included where any are swept over them.
+/// Proves that the depth of objects is in an interval, and checks the normal; returns where the polyhedra are, and what rounding may
+/// make of a length.
 pub(super) fn prove_depth(
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],
     cache: &DepthCache,
     radii: &Radii,
     normal: &Vector,
-    interval: [f64; 2],
-) -> Result<f64> {
-    if radii.upper == 0.0 {
-        return prove_overlap(polyhedra, poses, cache, radii, normal, interval);
+    [lower, upper]: [f64; 2],
+) -> Result<(Polyhedra, f64)> {
+    let is_round = radii.upper > 0.0;
+    if is_round {
+        let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
+        if !truth.is_zero() {
+            check_swept_position(&truth, radii, upper)?;
+            let (outcome, normal) = (Outcome::Intersecting, (*normal).into());
+            let signed =
+                PairAnswer { outcome, lower: -upper, distance: -upper, upper: -lower, normal, ..PairAnswer::UNSAID };
+            return Ok((Polyhedra::Apart, verify_disjoint(polyhedra, poses, radii, &signed)?));
+        }
     }
-    let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
-    if truth.is_zero() {
-        return prove_overlap(polyhedra, poses, cache, radii, normal, of_polyhedra(radii, interval));
+    check_unit(normal)?;
+    let facts = Facts::new(polyhedra, poses);
+    let between = between_origins(polyhedra, poses);
+    let allowed = allowed(polyhedra, &between, radii.each).ok_or_else(too_large)?;
+    // What is left of it for the polyhedra, rounded inwards.
+    let (least, most) = (sum_above(lower, -radii.lower), sum_below(upper, -radii.upper));
+    if !(most >= 0.0) {
+        return Err(unverified(format!("the radii alone make the depth more than {upper:e}")));
     }
-    let [lower, upper] = interval;
-    check_swept_position(&truth, radii, upper)?;
-    let (outcome, normal) = (Outcome::Intersecting, (*normal).into());
-    let signed = PairAnswer { outcome, lower: -upper, distance: -upper, upper: -lower, normal, ..PairAnswer::UNSAID };
-    verify_disjoint(polyhedra, poses, radii, &signed)
-}
-
-/// The depth of polyhedra that overlap, from that of the bodies.
-fn of_polyhedra(radii: &Radii, [lower, upper]: [f64; 2]) -> [f64; 2] {
-    [sum_above(lower, -radii.lower).max(0.0), sum_below(upper, -radii.upper)]
+    check_upper(&facts, normal, most, allowed)?;
+    if least > 0.0 {
+        prove_lower(&facts, cache, least)?;
+    }
+    // Round objects whose polyhedra have a common point overlap, whatever else.
+    if most == 0.0 || (least <= 0.0 && !is_round) {
+        check_position(polyhedra, poses, most)?;
+    }
+    Ok((Polyhedra::Meeting, allowed))
 }
 
 /// Bodies whose polyhedra are apart have a common point, and overlap if anything is said of that.
@@ -184,47 +192,7 @@ fn check_swept_position(truth: &exact::ExactDistance, radii: &Radii, upper: f64)
     }
 }
 
-/// Of bodies over which balls are swept: the depth of the polyhedra where they have a common point, or else their distance.
-fn check_swept(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    cache: &DepthCache,
-    radii: &Radii,
-    answer: &DepthAnswer,
-) -> Result<()> {
-    let DepthAnswer { lower, depth, upper, normal, feature1, feature2, .. } = *answer;
-    check_interval(answer)?;
-    let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
-    let points = PlacedPoints { local: [answer.local1, answer.local2], world: [answer.world1, answer.world2] };
-    if truth.is_zero() {
-        let points = moved(&points, poses, &normal, radii.inwards());
-        let ([local1, local2], [world1, world2]) = (points.local, points.world);
-        let [lower, upper] = of_polyhedra(radii, [lower, upper]);
-        let depth = clamp(depth - radii.upper, lower, upper);
-        let of_polyhedra = DepthAnswer { lower, depth, upper, local1, local2, world1, world2, ..*answer };
-        return check_overlapping(polyhedra, poses, cache, radii, &of_polyhedra);
-    }
-    check_swept_position(&truth, radii, upper)?;
-    let ([local1, local2], [world1, world2]) = (points.local, points.world);
-    let signed = PairAnswer {
-        outcome: Outcome::Intersecting,
-        lower: -upper,
-        distance: -depth,
-        upper: -lower,
-        local1,
-        local2,
-        world1,
-        world2,
-        normal,
-        feature1,
-        feature2,
-        ..PairAnswer::UNSAID
-    };
-    let allowed = verify_disjoint(polyhedra, poses, radii, &signed)?;
-    check_points(polyhedra, poses, radii, allowed, &signed)
-}
-
-/// Of a lower end of 0 only the position is left to be proved.
+/// Of ends of 0 the position is to be proved.
 fn check_position(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], upper: f64) -> Result<()> {
     match exact::locate(polyhedra, poses, &[], Supports::OfAll) {
         Position::Separated(_) => Err(unverified("the objects have no common point".into())),
@@ -232,6 +200,16 @@ fn check_position(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], upper: f64) ->
         Position::Overlapping(_) if upper == 0.0 => Err(unverified("no overlap of objects that overlap".into())),
         Position::Touching { .. } | Position::Overlapping(_) => Ok(()),
     }
+}
+
+/// Whether four differences of vertices that prove an intersection hold a ball around the origin in their hull: objects are as deep
+/// in each other as its radius, more than 0.
+pub(crate) fn holds_ball(bodies: [Placed; 2], answer: &PairAnswer, radius: f64) -> bool {
+    let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
+    let pairs = proof_of(polyhedra, answer).unwrap_or_default();
+    let &[p, q, r, s] = pairs.as_slice() else { return false };
+    let tetrahedron = [[p, q, r], [p, s, q], [q, s, r], [p, r, s]];
+    encloses_ball(&Facts::new(polyhedra, poses), &tetrahedron, radius).is_ok()
 }
 
 /// The objects overlap by at most `upper` along the normal; of 0 that holds as far as the normal is rounded. Objects with a common
@@ -255,16 +233,6 @@ fn check_upper(facts: &Facts, normal: &Vector, upper: f64, allowed: f64) -> Resu
     }
     let (least, _) = overlap.bounds();
     Err(unverified(format!("along the normal the objects overlap by {least:e}, not {upper:e}")))
-}
-
-fn witnesses<'a>(
-    polyhedra: [&'a Polyhedron; 2],
-    poses: [&'a Pose; 2],
-    radii: &Radii,
-    answer: &DepthAnswer,
-) -> [Witness<'a>; 2] {
-    let said = PlacedPoints { local: [answer.local1, answer.local2], world: [answer.world1, answer.world2] };
-    Witness::of_both(polyhedra, poses, radii, &said, [answer.feature1, answer.feature2])
 }
 
 type Triangle = [VertexPair; 3];

@@ -1,7 +1,7 @@
 //! The independent check of a manifold: verdict, interval and normal are proved as those of a distance or a depth; each point is on
 //! both surfaces, on the sides that face each other, and its gap is that of its two places.
 
-use super::apart::{verify_disjoint, witnesses};
+use super::apart::verify_disjoint;
 use super::bounds::{Bounds, Gap};
 use super::checks::{between_origins, in_default, length, too_large, unverified};
 use super::depth::prove_depth;
@@ -13,7 +13,7 @@ use crate::pair::answer::{FeatureKind, Outcome, PairAnswer};
 use crate::pair::manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, id_of};
 use crate::pair::placed::Placed;
 use crate::pair::radii::{Radii, sum_above, sum_below};
-use crate::polyhedron::Polyhedron;
+use crate::polyhedron::{Face, Polyhedron};
 
 /// Of the size of the pair: how far a point may be off the surface that it is on, beside noise and rounding. Places up to 2⁻²⁷ of
 /// it apart are one; the incident patch is looked at along a normal that may be flat to it.
@@ -115,7 +115,8 @@ fn check_contact(
         return Err(unverified(format!("an interval from lower to upper of {lower:e}, {upper:e}: {outcome:?}")));
     }
     if outcome == Outcome::Intersecting {
-        return prove_depth(polyhedra, poses, cache.depth(), radii, &normal.into(), [-upper, -lower]);
+        let (_, allowed) = prove_depth(polyhedra, poses, cache.depth(), radii, &normal.into(), [-upper, -lower])?;
+        return Ok(allowed);
     }
     let apart = PairAnswer { outcome: Outcome::Separated, lower, distance: lower, upper, normal, ..PairAnswer::UNSAID };
     verify_disjoint(polyhedra, poses, radii, &apart)
@@ -180,9 +181,9 @@ impl<'a> Check<'a> {
             ..PairAnswer::UNSAID
         };
         let poses = self.bodies.map(|body| body.pose);
-        let witnesses = witnesses(self.polyhedra, poses, &self.radii, &said);
+        let witnesses = Witness::of_both(self.polyhedra, poses, &self.radii, &normal, &said);
         for ((witness, towards), out) in witnesses.iter().zip([-normal, normal]).zip(self.out) {
-            witness.check_point(out, &[])?;
+            witness.check_point(out)?;
             self.check_feature(witness)?;
             self.check_facing(witness, &towards, gap_upper - gap_lower)?;
         }
@@ -206,16 +207,12 @@ impl<'a> Check<'a> {
     /// The bodies have points with a gap in the interval: near those that are said, which may be out of them.
     fn check_attained(&self, witnesses: &[Witness; 2], gap: f64, [lower, upper]: [f64; 2]) -> Result<()> {
         let margin = (gap - lower).min(upper - gap) + self.allowed;
-        let off = witnesses.each_ref().map(|witness| {
-            let inside = witness.point_inside()?;
-            Some(inside.distance(witness.polyhedron, &witness.centred()) * witness.pose.most_stretched())
-        });
+        let off = witnesses.each_ref().map(|witness| Some(witness.off(&witness.point_inside()?)));
         let is_within = |[first, second]: [f64; 2]| first + second <= margin + 2.0 * self.allowed;
         if is_within(off.map(|off| off.unwrap_or(f64::INFINITY))) {
             return Ok(());
         }
-        let out = |witness: &Witness| Ok(witness.outside(&[])?.bounds().1 * witness.pose.most_stretched());
-        let out = [out(&witnesses[0])?, out(&witnesses[1])?];
+        let out = [witnesses[0].outside(&[])?.bounds().1, witnesses[1].outside(&[])?.bounds().1];
         if is_within(out) {
             return Ok(());
         }
@@ -240,13 +237,10 @@ impl<'a> Check<'a> {
 
     /// A point is near its vertex or edge; the face of a point is there, which may be one of several that are one to a manifold.
     fn check_feature(&self, witness: &Witness) -> Result<()> {
-        let none = || unverified(format!("object {} has no {:?}", witness.object, witness.feature));
-        let inside = witness.point_inside().ok_or_else(none)?;
-        let off = inside.distance(witness.polyhedron, &witness.centred());
-        if witness.feature.kind == FeatureKind::Face || off <= self.near {
-            return Ok(());
+        match witness.feature.kind {
+            FeatureKind::Face => witness.check_feature(),
+            _ => witness.check_on_feature(self.near),
         }
-        Err(unverified(format!("witness point {} lies {off:e} off {:?}", witness.object, witness.feature)))
     }
 
     /// A point is on a face that does not look away from the other body, or as far behind one as the width of its gap allows:
@@ -254,15 +248,19 @@ impl<'a> Check<'a> {
     /// surface.
     fn check_facing(&self, witness: &Witness, towards: &Vector, width: f64) -> Result<()> {
         let (polyhedron, point) = (witness.polyhedron, witness.centred());
+        // R has an inverse: det R > 0. In the world a face's normal is (R⁻¹)ᵀ·n, and its planes are as much closer as that is longer.
+        let Some(back) = witness.pose.rotation().try_inverse() else { return Err(too_large()) };
         if polyhedron.dimension < 3 {
             return Ok(());
         }
-        let towards = witness.pose.rotate_back(towards);
-        let mut facing = polyhedron.faces.iter().filter(|face| face.normal.dot(&towards) >= AWAY).peekable();
+        let normals = polyhedron.faces.iter().map(|face| (face, back.transpose() * face.normal));
+        let mut facing = normals.filter(|(_, normal)| normal.dot(towards) >= AWAY * normal.norm()).peekable();
         // A needle so thin that faces around it are merged may have none that looks there; its faces say nothing then.
         let is_told = facing.peek().is_some();
         let behind = self.near + width;
-        if !is_told || facing.any(|face| face.planes.value(0, &point) >= -behind - face.slack) {
+        let is_on =
+            |(face, normal): (&Face, Vector)| face.planes.value(0, &point) + face.slack >= -behind * normal.norm();
+        if !is_told || facing.any(is_on) {
             return Ok(());
         }
         Err(unverified(format!("witness point {} is on no face that looks towards the other", witness.object)))

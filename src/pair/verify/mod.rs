@@ -17,16 +17,17 @@ use crate::pair::answer::{DecidedBy, Outcome, PairAnswer};
 use crate::pair::placed::Placed;
 use crate::pair::radii::Radii;
 use crate::polyhedron::Polyhedron;
-use crate::solve::exact;
-use apart::{check_points, not_in_interval, verify_disjoint, witnesses};
+use crate::solve::exact::{self, VertexPair};
+use apart::{check_points, not_in_interval, verify_disjoint};
 pub(crate) use bounds::Bounds;
-use checks::{allowed, between_origins, check_unit, in_default, too_large, unverified};
+use checks::{allowed, between_origins, check_unit, in_default, length, too_large, unverified};
 #[doc(hidden)]
 pub use depth::CLEAR;
+pub(crate) use depth::holds_ball;
 pub use depth::verify_depth;
 pub use manifold::verify_manifold;
 use numbers::{are_points_said, check_numbers};
-use witness::distance_between;
+use witness::{Witness, difference_of};
 
 /// Re-checks an answer of [`crate::pair`] for the same shapes and poses.
 ///
@@ -160,46 +161,36 @@ fn verify_intersecting(
     radii: &Radii,
     answer: &PairAnswer,
 ) -> Result<()> {
-    let count = answer.proof_count as usize;
-    if count == 0 && (answer.decided_by == DecidedBy::InscribedSpheres || radii.upper > 0.0) {
+    if answer.proof_count == 0 && (answer.decided_by == DecidedBy::InscribedSpheres || radii.upper > 0.0) {
         return verify_without_proof(polyhedra, poses, radii, answer);
-    }
-    if !(1..=4).contains(&count) {
-        return Err(unverified(format!("an intersection with {count} vertex pairs as proof")));
     }
     if (answer.lower, answer.upper, answer.distance) != (0.0, 0.0, 0.0) {
         return Err(unverified("an intersection with a distance that is not 0".into()));
     }
-    let mut pairs = [[0; 2]; 4];
-    for (pair, labels) in pairs.iter_mut().zip(answer.proof).take(count) {
-        for i in 0..2 {
-            let found = polyhedra[i].vertex_labels.iter().position(|&label| label == labels[i]);
-            let index = found.ok_or_else(|| {
-                Error::Argument(format!("vertex {} of object {} is no vertex of its hull", labels[i], i + 1))
-            })?;
-            pair[i] = index as u32;
-        }
-    }
-    if !exact::encloses_origin(polyhedra[0], poses[0], polyhedra[1], poses[1], &pairs[..count]) {
+    let pairs = proof_of(polyhedra, answer)?;
+    if !exact::encloses_origin(polyhedra[0], poses[0], polyhedra[1], poses[1], &pairs) {
         return Err(unverified("the proof's vertex differences do not hold the origin in their hull".into()));
     }
     if !are_points_said(&answer.into()) {
         return check_no_normal(answer);
     }
-    let witnesses = witnesses(polyhedra, poses, &Radii::NONE, answer);
-    let allowed = allowed(polyhedra, &between_origins(polyhedra, poses), [0.0; 2]).ok_or_else(too_large)?;
-    check_unit(&Vector::from(answer.normal))?;
-    for (i, witness) in witnesses.iter().enumerate() {
-        // The point is a convex combination of the proof's vertices.
-        let around = pairs.map(|pair| pair[i]);
-        witness.check_point(allowed, &around[..count])?;
-        witness.check_feature()?;
+    // The point is a convex combination of the proof's vertices.
+    check_common_point(polyhedra, poses, &Radii::NONE, answer, &pairs)
+}
+
+/// The vertex pairs of an intersection's proof.
+fn proof_of(polyhedra: [&Polyhedron; 2], answer: &PairAnswer) -> Result<Vec<VertexPair>> {
+    let count = answer.proof_count as usize;
+    if !(1..=4).contains(&count) {
+        return Err(unverified(format!("an intersection with {count} vertex pairs as proof")));
     }
-    let apart = distance_between(polyhedra, poses, &witnesses);
-    if !(apart <= allowed) {
-        return Err(unverified(format!("the witness points of a contact are {apart:e} apart")));
-    }
-    Ok(())
+    let index_of = |i: usize, label: u32| {
+        let found = polyhedra[i].vertex_labels.iter().position(|&other| other == label);
+        found
+            .map(|index| index as u32)
+            .ok_or_else(|| Error::Argument(format!("vertex {label} of object {} is no vertex of its hull", i + 1)))
+    };
+    answer.proof[..count].iter().map(|&[v, w]| Ok([index_of(0, v)?, index_of(1, w)?])).collect()
 }
 
 /// Overlapping balls, and swept radii, leave no vertex pairs as a proof: integers decide anew.
@@ -217,28 +208,29 @@ fn verify_without_proof(
         return Err(not_in_interval(&truth, radii, answer));
     }
     if are_points_said(&answer.into()) && radii.upper > 0.0 {
-        return check_common_point(polyhedra, poses, radii, answer);
+        return check_common_point(polyhedra, poses, radii, answer, &[]);
     }
     check_no_points(answer)?;
     check_no_normal(answer)
 }
 
-/// One point, which is no farther from either polyhedron than its radius.
+/// One point, which is no farther from either polyhedron than its radius; `proof` has vertices around it.
 fn check_common_point(
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],
     radii: &Radii,
     answer: &PairAnswer,
+    proof: &[VertexPair],
 ) -> Result<()> {
     let allowed = allowed(polyhedra, &between_origins(polyhedra, poses), radii.each).ok_or_else(too_large)?;
-    check_unit(&Vector::from(answer.normal))?;
-    let mut witnesses = witnesses(polyhedra, poses, &Radii::NONE, answer);
-    for (witness, radius) in witnesses.iter_mut().zip(radii.each) {
-        witness.moved = radius;
-        witness.check_point(radius + allowed, &[])?;
+    check_unit(&answer.normal.into())?;
+    let witnesses = Witness::of_both(polyhedra, poses, radii, &Vector::zeros(), answer);
+    for (i, witness) in witnesses.iter().enumerate() {
+        let around: Vec<_> = proof.iter().map(|pair| pair[i]).collect();
+        witness.check_swept_point(allowed, &around)?;
         witness.check_feature()?;
     }
-    let apart = distance_between(polyhedra, poses, &witnesses);
+    let apart = length(&difference_of(polyhedra, poses, &witnesses));
     if apart <= allowed {
         return Ok(());
     }

@@ -1,17 +1,17 @@
-//! What an answer says of one object: its witness point, in both frames, and the feature that holds it.
+//! What an answer says of one object: its witness point, in both frames, and the feature that holds it. All is measured in the
+//! world: a pose may stretch the object, and does not stretch the ball that is swept over it.
 
 use super::bounds::PointInside;
 use super::checks::{between_origins, length, unverified};
-use super::polygon::{beyond_nearest, distance_from_segment};
-use crate::base::error::Result;
-use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector};
+use super::polygon::beyond_nearest;
+use crate::base::error::{Error, Result};
+use crate::base::math::{Pose, STRETCH, UNIT_ROUNDOFF as U, Vector};
 use crate::base::memory::listed;
 use crate::build::assembly::build;
-use crate::pair::answer::{Feature, FeatureKind};
-use crate::pair::contact::PlacedPoints;
+use crate::pair::answer::{Feature, FeatureKind, PairAnswer};
 use crate::pair::radii::Radii;
 use crate::polyhedron::{Face, Polyhedron};
-use crate::solve::exact;
+use crate::solve::exact::{self, Differences};
 
 /// A witness point as an answer says it.
 pub struct Witness<'a> {
@@ -22,81 +22,124 @@ pub struct Witness<'a> {
     /// Where it is.
     pub pose: &'a Pose,
     /// The point in the object's frame.
-    pub local: Vector,
+    local: Vector,
     /// The same in the world.
-    pub world: Vector,
+    world: Vector,
     /// The feature it is said to be on.
     pub feature: Feature,
-    /// How far it was moved from where it is said to be.
-    pub moved: f64,
+    /// The radius of the ball that is swept over the object.
+    radius: f64,
+    /// From the point to the polyhedron's point that it stands for, in the world.
+    inwards: Vector,
 }
 
 impl<'a> Witness<'a> {
-    /// Of both objects: points that were moved by the radii, and the features that hold them.
+    /// Of both objects, from an answer of any kind: points that stand for those a swept radius off along a normal, or along zeros for
+    /// themselves.
     pub fn of_both(
         polyhedra: [&'a Polyhedron; 2],
         poses: [&'a Pose; 2],
         radii: &Radii,
-        points: &PlacedPoints,
-        features: [Feature; 2],
+        normal: &Vector,
+        answer: &PairAnswer,
     ) -> [Witness<'a>; 2] {
+        let (locals, worlds) = ([answer.local1, answer.local2], [answer.world1, answer.world2]);
+        let features = [answer.feature1, answer.feature2];
         std::array::from_fn(|i| Witness {
             object: i + 1,
             polyhedron: polyhedra[i],
             pose: poses[i],
-            local: points.local[i].into(),
-            world: points.world[i].into(),
+            local: locals[i].into(),
+            world: worlds[i].into(),
             feature: features[i],
-            moved: radii.each[i],
+            radius: radii.each[i],
+            inwards: if radii.each[i] > 0.0 { normal * radii.inwards()[i] } else { Vector::zeros() },
         })
     }
 
-    /// In centred coordinates.
+    /// About where the polyhedron's point is, in centred coordinates.
     pub fn centred(&self) -> Vector {
-        self.local - self.polyhedron.centre
+        let said = self.local - self.polyhedron.centre;
+        if self.inwards == Vector::zeros() {
+            return said;
+        }
+        // R has an inverse: det R > 0.
+        said + self.pose.rotation().try_inverse().map_or(self.inwards, |back| back * self.inwards)
     }
 
-    /// A point that is in the object for sure, near the witness point on its feature; `None` if the object has no such feature.
+    /// A point that is in the object for sure, near the polyhedron's point on its feature; `None` if the object has no such
+    /// feature.
     pub fn point_inside(&self) -> Option<PointInside> {
+        self.point_of(&self.parts(f64::INFINITY)?)
+    }
+
+    /// The same of parts of the feature.
+    fn point_of(&self, parts: &[(Vec<u32>, f64)]) -> Option<PointInside> {
         let (polyhedron, point) = (self.polyhedron, &self.centred());
+        let inside = |corners: &[u32], k: usize| match *corners {
+            [vertex] => PointInside::vertex(vertex),
+            [tail, head] => PointInside::on_segment(polyhedron, [tail, head], point),
+            _ => PointInside::on_triangle(polyhedron, [corners[0], corners[k - 1], corners[k]], point),
+        };
+        // A face as triangles from its first corner.
+        let each = parts.iter().flat_map(|(corners, _)| (2..corners.len().max(3)).map(|k| inside(corners, k)));
+        each.map(|inside| (inside, self.off(&inside))).reduce(|a, b| if b.1 < a.1 { b } else { a }).map(|best| best.0)
+    }
+
+    /// How far the polyhedron's point is from one that is in the object for sure, about.
+    pub fn off(&self, inside: &PointInside) -> f64 {
+        inside.distance(self.polyhedron, self.pose, &self.local, &self.inwards)
+    }
+
+    /// The corners of the feature, and how far the surface may be from their hull, in the object's frame; of a face those of each
+    /// that the caller's polygon is part of, and where no other polygon there is nearer by more than `beyond`. `None` if the object has
+    /// none; any two vertices are taken for an edge.
+    fn parts(&self, beyond: f64) -> Option<Vec<(Vec<u32>, f64)>> {
+        let polyhedron = self.polyhedron;
         let [first, second] = self.feature.ids;
+        let vertex = |label: u32| Some(polyhedron.vertex_labels.iter().position(|&other| other == label)? as u32);
         match self.feature.kind {
             FeatureKind::None => None,
-            FeatureKind::Vertex => Some(PointInside::vertex(self.vertex(first)?)),
-            FeatureKind::Edge => {
-                Some(PointInside::on_segment(polyhedron, [self.vertex(first)?, self.vertex(second)?], point))
-            }
+            FeatureKind::Vertex => Some(listed([(listed([vertex(first)?]), 0.0)])),
+            FeatureKind::Edge => Some(listed([(listed([vertex(first)?, vertex(second)?]), 0.0)])),
             FeatureKind::Face => {
-                let triangles = self.faces(first).flat_map(|face| triangles_of_face(polyhedron, face));
-                let inside = triangles.map(|corners| PointInside::on_triangle(polyhedron, corners, point));
-                let missed = inside.map(|inside| (inside, inside.distance(polyhedron, point)));
-                missed.reduce(|best, other| if other.1 < best.1 { other } else { best }).map(|(inside, _)| inside)
+                let faces = (0_u32..).zip(&polyhedron.faces);
+                let point = self.centred();
+                let own = faces.filter(|(face, _)| {
+                    polyhedron.labels_of_face(*face).contains(&first)
+                        && (beyond == f64::INFINITY || beyond_nearest(polyhedron, *face, first, &point) <= beyond)
+                });
+                let part = |(id, face): (u32, &Face)| {
+                    (listed((0..face.side_count).map(|side| polyhedron.corner(id, side))), face.slack)
+                };
+                let parts: Vec<_> = listed(own.map(part));
+                (!parts.is_empty()).then_some(parts)
             }
         }
     }
 
-    /// The vertex that the caller calls `label`.
-    fn vertex(&self, label: u32) -> Option<u32> {
-        let index = self.polyhedron.vertex_labels.iter().position(|&other| other == label)?;
-        Some(index as u32)
+    /// The polyhedron's point is in it, up to `allowed`, and the point the same in both frames.
+    pub fn check_point(&self, allowed: f64) -> Result<()> {
+        self.check_within(&[allowed], &[])?;
+        self.check_frames()
     }
 
-    /// The faces that the caller's polygon `label` is part of.
-    fn faces(&self, label: u32) -> impl Iterator<Item = u32> {
-        (0..self.polyhedron.faces.len() as u32)
-            .filter(move |&face| self.polyhedron.labels_of_face(face).contains(&label))
+    /// The same of a point that is no farther from the polyhedron than the swept radius, up to `allowed`; `around` are vertices whose
+    /// hull may hold it.
+    pub fn check_swept_point(&self, allowed: f64, around: &[u32]) -> Result<()> {
+        self.check_within(&[self.radius, allowed], around)?;
+        self.check_frames()
     }
 
-    /// The point is in the object, up to `allowed`, and the same in both frames; `around` are vertices whose hull may hold it.
-    pub fn check_point(&self, allowed: f64, around: &[u32]) -> Result<()> {
-        let Witness { object, polyhedron, pose, local, world, .. } = self;
-        self.check_inside(allowed, around)?;
+    /// The point is the same in both frames.
+    fn check_frames(&self) -> Result<()> {
+        let Witness { object, polyhedron, pose, local, world, radius, .. } = self;
         // An eighth of everything, so that terms which cancel cannot overflow.
         let [local, world, translation, centre] =
             [*local, *world, pose.translation(), polyhedron.centre].map(|v| 0.125 * v);
         let apart = length(&(pose.rotate(&local) + translation - world));
         // Two ways to compute R·p + T, some ten roundings each, of a point between vertices that the body's size rounds; |R| ≤ 1.8.
-        let sizes = 0.125 * (polyhedron.radius + self.moved);
+        let sizes = 0.125 * (polyhedron.radius + radius);
         let rounding = 64.0 * U * (sizes + length(&centre) + length(&translation));
         if !(apart <= rounding + 64.0 * f64::from_bits(1)) {
             let apart = 8.0 * apart;
@@ -105,110 +148,81 @@ impl<'a> Witness<'a> {
         Ok(())
     }
 
-    /// The point is in the object, up to `allowed`: near a point of its feature, else integers tell.
-    fn check_inside(&self, allowed: f64, around: &[u32]) -> Result<()> {
-        let Witness { object, polyhedron, .. } = self;
-        if self.point_inside().is_some_and(|inside| inside.distance(polyhedron, &self.centred()) <= allowed) {
+    /// The polyhedron is no farther than a sum of lengths: a point of the feature is near, else integers tell.
+    fn check_within(&self, lengths: &[f64], around: &[u32]) -> Result<()> {
+        let most: f64 = lengths.iter().sum();
+        if self.point_inside().is_some_and(|inside| self.off(&inside) <= most) {
             return Ok(());
         }
         let outside = self.outside(around)?;
-        if outside.compare(allowed).is_le() {
+        if outside.compare_sum(lengths).is_le() {
             return Ok(());
         }
-        Err(unverified(format!("witness point {object} lies {:e} out of its object", outside.bounds().0)))
+        Err(unverified(format!("witness point {} lies {:e} out of its object", self.object, outside.bounds().0)))
     }
 
-    /// How far the point is out of the object, in integers; `around` are vertices whose hull may hold it.
+    /// How far the polyhedron is from its point, in integers; `around` are vertices whose hull may hold it.
     pub fn outside(&self, around: &[u32]) -> Result<exact::ExactDistance> {
-        let at_point = Pose::new(&Matrix::identity(), &self.local);
-        let probe = build(&[Vector::zeros()], None)?;
         let near = listed(around.iter().map(|&vertex| [vertex, 0]));
-        Ok(exact::distance(self.polyhedron, &Pose::IDENTITY, &probe, &at_point, &near))
+        self.beside_probe(|[polyhedron, probe], [here, there]| exact::distance(polyhedron, here, probe, there, &near))
+    }
+
+    /// The object beside a body of one vertex, the polyhedron's point. The translation, which both have in common, is left out:
+    /// beside it rounding would move the point more than is allowed.
+    fn beside_probe<T>(&self, tell: impl FnOnce([&Polyhedron; 2], [&Pose; 2]) -> T) -> Result<T> {
+        let (probe, rotation) = (build(&[self.local], None)?, self.pose.rotation());
+        let [here, there] = [Vector::zeros(), self.inwards].map(|at| Pose::new(&rotation, &at));
+        Ok(tell([self.polyhedron, &probe], [&here, &there]))
     }
 
     /// The object has the feature.
     pub fn check_feature(&self) -> Result<()> {
-        self.distance_from_feature().map(|_| ())
+        let polyhedron = self.polyhedron;
+        let ids = |labels: [u32; 2]| [labels, [labels[1], labels[0]]].contains(&self.feature.ids);
+        let is_there = match (self.feature.kind, polyhedron.dimension) {
+            (FeatureKind::Edge, 1) => ids([polyhedron.vertex_labels[0], polyhedron.vertex_labels[1]]),
+            (FeatureKind::Edge, _) => polyhedron.edges.iter().any(|edge| ids(edge.labels)),
+            _ => self.parts(f64::INFINITY).is_some(),
+        };
+        if is_there { Ok(()) } else { Err(self.has_none()) }
     }
 
-    /// The object has the feature, and the point is on it, up to `allowed` and what faces and edges were merged within.
+    fn has_none(&self) -> Error {
+        unverified(format!("object {} has no {:?}", self.object, self.feature))
+    }
+
+    /// The point is on the feature, up to `allowed` and what faces and edges were merged within: near a point that is on it, else
+    /// integers tell.
     pub fn check_on_feature(&self, allowed: f64) -> Result<()> {
-        let distance = self.distance_from_feature()?;
-        if distance <= allowed + 64.0 * U * self.polyhedron.radius {
+        self.check_feature()?;
+        let allowed = allowed + 64.0 * U * self.polyhedron.radius;
+        let parts = self.parts(allowed).unwrap_or_default();
+        if self.point_of(&parts).is_some_and(|inside| self.off(&inside) <= allowed) {
+            return Ok(());
+        }
+        let (is_near, distance) = self.beside_probe(|polyhedra, poses| {
+            let differences = Differences::new(polyhedra, poses);
+            let (mut is_near, mut least) = (false, f64::INFINITY);
+            for (corners, slack) in &parts {
+                let pairs = listed(corners.iter().map(|&corner| [corner, 0]));
+                let Some(distance) = differences.distance_of_hull(&pairs) else { continue };
+                is_near |= distance.compare_sum(&[allowed, slack * STRETCH]).is_le();
+                least = least.min(distance.bounds().0);
+            }
+            (is_near, least)
+        })?;
+        if is_near {
             return Ok(());
         }
         Err(unverified(format!("witness point {} lies {distance:e} off {:?}", self.object, self.feature)))
     }
-
-    /// How far the point is from the feature, which the object must have.
-    fn distance_from_feature(&self) -> Result<f64> {
-        let none = || unverified(format!("object {} has no {:?}", self.object, self.feature));
-        self.distance_if_there().ok_or_else(none)
-    }
-
-    /// The same; `None` if the object has no such feature.
-    fn distance_if_there(&self) -> Option<f64> {
-        let (polyhedron, point) = (self.polyhedron, &self.centred());
-        let [first, second] = self.feature.ids;
-        let vertex = |label: u32| Some(polyhedron.vertices[self.vertex(label)? as usize].position);
-        match self.feature.kind {
-            FeatureKind::None => None,
-            FeatureKind::Vertex => Some(length(&(point - vertex(first)?))),
-            FeatureKind::Edge => {
-                let ids = |labels: [u32; 2]| labels == [first, second] || labels == [second, first];
-                let is_edge = match polyhedron.dimension {
-                    1 => ids([polyhedron.vertex_labels[0], polyhedron.vertex_labels[1]]),
-                    _ => polyhedron.edges.iter().any(|edge| ids(edge.labels)),
-                };
-                is_edge.then_some(())?;
-                Some(distance_from_segment(&[vertex(first)?, vertex(second)?], point))
-            }
-            FeatureKind::Face => {
-                let distance = |face: u32| {
-                    let of_face = distance_from_face(polyhedron, &polyhedron.faces[face as usize], point);
-                    of_face.max(beyond_nearest(polyhedron, face, first, point))
-                };
-                let distances = self.faces(first).map(distance);
-                distances.reduce(f64::min)
-            }
-        }
-    }
 }
 
-/// A face as triangles from its first corner.
-fn triangles_of_face(polyhedron: &Polyhedron, face: u32) -> impl Iterator<Item = [u32; 3]> {
-    let corner = move |side: u32| polyhedron.corner(face, side);
-    (2..polyhedron.faces[face as usize].side_count).map(move |side| [corner(0), corner(side - 1), corner(side)])
-}
-
-/// The distance from the plane, less what that misses the face by, over the polygon, else from the nearest side.
-fn distance_from_face(polyhedron: &Polyhedron, face: &Face, point: &Vector) -> f64 {
-    let sides = &polyhedron.sides[face.first_side as usize..(face.first_side + face.side_count) as usize];
-    let is_over = |i: usize| {
-        let (block, lane) = match i {
-            0..3 => (&face.planes, 1 + i),
-            _ => (&polyhedron.further_sides(face)[(i - 3) / 4], (i - 3) % 4),
-        };
-        block.value(lane, point) >= 0.0
-    };
-    if (0..sides.len()).all(is_over) {
-        return face.planes.value(0, point).abs() - face.slack;
-    }
-    let of_side = |side: &u32| {
-        let edge = &polyhedron.edges[*side as usize];
-        let ends = [edge.tail(), edge.head()].map(|v| polyhedron.vertices[v as usize].position);
-        distance_from_segment(&ends, point)
-    };
-    sides.iter().map(of_side).fold(f64::INFINITY, f64::min)
-}
-
-/// The distance of the witness points.
-pub(super) fn distance_between(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], witnesses: &[Witness; 2]) -> f64 {
-    length(&difference_of(polyhedra, poses, witnesses))
-}
-
-/// From the witness point of object 2 to that of object 1, in the world.
+/// From the point of object 2 to that of object 1, those of the polyhedra, in the world.
 pub(super) fn difference_of(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], witnesses: &[Witness; 2]) -> Vector {
-    let [first, second] = [0, 1].map(|i| poses[i].rotate(&witnesses[i].centred()));
+    let [first, second] = [0, 1].map(|i| {
+        let Witness { local, inwards, .. } = &witnesses[i];
+        poses[i].rotate(&(local - polyhedra[i].centre)) + inwards
+    });
     between_origins(polyhedra, poses) + first - second
 }

@@ -293,9 +293,11 @@ fn of_tied_vertex(polyhedron: &Polyhedron, vertex: u32, g: &Vector) -> f64 {
         .filter(|&edge| edge != NONE)
         .map(|edge| of_edge(polyhedron, &polyhedron.edges[edge as usize], Portable::from_vector(g)))
         .fold(f64::INFINITY, f64::min);
-    if best < f64::INFINITY {
-        return best;
-    }
+    if best < f64::INFINITY { best } else { by_all_vertices(polyhedron, vertex, g) }
+}
+
+/// δ of a vertex, from all vertices.
+pub fn by_all_vertices(polyhedron: &Polyhedron, vertex: u32, g: &Vector) -> f64 {
     let own = &polyhedron.vertices[vertex as usize].position;
     let highest = polyhedron.vertices.iter().map(|v| g.dot(&(v.position - own))).fold(0.0, f64::max);
     // |v − own| ≤ 2ρ; difference and product err by 5u, g by DIRECTION_ERROR.

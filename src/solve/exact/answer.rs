@@ -80,14 +80,15 @@ impl ExactDistance {
 
     /// The distance against a double that is not negative, by their squares.
     pub fn compare(&self, other: f64) -> Ordering {
-        if other == f64::INFINITY {
-            return Ordering::Less;
-        }
         self.compare_sum(&[other])
     }
 
-    /// The same against a sum of finite doubles.
+    /// The same against a sum of doubles, of which +∞ may be one.
     pub fn compare_sum(&self, parts: &[f64]) -> Ordering {
+        debug_assert!(parts.iter().all(|part| *part > f64::NEG_INFINITY), "{parts:?}");
+        if parts.contains(&f64::INFINITY) {
+            return Ordering::Less;
+        }
         let (sum, exponent) = exact_sum(parts);
         if sum < IBig::ZERO {
             return Ordering::Greater;
