@@ -1239,7 +1239,17 @@ swiftprox_status swiftprox_pair_signed_distance(const struct swiftprox_shape *sh
                                                 const struct swiftprox_pair_config *config,
                                                 struct swiftprox_signed_distance *answer);
 
-/** One contact point: a point of each object, in line along the normal. */
+/**
+ * One contact point: a point of each object, in line along the normal.
+ *
+ * Each is on its object, up to rounding and half of what a contact face is thick. They are in line up to 2⁻²⁷ of the pair's size
+ * and twice what the contact faces of both are thick: a corner that is no farther outside the other's face has the nearest point
+ * of that.
+ *
+ * The gap is certified: each object has a point, no farther from the one that is said than it may be off, and the gap of these two
+ * along the normal is in the interval. That holds in exact arithmetic, for the doubles of shapes, poses and normal. So an interval
+ * never lies below, or above, the gaps of all points of the objects.
+ */
 typedef struct swiftprox_manifold_point {
   /** On object 1, in its local frame. */
   double local1[3];
@@ -1317,9 +1327,10 @@ void swiftprox_manifold_config_init_sized(struct swiftprox_manifold_config *conf
  * says how many there are. Objects farther apart have none, and their outcome is SWIFTPROX_OUTCOME_BEYOND.
  *
  * Manifolds are made over faces as they were meant: what could lie in one plane up to the shape's face_noise
- * (swiftprox_shape_options). Gap intervals hold for the exact objects: they contain by how much such a face is not flat. Points
- * are off sideways by about as much, and points nearer to each other than 7.5e-9 of the pair's size are one. One of the points is
- * as deep as the objects are. It is not certified that a face is complete.
+ * (swiftprox_shape_options). Gap intervals hold for the exact objects: they contain by how much such a face is not flat. Points are
+ * on their objects up to half of what it is thick, and in line up to twice that and 7.5e-9 of the pair's size. Corners nearer to
+ * each other than 3e-8 of it, or four times what such faces are thick, are one. One of the points is as deep as the objects are.
+ * It is not certified that a face is complete.
  *
  * Arguments and errors as of swiftprox_pair_distance; the cache is one for manifolds alone. points may be null if capacity is 0.
  * On failure the manifold is reset, and points are as they were.

@@ -277,42 +277,40 @@ fn gaps_of_very_many_corners_nearly_in_line() {
     (2..102).for_each(|seed| check_pairs(seed, 4_000));
 }
 
-/// TEMP
+/// Bodies of a few lattice points, and up to two far away: 10⁵ to 10¹² times as long as thick, so all within the noise of their contact
+/// faces, which lean by nearly a right angle. Cause: a place that is off by the noise was put into the plane of such a face, and a
+/// point of a body 7·10⁹ long and 36 thick was 1,300 out of it, half the width of its gap's interval. Cut-off: a corner up to the noise
+/// outside a face. One in six such pairs had a false gap, or a point out of its body. From fuzzing.
 #[test]
-#[ignore]
-fn temp_search() {
-    let mut random = Random::new(std::env::var("SEED").ok().map_or(1, |s| s.parse().unwrap()));
-    let mut failures = 0;
-    let mut count = 0;
-    for round in 0..20_000 {
-        let mut body = |_| {
-            let mut points: Vec<Vector> = (0..4 + random.below(4)).map(|_| random.lattice(32)).collect();
-            let far = 10_f64.powf(random.uniform(5.0, 12.0));
-            for _ in 0..random.below(3) {
-                let direction = match random.below(3) {
-                    0 => Vector::ith(random.below(3), 1.0),
-                    1 => Vector::new(0.0, 1.0, 1.0),
-                    _ => random.direction(),
-                };
-                points.push(direction * far + random.lattice(32));
-            }
-            points
-        };
-        let points = [0, 1].map(&mut body);
-        let shapes = points.each_ref().map(|p| hull(p));
+fn points_of_needles_within_their_noise_are_on_them() {
+    let mut random = Random::new(1);
+    let (mut several, mut failures) = (0, Vec::new());
+    for round in 0..2_000 {
+        let points = [(); 2].map(|()| needle(&mut random));
+        let shapes = points.each_ref().map(|points| hull(points));
         let turn = if random.below(2) == 0 { Matrix::identity() } else { random.rotation() };
         let (p, q) = (points[0][random.below(4)], points[1][random.below(4)]);
         let poses = [Pose::new(&turn, &(q - turn * p + random.lattice(1) * random.power(-30, 3))), Pose::IDENTITY];
         let config = ManifoldConfig { margin: random.pick(&[0.0, 1.0, f64::INFINITY]), ..ALL };
         match ask(shapes.each_ref(), poses.each_ref(), &mut ManifoldCache::default(), &config) {
-            Ok((_, points)) => count += usize::from(points.len() > 1),
-            Err(text) => {
-                failures += 1;
-                if failures < 12 {
-                    println!("{round}: {} {:?} {:?}\n", text.chars().take(900).collect::<String>(), points, poses);
-                }
-            }
+            Ok((_, points)) => several += usize::from(points.len() > 1),
+            Err(text) => failures.push(format!("{round}: {text}")),
         }
     }
-    println!("{failures} failures, {count} several");
+    assert!(failures.is_empty(), "{}:\n{}", failures.len(), failures[..failures.len().min(5)].join("\n"));
+    assert!(several > 200, "{several}");
+}
+
+fn needle(random: &mut Random) -> Vec<Vector> {
+    let mut points: Vec<Vector> = (0..4 + random.below(4)).map(|_| random.lattice(32)).collect();
+    let far = 10_f64.powf(random.uniform(5.0, 12.0));
+    for _ in 0..random.below(3) {
+        let direction = match random.below(3) {
+            0 => Vector::ith(random.below(3), 1.0),
+            1 => Vector::new(0.0, 1.0, 1.0),
+            _ => random.direction(),
+        };
+        points.push(direction * far + random.lattice(32));
+    }
+    points
 }
