@@ -33,7 +33,7 @@ static void answers_that_are_known(void)
 static void round_bodies(void)
 {
     const double centre[3] = {0, 0, 0};
-    const swiftprox_shape *shapes[2] = {cube(), NULL};
+    const swiftprox_shape *shapes[2] = {box(1, 1, 1), NULL};
     swiftprox_shape_options options;
     swiftprox_ray ray = {{-5, 0.3, 0}, {1, 0, 0}, HUGE_VAL};
     swiftprox_ray_answer answer;
@@ -64,7 +64,7 @@ static void round_bodies(void)
             CHECK(met.count == 1 && met.hits[0].row == (uint32_t)i && met.hits[0].answer.entry[0] <= 4);
         }
         swiftprox_scratch_destroy(scratch);
-        swiftprox_scene_destroy(scene);
+        CHECK_OK(swiftprox_scene_destroy(scene));
     }
     swiftprox_shape_release(shapes[0]);
     swiftprox_shape_release(shapes[1]);
