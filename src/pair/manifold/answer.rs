@@ -75,7 +75,7 @@ pub(super) const FOUR: usize = 4;
 
 /// One contact point: a point of each object, in line along the normal.
 ///
-/// Each is on its object, up to rounding and half of what a contact face is thick. They are in line up to 2⁻²⁷ of the pair's size
+/// Each is on its object, up to rounding and half of what a contact face is thick. They are in line up to 2^-27 of the pair's size
 /// and twice what the contact faces of both are thick: a corner that is no farther outside the other's face has the nearest point
 /// of that.
 ///
