@@ -1,5 +1,6 @@
 //! Where memory is lacking a call says so and has changed nothing. An allocator refuses one block after the other: every block of
-//! at least [`SMALL`] bytes, which no block may have that is not asked for in a way that can be refused; and of queries every block.
+//! at least [`SMALL`] bytes, which no block may have that is not asked for in a way that can be refused; and of queries every
+//! block.
 
 // GlobalAlloc is an unsafe trait.
 #![allow(unsafe_code)]

@@ -437,9 +437,9 @@ static swiftprox_status ask_scene(uint64_t *told)
 }
 
 /*
- * Every block that a question asks for is refused once: it is answered all the same, or ends in SWIFTPROX_ERROR_MEMORY, and the next
- * time it is answered. Integers got no memory by a panic, which was SWIFTPROX_ERROR_BUG and the end of a scene, and lists beside
- * them ended the program: of these cubes blocks of 48 to 64 bytes.
+ * Every block that a question asks for is refused once: it is answered all the same, or ends in SWIFTPROX_ERROR_MEMORY, and the
+ * next time it is answered. Integers got no memory by a panic, which was SWIFTPROX_ERROR_BUG and the end of a scene, and lists
+ * beside them ended the program: of these cubes blocks of 48 to 64 bytes.
  */
 static void refuse_every_block(const char *what, swiftprox_status (*ask)(uint64_t *told))
 {

@@ -1,5 +1,5 @@
-//! Rays at any body at any pose, with a ball of any radius swept over it: refused exactly if a number is out of range, else judged by exact rationals; and in the
-//! floating-point environment that the last byte chooses the bits are the same.
+//! Rays at any body at any pose, with a ball of any radius swept over it: refused exactly if a number is out of range, else judged
+//! by exact rationals; and in the floating-point environment that the last byte chooses the bits are the same.
 #![no_main]
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};

@@ -151,8 +151,8 @@ fn ids(points: &[ManifoldPoint]) -> Vec<u64> {
     ids
 }
 
-/// Gaps are those between the points, along the normal, as far as rounding and the intervals go, and of points of the bodies exactly;
-/// points are in line and on their bodies.
+/// Gaps are those between the points, along the normal, as far as rounding and the intervals go, and of points of the bodies
+/// exactly; points are in line and on their bodies.
 fn measure(bodies: [Placed; 2], found: &Manifold, points: &[ManifoldPoint]) {
     let normal = Vector::from(found.normal);
     assert!((normal.norm() - 1.0).abs() < 1e-14, "{found:?}");

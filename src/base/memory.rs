@@ -121,8 +121,8 @@ pub(crate) fn lacking<T>(count: usize, error: &TryReserveError) -> Error {
 /// What a panic carries where integers of any size get no new block (the crate dashu-int).
 const NO_MEMORY: &str = "out of memory";
 
-/// … and where theirs is not made another size: its `Buffer::reallocate_raw` unwraps the pointer. Nothing of ours unwraps an option,
-/// as a test of the project sees to, and what else dashu-int unwraps is there.
+/// … and where theirs is not made another size: its `Buffer::reallocate_raw` unwraps the pointer. Nothing of ours unwraps an
+/// option, as a test of the project sees to, and what else dashu-int unwraps is there.
 const NO_OTHER_SIZE: &str = "called `Option::unwrap()` on a `None` value";
 
 thread_local! {

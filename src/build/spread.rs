@@ -1,13 +1,13 @@
-//! Which faces of the hull a polygon lies over that is not all of it on one: its corners are off a plane by their precision, and the
-//! hull's faces over it go their own ways.
+//! Which faces of the hull a polygon lies over that is not all of it on one: its corners are off a plane by their precision, and
+//! the hull's faces over it go their own ways.
 
 use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::{filled, push};
 use crate::polyhedron::{Face, NONE, Polyhedron};
 
-/// A face looks the way a polygon does whose normals have at least this cosine. What is steeper is another side of the body, or next
-/// to nothing of the polygon.
+/// A face looks the way a polygon does whose normals have at least this cosine. What is steeper is another side of the body, or
+/// next to nothing of the polygon.
 const ALIKE: f64 = 0.5;
 
 /// A search for faces over one polygon after the other.
@@ -104,9 +104,9 @@ impl<'a> Spread<'a> {
         self.polyhedron.vertices[vertex as usize].position
     }
 
-    /// A face that looks a polygon's way, from one that need not: rounding may leave a polygon no vertex of the hull but some at its
-    /// sides, around which all faces are the next side's. The way is over neighbours that a ray from the centre of mass along the
-    /// normal comes to sooner: seen from the centre, faces are corners of the dual polytope, and the ray asks for the highest.
+    /// A face that looks a polygon's way, from one that need not: rounding may leave a polygon no vertex of the hull but some at
+    /// its sides, around which all faces are the next side's. The way is over neighbours that a ray from the centre of mass along
+    /// the normal comes to sooner: seen from the centre, faces are corners of the dual polytope, and the ray asks for the highest.
     fn facing(&self, seen: &Seen, mut face: u32, steps: &mut usize) -> u32 {
         let centre = self.polyhedron.mass.centre_of_mass - self.polyhedron.centre;
         let likeness = |face: u32| self.polyhedron.faces[face as usize].normal.dot(&seen.normal);
@@ -132,8 +132,8 @@ impl<'a> Spread<'a> {
         all.max_by(|a, b| likeness(*a).total_cmp(&likeness(*b))).unwrap_or(face)
     }
 
-    /// The face over the middle of a polygon, from another over neighbours that have the middle on their side of an edge: each time,
-    /// as the body is below all planes and above none of the edge's two, the plane over the middle is a lower one.
+    /// The face over the middle of a polygon, from another over neighbours that have the middle on their side of an edge: each
+    /// time, as the body is below all planes and above none of the edge's two, the plane over the middle is a lower one.
     fn walk(&self, seen: &Seen, start: u32, steps: &mut usize) -> u32 {
         let middle = seen.corners.iter().sum::<Vector>() / seen.corners.len() as f64;
         let mut face = start;

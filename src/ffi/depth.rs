@@ -317,10 +317,10 @@ pub unsafe extern "C" fn swiftprox_pair_signed_distance(
 /// says how many there are. Objects farther apart have none, and their outcome is SWIFTPROX_OUTCOME_BEYOND.
 ///
 /// Manifolds are made over faces as they were meant: what could lie in one plane up to the shape's face_noise
-/// (swiftprox_shape_options). Gap intervals hold for the exact objects: they contain by how much such a face is not flat. Points are
-/// on their objects up to half of what it is thick, and in line up to twice that and 7.5e-9 of the pair's size. Corners nearer to
-/// each other than 3e-8 of it, or four times what such faces are thick, are one. One of the points is as deep as the objects are.
-/// It is not certified that a face is complete.
+/// (swiftprox_shape_options). Gap intervals hold for the exact objects: they contain by how much such a face is not flat. Points
+/// are on their objects up to half of what it is thick, and in line up to twice that and 7.5e-9 of the pair's size. Corners nearer
+/// to each other than 3e-8 of it, or four times what such faces are thick, are one. One of the points is as deep as the objects
+/// are. It is not certified that a face is complete.
 ///
 /// Arguments and errors as of swiftprox_pair_distance; the cache is one for manifolds alone. points may be null if capacity is 0.
 /// On failure the manifold is reset, and points are as they were.

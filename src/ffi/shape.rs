@@ -154,9 +154,9 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_points(
     })
 }
 
-/// Makes the box [-x, x] x [-y, y] x [-z, z] from its half extents, 3 numbers. A ball of `radius` is swept over it: 0 leaves edges and
-/// corners sharp, more rounds them and makes the box larger by as much. Vertex i has bit 0 of i set where x is positive, bit 1 for
-/// y, bit 2 for z. The caller owns the shape and gives it back with swiftprox_shape_release. On failure `*shape` is null.
+/// Makes the box [-x, x] x [-y, y] x [-z, z] from its half extents, 3 numbers. A ball of `radius` is swept over it: 0 leaves edges
+/// and corners sharp, more rounds them and makes the box larger by as much. Vertex i has bit 0 of i set where x is positive, bit 1
+/// for y, bit 2 for z. The caller owns the shape and gives it back with swiftprox_shape_release. On failure `*shape` is null.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: a half extent is not positive, or a number is negative, larger than 2^1000 or NaN.
 /// SWIFTPROX_ERROR_NULL_POINTER. SWIFTPROX_ERROR_MEMORY.

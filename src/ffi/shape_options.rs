@@ -49,8 +49,8 @@ pub struct CShapeOptions {
     pub face_noise: f64,
     /// The radius of a ball that is swept over the body, in the units of the input, before scale: a point with one is a sphere, a
     /// segment a capsule, any other body has its edges and corners rounded. Distances, depths, manifolds, rays and scenes are of
-    /// the swept body: witness points are on it, features are those of the body without the ball; swept_radius of swiftprox_shape_info
-    /// tells it. From 0 (the default) to 2^1000; another number is SWIFTPROX_ERROR_INVALID_ARGUMENT.
+    /// the swept body: witness points are on it, features are those of the body without the ball; swept_radius of
+    /// swiftprox_shape_info tells it. From 0 (the default) to 2^1000; another number is SWIFTPROX_ERROR_INVALID_ARGUMENT.
     pub swept_radius: f64,
 }
 

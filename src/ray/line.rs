@@ -24,8 +24,8 @@ pub(super) struct Line<'a> {
     centre: Vector,
     /// R⁻¹, rounded.
     inverse: Matrix,
-    /// No point of the body is farther from the ray's origin than 1.03 times this: of lengths that rounding errors are in proportion
-    /// to.
+    /// No point of the body is farther from the ray's origin than 1.03 times this: of lengths that rounding errors are in
+    /// proportion to.
     pub reach: f64,
     /// The 1-norm of the direction.
     length: f64,

@@ -33,7 +33,8 @@ use crate::pair::Placed;
 ///
 /// # Errors
 /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted, as in [`crate::pair::distance`].
-/// [`Error::Argument`](crate::base::error::Error::Argument) for an origin or a direction that is not finite, a direction of 0, and a
+/// [`Error::Argument`](crate::base::error::Error::Argument) for an origin or a direction that is not finite, a direction of 0, and
+/// a
 /// `t_max` that is negative or NaN. [`Error::Memory`](crate::base::error::Error::Memory) where there is none for integers.
 pub fn cast_ray(body: Placed, ray: &Ray) -> Result<RayAnswer> {
     with_default(|| {

@@ -1,8 +1,8 @@
 //! Where a line first meets a point, a segment or a triangle with a ball swept over it, by closed forms in plain doubles. They
 //! propose.
 //!
-//! Of a hull of up to four corners with a ball that is the first of what its points, sides and triangles say. The line goes from the
-//! origin along a unit vector.
+//! Of a hull of up to four corners with a ball that is the first of what its points, sides and triangles say. The line goes from
+//! the origin along a unit vector.
 
 use crate::base::math::Vector;
 

@@ -1,7 +1,8 @@
 //! A ray cast at a body with a swept radius, in doubles: closed forms propose, planes and balls prove.
 //!
 //! The body is its hull with a ball of the radius. It is behind each plane that supports it, and has the ball around each point of
-//! the hull. So a ray comes in no sooner than through such a plane, and no later than into such a ball. Both meet where it comes in.
+//! the hull. So a ray comes in no sooner than through such a plane, and no later than into such a ball. Both meet where it comes
+//! in.
 //!
 //! What is looked for is a point, a side or a triangle of the hull's vertices that the line meets first with the ball. From any
 //! vertex on it is replaced by one that is met sooner, with the vertex that is farthest along its normal, until none is farther. A

@@ -104,8 +104,8 @@ pub enum InputPolicy {
     /// of those that share. Without a convexity tolerance the coordinates say it, before the input transform: four units of the
     /// last place in which they are written (decimals, significant digits, floats), at most 0.005 of the bounding box's diagonal.
     NearlyConvex = 3,
-    /// The faces are a part of the surface of their vertices' hull, or all of it: that hull counts, of any dimension. Vertices of no
-    /// face, which some mesh files have, are left out. A face of the hull on which no face of the mesh lies is called
+    /// The faces are a part of the surface of their vertices' hull, or all of it: that hull counts, of any dimension. Vertices of
+    /// no face, which some mesh files have, are left out. A face of the hull on which no face of the mesh lies is called
     /// SWIFTPROX_NO_FACE. Whether the faces do lie on the hull is not checked: no verdict and no distance depends on it.
     Patch = 4,
 }

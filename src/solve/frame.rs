@@ -368,8 +368,8 @@ fn centred(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Centred {
 
 /// (T₁ + R₁c₁) − (T₂ + R₂c₂), and the sum M of the magnitudes of the terms that it is the sum of.
 ///
-/// Summed in double-double arithmetic and rounded once: the two sums may agree in nearly all digits. Each of the six sums errs by at
-/// most 3u² of a partial sum, all by 18u²·M.
+/// Summed in double-double arithmetic and rounded once: the two sums may agree in nearly all digits. Each of the six sums errs by
+/// at most 3u² of a partial sum, all by 18u²·M.
 pub fn between_centres(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> ([f64; 3], f64) {
     let mut offset = [0.0; 3];
     let mut cancelled = 0.0;

@@ -122,8 +122,8 @@ fn a_gap_below_all_that_points_have_is_refused() {
 }
 
 /// Cubes a million off their own origins, which the poses bring together. Cause: where the middle of one is from that of the other
-/// was the difference of two sums that agree in nearly all digits, in doubles. Cut-off: 64 u of the size of the pair. Gaps were off by
-/// 4e-11, and their intervals 3e-13 wide.
+/// was the difference of two sums that agree in nearly all digits, in doubles. Cut-off: 64 u of the size of the pair. Gaps were off
+/// by 4e-11, and their intervals 3e-13 wide.
 #[test]
 fn gaps_of_bodies_far_from_their_own_origins_hold() {
     let mut random = Random::new(0x2_fa4);
@@ -142,8 +142,8 @@ fn gaps_of_bodies_far_from_their_own_origins_hold() {
     }
 }
 
-/// A knife whose sides are flat up to noise, its edge down on a box: both ends of the edge are points. Cause: the sides' contact face
-/// stands upright, and the slab was taken to be as thick along the normal as it is in its plane. Cut-off: 89.94°, a cosine of
+/// A knife whose sides are flat up to noise, its edge down on a box: both ends of the edge are points. Cause: the sides' contact
+/// face stands upright, and the slab was taken to be as thick along the normal as it is in its plane. Cut-off: 89.94°, a cosine of
 /// 10⁻³, from where on the ends were left out and the witness points were all.
 #[test]
 fn a_knife_of_noisy_sides_stands_on_both_ends_of_its_edge() {
@@ -263,8 +263,8 @@ fn check_pairs(seed: u64, rounds: usize) {
     assert!(several > rounds / 4 && single > rounds / 50, "{several} {single}");
 }
 
-/// Cause and cut-off as above; of the kind as well: noise, to which corners are at one place, and planes that lean by nearly a right
-/// angle, on which a place that is off by the noise is far out of the body.
+/// Cause and cut-off as above; of the kind as well: noise, to which corners are at one place, and planes that lean by nearly a
+/// right angle, on which a place that is off by the noise is far out of the body.
 #[test]
 fn gaps_of_corners_nearly_in_line_are_those_of_points_of_the_bodies() {
     check_pairs(1, 4_000);
@@ -277,10 +277,10 @@ fn gaps_of_very_many_corners_nearly_in_line() {
     (2..102).for_each(|seed| check_pairs(seed, 4_000));
 }
 
-/// Bodies of a few lattice points, and up to two far away: 10⁵ to 10¹² times as long as thick, so all within the noise of their contact
-/// faces, which lean by nearly a right angle. Cause: a place that is off by the noise was put into the plane of such a face, and a
-/// point of a body 7·10⁹ long and 36 thick was 1,300 out of it, half the width of its gap's interval. Cut-off: a corner up to the noise
-/// outside a face. One in six such pairs had a false gap, or a point out of its body. From fuzzing.
+/// Bodies of a few lattice points, and up to two far away: 10⁵ to 10¹² times as long as thick, so all within the noise of their
+/// contact faces, which lean by nearly a right angle. Cause: a place that is off by the noise was put into the plane of such a
+/// face, and a point of a body 7·10⁹ long and 36 thick was 1,300 out of it, half the width of its gap's interval. Cut-off: a corner
+/// up to the noise outside a face. One in six such pairs had a false gap, or a point out of its body. From fuzzing.
 #[test]
 fn points_of_needles_within_their_noise_are_on_them() {
     let mut random = Random::new(1);

@@ -210,8 +210,8 @@ fn needle(random: &mut Random, round: usize) -> Vec<Vector> {
 }
 
 /// Points in, on and beside needles. Their polytopes of vertex differences are flat where ends tell nothing of the sides: the depth
-/// was said to be in [0, 0.2] of a needle 1e-10 thick, its estimate −0, and the nearest point to be the point itself, from ratios of
-/// about 1e-7 on. A body's triangles tell.
+/// was said to be in [0, 0.2] of a needle 1e-10 thick, its estimate −0, and the nearest point to be the point itself, from ratios
+/// of about 1e-7 on. A body's triangles tell.
 #[test]
 fn points_in_needles() {
     let mut random = Random::new(14);

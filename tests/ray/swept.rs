@@ -68,8 +68,8 @@ fn check(shape: &Shape, known: &[Known]) {
     }
 }
 
-/// Before, rays at all bodies with a radius were refused, as a polyhedron's planes and triangles tell nothing of these: every radius
-/// but 0 shows it. So it was in the tests below.
+/// Before, rays at all bodies with a radius were refused, as a polyhedron's planes and triangles tell nothing of these: every
+/// radius but 0 shows it. So it was in the tests below.
 #[test]
 fn closed_forms_of_balls() {
     let (r3, r8) = (3_f64.sqrt(), 8_f64.sqrt());

@@ -136,8 +136,8 @@ type Rounding = fn(f64) -> f64;
 const ROUNDINGS: [Rounding; 4] =
     [|x| (x * 1e3).round() / 1e3, |x| (x * 1e6).round() / 1e6, |x| f64::from(x as f32), |x| x];
 
-/// Cubes whose sides are squares, rounded: the hull's faces over them are triangles that go their own ways, over several polygons at
-/// once. Each polygon was the label of the one face nearest to its plane, and 19 to 34 % of answers named a neighbour, up to two
+/// Cubes whose sides are squares, rounded: the hull's faces over them are triangles that go their own ways, over several polygons
+/// at once. Each polygon was the label of the one face nearest to its plane, and 19 to 34 % of answers named a neighbour, up to two
 /// edges away; verify took them. From 2 x 2 squares of 6 decimals on.
 #[test]
 fn a_face_over_several_polygons_has_them_all() {
@@ -176,8 +176,8 @@ fn so_it_is_of_strict_meshes() {
     assert!(asked > 1_000, "{asked}");
 }
 
-/// Plates of no thickness, or of that which rounding gives them: a polygon whose upper side is a fan around one corner, its lower one
-/// around another.
+/// Plates of no thickness, or of that which rounding gives them: a polygon whose upper side is a fan around one corner, its lower
+/// one around another.
 #[test]
 fn so_it_is_of_flat_plates() {
     let mut random = Random::new(0x50a7);

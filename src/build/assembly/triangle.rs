@@ -7,8 +7,8 @@ use crate::build::slack::rise_over;
 use crate::polyhedron::{Bevel, LARGEST, MassProperties, Polyhedron, SMALLEST};
 
 /// Moves the three vertices of a triangle that [`build`](super::build) made, vertex v to `corners[v]`, and of all else what a
-/// manifold reads: the normals and slacks of its two faces. `normals` are theirs, of unit length, right to a few u. Labels stay. The
-/// corners are not on a line, no coordinate is beyond [`LARGEST`], and the triangle, centred, is not within [`SMALLEST`].
+/// manifold reads: the normals and slacks of its two faces. `normals` are theirs, of unit length, right to a few u. Labels stay.
+/// The corners are not on a line, no coordinate is beyond [`LARGEST`], and the triangle, centred, is not within [`SMALLEST`].
 pub fn move_outline(polyhedron: &mut Polyhedron, corners: &[Vector; 3], normals: &[Vector; 2]) {
     let centre = centre_of(corners);
     // The sum with +0 turns −0 into 0.

@@ -66,7 +66,8 @@ pub fn check_surface(mesh: &PolygonMesh, progress: &mut Progress) -> Result<()> 
     corners.check_genus(&twins, mesh, &mut progress.part(0.95, 1.0))
 }
 
-/// The first vertex that belongs to no face, if there is one: the hull of all vertices reaches to it, whether or not the surface does.
+/// The first vertex that belongs to no face, if there is one: the hull of all vertices reaches to it, whether or not the surface
+/// does.
 ///
 /// # Errors
 /// As [`check_surface`], for what is wrong with indices alone.

@@ -161,8 +161,8 @@ fn way_out(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Option<WayOut> {
     exact::way_out(polyhedra[body], poses[body], polyhedra[point], poses[point])
 }
 
-/// Whether all that a search found of a point in a body is an interval that is wider than answers are: in a needle, which is thinner
-/// than what vertices at its ends tell apart.
+/// Whether all that a search found of a point in a body is an interval that is wider than answers are: in a needle, which is
+/// thinner than what vertices at its ends tell apart.
 fn is_lost_in_needle(polyhedra: [&Polyhedron; 2], expansion: &Expansion) -> bool {
     let size = polyhedra[0].radius.max(polyhedra[1].radius);
     point_and_body(polyhedra).is_some() && expansion.upper - expansion.lower > WIDEST * size

@@ -1,8 +1,8 @@
 //! How deep two objects are in each other: an interval that holds the least translation that parts them, and where.
 //!
 //! Floating point searches and proves: of pairs at rest by the pyramid of before, else of small bodies by all facets,
-//! `solve/facets/`, else by `solve/polytope/`. Integers decide what rounding hides at the ends: objects that touch, flat ones in one plane,
-//! objects that hardly overlap.
+//! `solve/facets/`, else by `solve/polytope/`. Integers decide what rounding hides at the ends: objects that touch, flat ones in
+//! one plane, objects that hardly overlap.
 
 mod answer;
 mod cache;

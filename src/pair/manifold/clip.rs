@@ -30,7 +30,8 @@ pub enum CommonCorner {
 #[derive(Debug, Clone, Copy)]
 pub struct Spot {
     pub corner: CommonCorner,
-    /// A point of either patch, which is a point of its body up to the patch's slack and rounding: no plane is taken beyond its sides.
+    /// A point of either patch, which is a point of its body up to the patch's slack and rounding: no plane is taken beyond its
+    /// sides.
     pub spots: [Vector; 2],
     /// By how much the gap may be off.
     pub error: f64,

@@ -271,9 +271,9 @@ impl Chain<'_> {
         if self.step == 1 { (self.corner + self.outline.count - 1) % self.outline.count } else { self.corner }
     }
 
-    /// The segment's point nearest to a place across the normal, if it is within a distance, and how far it is. Of a segment that is
-    /// no longer than that, seen along the normal, the point is the end that is farther along it, or against it: `towards` is the
-    /// sign.
+    /// The segment's point nearest to a place across the normal, if it is within a distance, and how far it is. Of a segment that
+    /// is no longer than that, seen along the normal, the point is the end that is farther along it, or against it: `towards` is
+    /// the sign.
     pub fn point_near(&self, place: &Vector, distance: f64, towards: f64) -> Option<(Vector, f64)> {
         let (along, arm) = ((self.to - self.from).xy(), (place - self.from).xy());
         // No squares, which would underflow where lengths do not.

@@ -141,8 +141,8 @@ pub(super) enum Polyhedra {
     Apart,
 }
 
-/// Proves that the depth of objects is in an interval, and checks the normal; returns where the polyhedra are, and what rounding may
-/// make of a length.
+/// Proves that the depth of objects is in an interval, and checks the normal; returns where the polyhedra are, and what rounding
+/// may make of a length.
 pub(super) fn prove_depth(
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],

@@ -248,7 +248,8 @@ impl<'a> Check<'a> {
     /// surface.
     fn check_facing(&self, witness: &Witness, towards: &Vector, width: f64) -> Result<()> {
         let (polyhedron, point) = (witness.polyhedron, witness.centred());
-        // R has an inverse: det R > 0. In the world a face's normal is (R⁻¹)ᵀ·n, and its planes are as much closer as that is longer.
+        // R has an inverse: det R > 0. In the world a face's normal is (R⁻¹)ᵀ·n, and its planes are as much closer as that is
+        // longer.
         let Some(back) = witness.pose.rotation().try_inverse() else { return Err(too_large()) };
         if polyhedron.dimension < 3 {
             return Ok(());

@@ -34,8 +34,8 @@ pub struct Witness<'a> {
 }
 
 impl<'a> Witness<'a> {
-    /// Of both objects, from an answer of any kind: points that stand for those a swept radius off along a normal, or along zeros for
-    /// themselves.
+    /// Of both objects, from an answer of any kind: points that stand for those a swept radius off along a normal, or along zeros
+    /// for themselves.
     pub fn of_both(
         polyhedra: [&'a Polyhedron; 2],
         poses: [&'a Pose; 2],
@@ -92,8 +92,8 @@ impl<'a> Witness<'a> {
     }
 
     /// The corners of the feature, and how far the surface may be from their hull, in the object's frame; of a face those of each
-    /// that the caller's polygon is part of, and where no other polygon there is nearer by more than `beyond`. `None` if the object has
-    /// none; any two vertices are taken for an edge.
+    /// that the caller's polygon is part of, and where no other polygon there is nearer by more than `beyond`. `None` if the object
+    /// has none; any two vertices are taken for an edge.
     fn parts(&self, beyond: f64) -> Option<Vec<(Vec<u32>, f64)>> {
         let polyhedron = self.polyhedron;
         let [first, second] = self.feature.ids;
@@ -124,8 +124,8 @@ impl<'a> Witness<'a> {
         self.check_frames()
     }
 
-    /// The same of a point that is no farther from the polyhedron than the swept radius, up to `allowed`; `around` are vertices whose
-    /// hull may hold it.
+    /// The same of a point that is no farther from the polyhedron than the swept radius, up to `allowed`; `around` are vertices
+    /// whose hull may hold it.
     pub fn check_swept_point(&self, allowed: f64, around: &[u32]) -> Result<()> {
         self.check_within(&[self.radius, allowed], around)?;
         self.check_frames()
