@@ -9,7 +9,7 @@ use crate::pair::answer::Outcome;
 use crate::pair::contact;
 use crate::polyhedron::Polyhedron;
 use crate::solve::decide::combinations;
-use crate::solve::exact::{self, ExactAnswer, Position, Supports, VertexPair, WayOut};
+use crate::solve::exact::{self, Differences, ExactAnswer, Position, Supports, VertexPair, WayOut};
 use crate::solve::facets::Overlap;
 use crate::solve::polytope::{Ending, Expansion};
 use crate::solve::state::FeatureId;
@@ -158,7 +158,13 @@ fn point_and_body(polyhedra: [&Polyhedron; 2]) -> Option<[usize; 2]> {
 /// The shortest way out for a point inside a body: `None` of other pairs.
 fn way_out(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Option<WayOut> {
     let [point, body] = point_and_body(polyhedra)?;
-    exact::way_out(polyhedra[body], poses[body], polyhedra[point], poses[point])
+    let mut found = exact::way_out(polyhedra[body], poses[body], polyhedra[point], poses[point])?;
+    // The normal, from body 2 to body 1, is rounded: along it the point is out later, by up to u times how far the body reaches.
+    let out = contact::normalised(&if point == 0 { found.normal } else { -found.normal });
+    if let Some(along) = Differences::new(polyhedra, poses).overlap_along(&out.into()) {
+        found.depth[1] = found.depth[1].max(along.bounds().1);
+    }
+    Some(found)
 }
 
 /// Whether all that a search found of a point in a body is an interval that is wider than answers are: in a needle, which is
