@@ -194,7 +194,7 @@ impl<'a> Witness<'a> {
     /// The point is on the feature, up to `allowed` and what faces and edges were merged within: near a point that is on it, else
     /// integers tell.
     pub fn check_on_feature(&self, allowed: f64) -> Result<()> {
-        self.check_feature()?;
+        self.parts(f64::INFINITY).ok_or_else(|| self.has_none())?;
         let allowed = allowed + 64.0 * U * self.polyhedron.radius;
         let parts = self.parts(allowed).unwrap_or_default();
         if self.point_of(&parts).is_some_and(|inside| self.off(&inside) <= allowed) {
