@@ -80,9 +80,12 @@ impl Found {
     }
 }
 
+/// A kernel's name, and what runs it.
+type Named = (&'static str, fn() -> Found);
+
 /// All of them, run on a machine that fuses and on one that does not.
 pub fn all() -> Vec<Kernel> {
-    let on_lanes: [(&str, fn() -> Found); 9] = [
+    let on_lanes: [Named; 9] = [
         ("difference", difference),
         ("rotate_back", rotate_back),
         ("rigid", rigid),
@@ -93,7 +96,7 @@ pub fn all() -> Vec<Kernel> {
         ("fan", fan),
         ("plane_values", plane_block),
     ];
-    let scalar: [(&str, fn() -> Found); 9] = [
+    let scalar: [Named; 9] = [
         ("bounds", bounds),
         ("interval", interval),
         ("determinant_error", determinant_errors),
@@ -297,7 +300,7 @@ fn planes() -> Found {
     let mut random = Random::new(0x70_6c);
     let mut polytope = Box::new(Polytope::<8, 16>::EMPTY);
     for (index, corner) in [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].into_iter().enumerate() {
-        let place = vector(&["p", "q", "r"][index], Vector::from(corner) + random.vector() * 0.1);
+        let place = vector(["p", "q", "r"][index], Vector::from(corner) + random.vector() * 0.1);
         polytope.positions[index] = [place.x, place.y, place.z, 0.0];
     }
     polytope.corners[0] = [0, 1, 2, 0];
@@ -327,7 +330,7 @@ fn planes() -> Found {
     let of_normal: Vec<(Node, &str)> = normal.into_iter().zip(["ux", "uy", "uz"]).collect();
     found.counted("over", over, &of_normal).root("distance", distance).root("across", across);
     let claim = *tape.claims.last().expect("the determinants");
-    let claim = tape.claims.iter().rev().take(4).last().copied().unwrap_or(claim);
+    let claim = tape.claims.iter().rev().take(4).next_back().copied().unwrap_or(claim);
     let [left, length] = operands(claim.left);
     assert_eq!(left, distance);
     let [_, sizes] = operands(claim.right);

@@ -57,6 +57,7 @@ pub(super) fn cast_in_integers(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray, 
 }
 
 /// What doubles prove.
+#[expect(clippy::large_enum_variant, reason = "on the stack, of one call")]
 enum Proved {
     Miss,
     /// The line passes through the body: it comes in at a touch, between these places, and goes out between those.

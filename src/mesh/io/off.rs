@@ -159,7 +159,7 @@ fn check_letters(scanner: &Scanner, word: &[u8], letters: &[u8], lower_case: boo
         let begins = |attribute: &&[u8]| {
             rest.len() >= attribute.len() && rest[..attribute.len()].eq_ignore_ascii_case(attribute)
         };
-        match ATTRIBUTES.iter().position(|attribute| begins(attribute)) {
+        match ATTRIBUTES.iter().position(begins) {
             Some(k) if !seen[k] => {
                 seen[k] = true;
                 rest = &rest[ATTRIBUTES[k].len()..];
