@@ -241,8 +241,8 @@ typedef enum swiftprox_input SWIFTPROX_INT32 {
    */
   SWIFTPROX_INPUT_NEARLY_CONVEX = 3,
   /**
-   * The faces are a part of the surface of their vertices' hull, or all of it: that hull counts, of any dimension. Vertices of no
-   * face, which some mesh files have, are left out. A face of the hull on which no face of the mesh lies is called
+   * The faces are a part of the surface of their vertices' hull, or all of it: that hull counts, of any dimension. Vertices of
+   * no face, which some mesh files have, are left out. A face of the hull on which no face of the mesh lies is called
    * SWIFTPROX_NO_FACE. Whether the faces do lie on the hull is not checked: no verdict and no distance depends on it.
    */
   SWIFTPROX_INPUT_PATCH = 4
@@ -295,8 +295,8 @@ typedef struct swiftprox_shape_options {
   /**
    * The radius of a ball that is swept over the body, in the units of the input, before scale: a point with one is a sphere, a
    * segment a capsule, any other body has its edges and corners rounded. Distances, depths, manifolds, rays and scenes are of
-   * the swept body: witness points are on it, features are those of the body without the ball; swept_radius of swiftprox_shape_info
-   * tells it. From 0 (the default) to 2^1000; another number is SWIFTPROX_ERROR_INVALID_ARGUMENT.
+   * the swept body: witness points are on it, features are those of the body without the ball; swept_radius of
+   * swiftprox_shape_info tells it. From 0 (the default) to 2^1000; another number is SWIFTPROX_ERROR_INVALID_ARGUMENT.
    */
   double swept_radius;
 } swiftprox_shape_options;
@@ -459,9 +459,9 @@ swiftprox_status swiftprox_shape_create_from_file(const char *path,
                                                   const struct swiftprox_shape **shape);
 
 /**
- * Makes the box [-x, x] x [-y, y] x [-z, z] from its half extents, 3 numbers. A ball of `radius` is swept over it: 0 leaves edges and
- * corners sharp, more rounds them and makes the box larger by as much. Vertex i has bit 0 of i set where x is positive, bit 1 for
- * y, bit 2 for z. The caller owns the shape and gives it back with swiftprox_shape_release. On failure `*shape` is null.
+ * Makes the box [-x, x] x [-y, y] x [-z, z] from its half extents, 3 numbers. A ball of `radius` is swept over it: 0 leaves edges
+ * and corners sharp, more rounds them and makes the box larger by as much. Vertex i has bit 0 of i set where x is positive, bit 1
+ * for y, bit 2 for z. The caller owns the shape and gives it back with swiftprox_shape_release. On failure `*shape` is null.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: a half extent is not positive, or a number is negative, larger than 2^1000 or NaN.
  * SWIFTPROX_ERROR_NULL_POINTER. SWIFTPROX_ERROR_MEMORY.
@@ -1242,7 +1242,7 @@ swiftprox_status swiftprox_pair_signed_distance(const struct swiftprox_shape *sh
 /**
  * One contact point: a point of each object, in line along the normal.
  *
- * Each is on its object, up to rounding and half of what a contact face is thick. They are in line up to 2⁻²⁷ of the pair's size
+ * Each is on its object, up to rounding and half of what a contact face is thick. They are in line up to 2^-27 of the pair's size
  * and twice what the contact faces of both are thick: a corner that is no farther outside the other's face has the nearest point
  * of that.
  *
@@ -1327,10 +1327,10 @@ void swiftprox_manifold_config_init_sized(struct swiftprox_manifold_config *conf
  * says how many there are. Objects farther apart have none, and their outcome is SWIFTPROX_OUTCOME_BEYOND.
  *
  * Manifolds are made over faces as they were meant: what could lie in one plane up to the shape's face_noise
- * (swiftprox_shape_options). Gap intervals hold for the exact objects: they contain by how much such a face is not flat. Points are
- * on their objects up to half of what it is thick, and in line up to twice that and 7.5e-9 of the pair's size. Corners nearer to
- * each other than 3e-8 of it, or four times what such faces are thick, are one. One of the points is as deep as the objects are.
- * It is not certified that a face is complete.
+ * (swiftprox_shape_options). Gap intervals hold for the exact objects: they contain by how much such a face is not flat. Points
+ * are on their objects up to half of what it is thick, and in line up to twice that and 7.5e-9 of the pair's size. Corners nearer
+ * to each other than 3e-8 of it, or four times what such faces are thick, are one. One of the points is as deep as the objects
+ * are. It is not certified that a face is complete.
  *
  * Arguments and errors as of swiftprox_pair_distance; the cache is one for manifolds alone. points may be null if capacity is 0.
  * On failure the manifold is reset, and points are as they were.
@@ -3163,8 +3163,12 @@ typedef struct swiftprox_object_set {
 } swiftprox_object_set;
 
 /**
- * Room to work in for questions about sets of objects, of any scene, for one thread at a time. It keeps what pairs remember, which
- * changes how fast an answer comes and which of several nearest points it gives, never a verdict.
+ * Room to work in for questions that threads ask a scene at once: about sets of objects, and of rays, grounds and half-spaces. One
+ * thread at a time uses it, for any scenes.
+ *
+ * Of sets it keeps what pairs of objects remember, which changes how fast an answer comes and which of several nearest points it
+ * gives, never a verdict. Of rays, grounds and half-spaces it keeps nothing but the room and the last answer: whatever it has
+ * seen, they are answered bit for bit as with a new one.
  */
 typedef struct swiftprox_scratch swiftprox_scratch;
 

@@ -244,7 +244,7 @@ static void motions()
     const std::array<double, 6> written{0.125, 0.25, 0.5, 1.123, 2.25, 3.5};
     CHECK(swiftprox::try_estimate_tolerance(written).value > 1e-9);
     // Coordinates behind the last whole point were left out: the array is of other numbers, or of others than the caller thinks.
-    for (const std::size_t count : {1, 4, 5}) {
+    for (const std::size_t count : {std::size_t{1}, std::size_t{4}, std::size_t{5}}) {
         const auto odd = swiftprox::try_estimate_tolerance(swiftprox::Range<const double>(written.data(), count));
         CHECK(odd.status == SWIFTPROX_ERROR_INVALID_ARGUMENT && std::strstr(odd.message(), "not a multiple of 3"));
     }

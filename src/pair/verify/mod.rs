@@ -13,6 +13,7 @@ mod manifold;
 
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, ROTATION_LIMIT, Vector};
+use crate::base::memory::listed;
 use crate::pair::answer::{DecidedBy, Outcome, PairAnswer};
 use crate::pair::placed::Placed;
 use crate::pair::radii::Radii;
@@ -190,7 +191,11 @@ fn proof_of(polyhedra: [&Polyhedron; 2], answer: &PairAnswer) -> Result<Vec<Vert
             .map(|index| index as u32)
             .ok_or_else(|| Error::Argument(format!("vertex {label} of object {} is no vertex of its hull", i + 1)))
     };
-    answer.proof[..count].iter().map(|&[v, w]| Ok([index_of(0, v)?, index_of(1, w)?])).collect()
+    let mut pairs = listed([]);
+    for &[v, w] in &answer.proof[..count] {
+        pairs.push([index_of(0, v)?, index_of(1, w)?]);
+    }
+    Ok(pairs)
 }
 
 /// Overlapping balls, and swept radii, leave no vertex pairs as a proof: integers decide anew.
@@ -226,7 +231,7 @@ fn check_common_point(
     check_unit(&answer.normal.into())?;
     let witnesses = Witness::of_both(polyhedra, poses, radii, &Vector::zeros(), answer);
     for (i, witness) in witnesses.iter().enumerate() {
-        let around: Vec<_> = proof.iter().map(|pair| pair[i]).collect();
+        let around = listed(proof.iter().map(|pair| pair[i]));
         witness.check_swept_point(allowed, &around)?;
         witness.check_feature()?;
     }
