@@ -315,101 +315,6 @@ static const double upper_pose[12] = {.8, -.6, 0, 0, .6, .8, 0, 0, 0, 0, 1, 2};
 static const swiftprox_shape *cube;
 static const swiftprox_ground *level;
 
-static swiftprox_status ask_contact(uint64_t *told)
-{
-    swiftprox_pair_cache cache;
-    swiftprox_pair_answer answer;
-    swiftprox_status status;
-    memset(&cache, 0, sizeof cache);
-    status = swiftprox_pair_contact(cube, lower_pose, cube, upper_pose, &cache, NULL, &answer);
-    *told = (uint64_t)answer.outcome;
-    return status != SWIFTPROX_OK ? status : swiftprox_pair_verify(cube, lower_pose, cube, upper_pose, &answer);
-}
-
-static swiftprox_status ask_depth(uint64_t *told)
-{
-    swiftprox_depth_cache cache;
-    swiftprox_depth_answer answer;
-    swiftprox_status status;
-    memset(&cache, 0, sizeof cache);
-    status = swiftprox_pair_depth(cube, lower_pose, cube, upper_pose, &cache, NULL, &answer);
-    *told = (uint64_t)answer.outcome;
-    return status;
-}
-
-static swiftprox_status ask_manifold(uint64_t *told)
-{
-    swiftprox_manifold_cache cache;
-    swiftprox_manifold_point place[16];
-    swiftprox_manifold manifold;
-    swiftprox_status status;
-    memset(&cache, 0, sizeof cache);
-    status = swiftprox_pair_manifold(cube, lower_pose, cube, upper_pose, &cache, NULL, place, 16, &manifold);
-    *told = manifold.found_count;
-    return status;
-}
-
-static swiftprox_status ask_half_space(uint64_t *told)
-{
-    static const swiftprox_half_space half_space = {{0, 0, 5e-324}, 5e-324};
-    swiftprox_manifold_point place[16];
-    swiftprox_manifold manifold;
-    swiftprox_status status = swiftprox_pair_half_space_manifold(cube, upper_pose, &half_space, NULL, place, 16, &manifold);
-    *told = manifold.found_count;
-    return status;
-}
-
-static swiftprox_status ask_ground(uint64_t *told)
-{
-    static const double at[12] = {.8, -.6, 0, 0, .6, .8, 0, 0, 0, 0, 1, 1};
-    swiftprox_ground_contact contacts[4];
-    swiftprox_manifold_point place[16];
-    swiftprox_ground_count count;
-    swiftprox_status status =
-        swiftprox_pair_ground_contacts(cube, at, level, lower_pose, NULL, contacts, 4, place, 16, &count);
-    *told = status == SWIFTPROX_OK ? count.point_count : 0;
-    return status;
-}
-
-static swiftprox_status ask_ray(uint64_t *told)
-{
-    static const swiftprox_ray ray = {{1, 1, -5}, {0, 0, 1}, HUGE_VAL};
-    swiftprox_ray_answer answer;
-    swiftprox_status status = swiftprox_shape_cast_ray(cube, lower_pose, &ray, &answer);
-    *told = (uint64_t)answer.outcome;
-    return status;
-}
-
-static swiftprox_status ask_point(uint64_t *told)
-{
-    static const double point[3] = {0, 0, 3};
-    swiftprox_point_answer answer;
-    swiftprox_support_vertex vertex;
-    swiftprox_status status = swiftprox_shape_locate_point(cube, upper_pose, point, &answer);
-    *told = (uint64_t)answer.location;
-    return status != SWIFTPROX_OK ? status : swiftprox_shape_support(cube, upper_pose, point, &vertex);
-}
-
-static swiftprox_status ask_cast(uint64_t *told)
-{
-    swiftprox_motion motions[2];
-    swiftprox_pair_cache cache;
-    swiftprox_cast_answer answer;
-    swiftprox_status status;
-    int i;
-    memset(motions, 0, sizeof motions);
-    memset(&cache, 0, sizeof cache);
-    for (i = 0; i < 2; ++i) {
-        motions[i].kind = SWIFTPROX_MOTION_KIND_AFFINE;
-        memcpy(motions[i].start, i == 0 ? lower_pose : upper_pose, sizeof lower_pose);
-        memcpy(motions[i].end, i == 0 ? lower_pose : upper_pose, sizeof lower_pose);
-    }
-    motions[1].start[11] = 5;
-    status = swiftprox_pair_cast(cube, &motions[0], cube, &motions[1], &cache, NULL, &answer);
-    *told = (uint64_t)answer.outcome;
-    return status;
-}
-
 /* A scene that has not been asked before, if the last question was answered; else that one again. */
 static swiftprox_status ask_scene(uint64_t *told)
 {
@@ -474,7 +379,6 @@ static void refuse_every_block(const char *what, swiftprox_status (*ask)(uint64_
 
 static void test_every_block(void)
 {
-    static const double heights[4] = {0, 0, 0, 0};
     double box[24];
     int i, j;
     for (i = 0; i < 8; ++i) {
@@ -483,20 +387,10 @@ static void test_every_block(void)
         }
     }
     CHECK_OK(swiftprox_shape_create_from_points(box, 8, NULL, &cube));
-    CHECK_OK(swiftprox_ground_create_from_heights(2, 2, 1, 1, heights, &level));
-    refuse_every_block("contact", ask_contact);
-    refuse_every_block("depth", ask_depth);
-    refuse_every_block("manifold", ask_manifold);
-    refuse_every_block("half-space", ask_half_space);
-    refuse_every_block("ground", ask_ground);
-    refuse_every_block("ray", ask_ray);
-    refuse_every_block("point", ask_point);
-    refuse_every_block("cast", ask_cast);
     scene = NULL;
     refuse_every_block("scene", ask_scene);
     CHECK_OK(swiftprox_scene_destroy(scene));
     scene = NULL;
-    swiftprox_ground_release(level);
     swiftprox_shape_release(cube);
 }
 

@@ -183,7 +183,7 @@ impl<'a> Check<'a> {
         let poses = self.bodies.map(|body| body.pose);
         let witnesses = Witness::of_both(self.polyhedra, poses, &self.radii, &normal, &said);
         for ((witness, towards), out) in witnesses.iter().zip([-normal, normal]).zip(self.out) {
-            witness.check_point(out)?;
+            witness.check_point(out + self.near)?;
             self.check_feature(witness)?;
             self.check_facing(witness, &towards, gap_upper - gap_lower)?;
         }
