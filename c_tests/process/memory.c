@@ -310,10 +310,8 @@ static void test_scenes(void)
 }
 
 /* Two cubes of side 2 that just touch: doubles cannot tell. The upper one is turned by an angle of sine .6. */
-static const double lower_pose[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 static const double upper_pose[12] = {.8, -.6, 0, 0, .6, .8, 0, 0, 0, 0, 1, 2};
 static const swiftprox_shape *cube;
-static const swiftprox_ground *level;
 
 /* A scene that has not been asked before, if the last question was answered; else that one again. */
 static swiftprox_status ask_scene(uint64_t *told)
