@@ -2,9 +2,11 @@
 
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
-use crate::base::memory::in_integers;
+use crate::base::memory::{in_integers, listed};
 use crate::base::simd::environment::with_default;
+use crate::pair::answer::PairAnswer;
 use crate::polyhedron::Polyhedron;
+use crate::solve::exact::VertexPair;
 
 /// From the centred origin of object 2 to that of object 1. Translations first, so that bodies far out lose no digits.
 pub(super) fn between_origins(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Vector {
@@ -66,4 +68,23 @@ pub(super) fn unverified(what: String) -> Error {
 /// A check in the default environment of floating point: it only reads, so what memory integers lack is its error.
 pub(super) fn in_default(check: impl FnOnce() -> Result<()>) -> Result<()> {
     in_integers(|| with_default(check))?
+}
+
+/// The vertex pairs of an intersection's proof.
+pub(super) fn proof_of(polyhedra: [&Polyhedron; 2], answer: &PairAnswer) -> Result<Vec<VertexPair>> {
+    let count = answer.proof_count as usize;
+    if !(1..=4).contains(&count) {
+        return Err(unverified(format!("an intersection with {count} vertex pairs as proof")));
+    }
+    let index_of = |i: usize, label: u32| {
+        let found = polyhedra[i].vertex_labels.iter().position(|&other| other == label);
+        found
+            .map(|index| index as u32)
+            .ok_or_else(|| Error::Argument(format!("vertex {label} of object {} is no vertex of its hull", i + 1)))
+    };
+    let mut pairs = listed([]);
+    for &[v, w] in &answer.proof[..count] {
+        pairs.push([index_of(0, v)?, index_of(1, w)?]);
+    }
+    Ok(pairs)
 }

@@ -7,10 +7,11 @@
 
 use super::apart::{check_on_features, check_points, verify_disjoint};
 use super::bounds::Bounds;
-use super::checks::{allowed, between_origins, check_normal, check_unit, in_default, length, too_large, unverified};
+use super::checks::{
+    allowed, between_origins, check_normal, check_unit, in_default, length, proof_of, too_large, unverified,
+};
 use super::facets;
 use super::numbers::{are_points_said, check_numbers};
-use super::proof_of;
 use crate::base::double_double::{narrow, wide_cross, wide_dot, widen};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector, clamp};

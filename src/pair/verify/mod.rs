@@ -21,7 +21,7 @@ use crate::polyhedron::Polyhedron;
 use crate::solve::exact::{self, VertexPair};
 use apart::{check_points, not_in_interval, verify_disjoint};
 pub(crate) use bounds::Bounds;
-use checks::{allowed, between_origins, check_unit, in_default, length, too_large, unverified};
+use checks::{allowed, between_origins, check_unit, in_default, length, proof_of, too_large, unverified};
 #[doc(hidden)]
 pub use depth::CLEAR;
 pub(crate) use depth::holds_ball;
@@ -177,25 +177,6 @@ fn verify_intersecting(
     }
     // The point is a convex combination of the proof's vertices.
     check_common_point(polyhedra, poses, &Radii::NONE, answer, &pairs)
-}
-
-/// The vertex pairs of an intersection's proof.
-fn proof_of(polyhedra: [&Polyhedron; 2], answer: &PairAnswer) -> Result<Vec<VertexPair>> {
-    let count = answer.proof_count as usize;
-    if !(1..=4).contains(&count) {
-        return Err(unverified(format!("an intersection with {count} vertex pairs as proof")));
-    }
-    let index_of = |i: usize, label: u32| {
-        let found = polyhedra[i].vertex_labels.iter().position(|&other| other == label);
-        found
-            .map(|index| index as u32)
-            .ok_or_else(|| Error::Argument(format!("vertex {label} of object {} is no vertex of its hull", i + 1)))
-    };
-    let mut pairs = listed([]);
-    for &[v, w] in &answer.proof[..count] {
-        pairs.push([index_of(0, v)?, index_of(1, w)?]);
-    }
-    Ok(pairs)
 }
 
 /// Overlapping balls, and swept radii, leave no vertex pairs as a proof: integers decide anew.
