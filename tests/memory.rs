@@ -615,7 +615,7 @@ fn said_of_pair(answer: &PairAnswer) -> u64 {
 }
 
 #[test]
-#[ignore = "open: without memory a depth may give a wider interval, where it should answer as before or Memory"]
+#[ignore = "open: a depth of a cube and a huge one answers otherwise where its first block is refused"]
 fn every_block_of_pairs() {
     keep_quiet();
     let cube = testkit::shapes::cuboid([1.0; 3]);
@@ -720,7 +720,7 @@ fn every_block_of_pairs() {
 }
 
 #[test]
-#[ignore = "open: without memory a depth may give a wider interval, where it should answer as before or Memory"]
+#[ignore = "open: it fails; the cause is not known yet"]
 fn every_block_of_points_rays_casts_and_grounds() {
     keep_quiet();
     let cube = testkit::shapes::cuboid([1.0; 3]);

@@ -96,7 +96,7 @@ fn the_floating_point_environment_changes_no_bit() {
 
 /// The nearest point is on the round surface, and its feature the hull's; the support vertex is one of the hull.
 #[test]
-#[ignore = "open: written before the support height had the radius"]
+#[ignore = "open: it fails; probably it expects a support vertex without the radius, which support now counts"]
 fn round_bodies() {
     let options = ShapeOptions { input: InputPolicy::Hull, swept_radius: 0.5, ..ShapeOptions::default() };
     let ends = [Vector::new(0.0, 0.0, -2.0), Vector::new(0.0, 0.0, 2.0)];

@@ -213,7 +213,7 @@ fn needle(random: &mut Random, round: usize) -> Vec<Vector> {
 /// was said to be in [0, 0.2] of a needle 1e-10 thick, its estimate −0, and the nearest point to be the point itself, from ratios
 /// of about 1e-7 on. A body's triangles tell.
 #[test]
-#[ignore = "open: its counts of inside, on and outside are of another seed"]
+#[ignore = "open: it fails, as none of its 600 points counts as on the surface; the cause is not known yet"]
 fn points_in_needles() {
     let mut random = Random::new(14);
     let mut counts = [0; 3];

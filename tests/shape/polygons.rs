@@ -179,7 +179,7 @@ fn so_it_is_of_strict_meshes() {
 /// Plates of no thickness, or of that which rounding gives them: a polygon whose upper side is a fan around one corner, its lower
 /// one around another.
 #[test]
-#[ignore = "open: a plate of no thickness may name the polygon of its other side"]
+#[ignore = "open: it fails; a plate names another polygon than expected, and the cause is not known yet"]
 fn so_it_is_of_flat_plates() {
     let mut random = Random::new(0x50a7);
     let mut asked = 0;
