@@ -12,6 +12,8 @@
 #include <time.h>
 
 #include <swiftprox.h>
+#include <swiftprox/replay.h>
+#include <swiftprox/verify.h>
 
 #include "demo_chart.h"
 #include "program.h"

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include <swiftprox.h>
+#include <swiftprox/ground.h>
 
 #include "program.h"
 

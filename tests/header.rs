@@ -72,11 +72,10 @@ const BEFORE: &str = "\
 #endif
 ";
 
-/// The head of swiftprox_tuning.h.
-const TUNING_HEAD: &str = "\
+/// The head of a side header.
+const SIDE_HEAD: &str = "\
 /*
- * swiftprox: levels of detail and look-up tables, for whoever measures. What is here changes how long making a shape and answering
- * a query take, and what they take of memory. It never changes a verdict. The conventions are those of swiftprox.h.
+WHAT
  */
 
 /* Generated from the Rust source by `BLESS=1 cargo test --test header`; do not edit. */
@@ -177,11 +176,24 @@ fn laid_out(head: &str, declared: &mut HashMap<String, String>) -> Vec<(String, 
         match word {
             "header" => {
                 close(headers.last_mut(), &mut is_open);
-                let guard = rest.to_uppercase().replace('.', "_");
-                let (head, before) =
-                    if headers.is_empty() { (head, BEFORE) } else { (TUNING_HEAD, "#include \"swiftprox.h\"\n") };
-                let opening = format!("{head}\n#ifndef {guard}\n#define {guard}\n\n{before}\n{}", external("{"));
-                headers.push((rest.to_string(), opening));
+                let (name, what) = rest.split_once(' ').unwrap_or((rest, ""));
+                let side = SIDE_HEAD.replace("WHAT", &head_of(what));
+                let opening = if what.is_empty() {
+                    guarded(head, name) + BEFORE + &format!("\n{}", external("{"))
+                } else {
+                    guarded(&side, name)
+                };
+                headers.push((name.to_string(), opening));
+            }
+            "include" => {
+                let (name, text) = headers.last_mut().expect("a header before what it includes");
+                let near = match name.rsplit_once('/') {
+                    Some((folder, _)) => {
+                        rest.strip_prefix(&format!("{folder}/")).map_or(format!("../{rest}"), str::to_string)
+                    }
+                    None => rest.to_string(),
+                };
+                *text += &format!("#include \"{near}\"\n\n{}", external("{"));
             }
             "group" => {
                 let (_, text) = headers.last_mut().expect("a header before its groups");
@@ -207,6 +219,25 @@ fn laid_out(head: &str, declared: &mut HashMap<String, String>) -> Vec<(String, 
     }
     close(headers.last_mut(), &mut is_open);
     headers
+}
+
+/// A head and the guard of a header.
+fn guarded(head: &str, name: &str) -> String {
+    let guard = name.to_uppercase().replace(['.', '/'], "_");
+    format!("{head}\n#ifndef {guard}\n#define {guard}\n\n")
+}
+
+/// What a side header is for, in the lines of a comment.
+fn head_of(what: &str) -> String {
+    let mut lines = vec![" *".to_string()];
+    for word in format!("swiftprox. {what} The conventions are those of swiftprox.h.").split(' ') {
+        if lines.last().expect("the first is there").len() + word.len() >= 132 {
+            lines.push(" *".to_string());
+        }
+        let last = lines.last_mut().expect("the first is there");
+        *last += &format!(" {word}");
+    }
+    lines.join("\n")
 }
 
 /// What a function's comment says of its future.
@@ -464,6 +495,7 @@ fn with_compilers(mut check: impl FnMut(&str, &str, &str)) {
 fn scratch(test: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
     fs::create_dir_all(&folder).expect("the scratch folder can be written");
+    fs::create_dir_all(folder.join("swiftprox")).expect("the scratch folder can be written");
     for (name, text) in generate() {
         fs::write(folder.join(name), text).expect("the scratch folder can be written");
     }
@@ -479,15 +511,29 @@ fn compile(folder: &Path, compiler: &str, extension: &str, standard: &str, sourc
     command.arg(folder).arg(&unit).arg("-o").arg(unit.with_extension("o")).output().expect("the compiler runs")
 }
 
+/// Alone, as the first that a program includes.
+#[test]
+fn each_header_compiles_alone() {
+    let folder = scratch("alone");
+    for (name, _) in generate() {
+        // A unit without declarations is no unit in C.
+        let source = format!("#include \"{name}\"\nextern int nothing;\n");
+        with_compilers(|compiler, extension, standard| {
+            let output = compile(&folder, compiler, extension, standard, &source);
+            assert!(output.status.success(), "{name}, {compiler} -std={standard}: {output:?}");
+        });
+    }
+}
+
 /// Included twice, so that guards are seen to work. What `create` gives goes to every call as it is, and sizes are the program's.
 #[test]
 fn headers_compile_in_every_standard() {
     let folder = scratch("every-standard");
     let source = r#"
-#include "swiftprox_tuning.h"
+#include "swiftprox/tuning.h"
 #include "swiftprox.h"
 #include "swiftprox.h"
-#include "swiftprox_tuning.h"
+#include "swiftprox/tuning.h"
 swiftprox_status unit(swiftprox_scene *scene, const double *points);
 swiftprox_status unit(swiftprox_scene *scene, const double *points)
 {

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include <swiftprox.h>
+#include <swiftprox/replay.h>
 
 static void demand(swiftprox_status status)
 {

@@ -1,4 +1,6 @@
 #include "sweep_scene.h"
+#include <swiftprox/geometry.h>
+#include <swiftprox/motion.h>
 
 #include <math.h>
 #include <stdio.h>

@@ -8,7 +8,8 @@
 #include <string.h>
 
 #include <swiftprox.h>
-#include <swiftprox_tuning.h>
+#include <swiftprox/motion.h>
+#include <swiftprox/tuning.h>
 
 #include "input.h"
 #include "poses.h"

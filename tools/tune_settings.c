@@ -185,7 +185,7 @@ void tune_print_c(const struct tune_scene *scene, const struct tune_setting *set
 {
     puts("#include <swiftprox.h>");
     if (tunes_pairs(setting) || tunes_shapes(setting)) {
-        puts("#include <swiftprox_tuning.h>");
+        puts("#include <swiftprox/tuning.h>");
     }
     if (tunes_shapes(setting)) {
         puts("\n/* where shapes are made: swiftprox_shape_create_from_mesh(..., &shape_options, ...) */\n"

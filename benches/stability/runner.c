@@ -1,4 +1,5 @@
 #include "runner.h"
+#include <swiftprox/geometry.h>
 
 #include <stdint.h>
 #include <stdio.h>

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #include "check.h"
-#include "swiftprox_tuning.h"
+#include "swiftprox/tuning.h"
 
 enum { POSES = 180, MOST_POINTS = 2048, MOST_TRIANGLES = 2 * MOST_POINTS };
 

@@ -8,7 +8,7 @@
 
 #include "legacy_test.h"
 
-#include <swiftprox_tuning.h>
+#include <swiftprox/tuning.h>
 
 namespace {
 

@@ -6,6 +6,9 @@
 #include <string.h>
 
 #include "check.h"
+#include "swiftprox/geometry.h"
+#include "swiftprox/ground.h"
+#include "swiftprox/verify.h"
 
 static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 

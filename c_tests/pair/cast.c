@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "swiftprox/motion.h"
+#include "swiftprox/verify.h"
 
 static void fixed(swiftprox_motion *motion, double x, double y, double z)
 {

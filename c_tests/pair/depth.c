@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "swiftprox/verify.h"
 
 /* One box sinks into another from above, touches it, and is lifted off. */
 static void known_depths(const swiftprox_shape *a, const swiftprox_shape *b)

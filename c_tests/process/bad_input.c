@@ -12,7 +12,10 @@
 #include <string.h>
 
 #include "check.h"
-#include "swiftprox_tuning.h"
+#include "swiftprox/tuning.h"
+#include "swiftprox/geometry.h"
+#include "swiftprox/ground.h"
+#include "swiftprox/verify.h"
 
 static const double CORNERS[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
 static const uint32_t FACES[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};

@@ -9,6 +9,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "swiftprox/process.h"
 
 enum { THREADS = 4, OBJECTS = 6 };
 

@@ -11,7 +11,11 @@
 #include <stdlib.h>
 
 #include "check.h"
-#include "swiftprox_tuning.h"
+#include "swiftprox/tuning.h"
+#include "swiftprox/geometry.h"
+#include "swiftprox/ground.h"
+#include "swiftprox/process.h"
+#include "swiftprox/verify.h"
 
 /* ---- environments ---- */
 

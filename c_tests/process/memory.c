@@ -11,7 +11,10 @@
 #include <string.h>
 
 #include "check.h"
-#include "swiftprox_tuning.h"
+#include "swiftprox/tuning.h"
+#include "swiftprox/geometry.h"
+#include "swiftprox/process.h"
+#include "swiftprox/verify.h"
 
 /* No block that must not be refused is as large, one pointer behind its end included. */
 enum { SMALL = 2048 + 64, VERTICES = 2200, OBJECTS = 400 };

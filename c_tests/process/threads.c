@@ -13,6 +13,9 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "swiftprox/geometry.h"
+#include "swiftprox/motion.h"
+#include "swiftprox/verify.h"
 
 enum { THREADS = 4, SHAPES = 3, STEPS = 16, SAID = 8, ROUND = 200 };
 

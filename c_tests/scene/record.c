@@ -10,6 +10,8 @@
 #include <sys/resource.h>
 
 #include "bodies.h"
+#include "swiftprox/process.h"
+#include "swiftprox/replay.h"
 
 enum { CUBES = 12, STEPS = 30 };
 

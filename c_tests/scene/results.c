@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "swiftprox/process.h"
 
 enum { OBJECTS = 60, PAIRS = OBJECTS * (OBJECTS - 1) / 2 };
 

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "swiftprox/geometry.h"
+#include "swiftprox/motion.h"
 
 static swiftprox_scene *scene;
 static swiftprox_object_id arm[2], posts[20];

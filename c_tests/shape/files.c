@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "check.h"
+#include "swiftprox/geometry.h"
 
 /* A megabyte beyond what is read of a file. */
 static const long long TOO_LARGE = (1LL << 32) + (1 << 20);

@@ -10,6 +10,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "swiftprox/process.h"
 
 static const uint32_t FACES[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
 

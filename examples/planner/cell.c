@@ -1,4 +1,5 @@
 #include "cell.h"
+#include <swiftprox/verify.h>
 
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,5 @@
 #include "rigid_bodies.h"
+#include <swiftprox/replay.h>
 
 #include <math.h>
 #include <stdio.h>

@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include <swiftprox.h>
+#include <swiftprox/motion.h>
+#include <swiftprox/verify.h>
 
 enum { OBSTACLES = 5, MOST_STATES = 2000 };
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include <swiftprox.h>
+#include <swiftprox/replay.h>
 
 enum { ROWS = 4, BODIES = 1 + ROWS * (ROWS + 1) / 2, MOST_CONTACTS = 400, ITERATIONS = 20, STEPS = 600 };
 

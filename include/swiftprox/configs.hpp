@@ -3,8 +3,9 @@
 #define SWIFTPROX_CONFIGS_HPP
 
 #include "../swiftprox.h"
-#include "../swiftprox_tuning.h"
+#include "motion.h"
 #include "pose.hpp"
+#include "tuning.h"
 
 #include <array>
 #include <cstddef>

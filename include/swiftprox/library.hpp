@@ -2,6 +2,7 @@
 #ifndef SWIFTPROX_LIBRARY_HPP
 #define SWIFTPROX_LIBRARY_HPP
 
+#include "process.h"
 #include "result.hpp"
 
 #include <cstddef>

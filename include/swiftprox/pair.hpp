@@ -2,7 +2,9 @@
 #ifndef SWIFTPROX_PAIR_HPP
 #define SWIFTPROX_PAIR_HPP
 
+#include "ground.h"
 #include "shape.hpp"
+#include "verify.h"
 
 namespace swiftprox
 {

@@ -2,6 +2,7 @@
 #ifndef SWIFTPROX_SCENE_HPP
 #define SWIFTPROX_SCENE_HPP
 
+#include "replay.h"
 #include "shape.hpp"
 
 #include <array>

@@ -35,7 +35,7 @@ pub struct CPairConfig {
     /// open only after as many steps as a query without a budget may make. The next query with the same cache goes on where this
     /// one stopped, unless tuning->start says that it begin anew, at the tables or afresh: it may then stop there for ever.
     pub step_budget: u32,
-    /// Where it starts and which levels of detail it goes through (swiftprox_tuning.h). Default: null, the automatic choice.
+    /// Where it starts and which levels of detail it goes through (swiftprox/tuning.h). Default: null, the automatic choice.
     pub tuning: *const CPairTuning,
 }
 

@@ -42,7 +42,7 @@ pub struct CSceneQuery {
     /// Not 0: stop at the first intersecting pair in the order of results, and list no pairs at all then:
     /// swiftprox_scene_answer.found is it. Default: 0.
     pub early_exit: i32,
-    /// Where pairs start and which levels of detail they go through (swiftprox_tuning.h). Default: null, the automatic choice.
+    /// Where pairs start and which levels of detail they go through (swiftprox/tuning.h). Default: null, the automatic choice.
     pub tuning: *const CPairTuning,
     /// swiftprox_scene_query_contact: pairs farther apart have no manifold, and points with a larger gap do not belong to one;
     /// from 0 to infinity. It is the distance tolerance if that is less. Default: infinity.

@@ -40,7 +40,7 @@ pub struct CShapeOptions {
     pub progress: ProgressCallback,
     /// Handed to progress. Default: null.
     pub progress_user: *mut c_void,
-    /// Levels of detail and look-up table (swiftprox_tuning.h). Default: null, the automatic ones.
+    /// Levels of detail and look-up table (swiftprox/tuning.h). Default: null, the automatic ones.
     pub tuning: *const CShapeTuning,
     /// By how much a coordinate may be off, in the units of the input, before scale: vertices that could lie in one plane up to
     /// this are one face to manifolds. Distance and depth do not change; the intervals of gaps contain what is joined. Less than 0

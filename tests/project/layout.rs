@@ -1,6 +1,7 @@
 //! Where the members of C's structs stand. c_tests/abi/layout.h has the numbers: here Rust's layout is compared with them, in
 //! c_tests/abi/layout.c that of the C compiler. `BLESS=1 cargo test --test project layout` rewrites them.
 
+use crate::headers::headers;
 use std::fmt::Write;
 use std::fs;
 use std::mem::{align_of, offset_of, size_of};
@@ -36,9 +37,6 @@ use swiftprox::scene::{
     Contact, FirstHit, GroupFilter, LeastDistance, ObjectPair, PairEvent, PairResult, PointEvent, SceneCastAnswer,
     SceneGroundContact, SceneRayHit, SceneStatistics,
 };
-
-const HEADERS: [&str; 2] =
-    [include_str!("../../include/swiftprox.h"), include_str!("../../include/swiftprox_tuning.h")];
 
 const TABLE: &str = "c_tests/abi/layout.h";
 
@@ -88,12 +86,10 @@ fn layouts() -> Vec<Layout> {
             struct_size, input, rotation, translation, scale, convexity_tolerance, progress, progress_user,
             tuning, face_noise, swept_radius
         },
-        swiftprox_decomposition = CDecomposition { corners, faces, pieces, capacity, triangle_count, piece_count },
         swiftprox_shape_info = ShapeInfo {
             struct_size, dimension, vertex_count, edge_count, face_count, triangle_count, volume,
             centre_of_mass, radius, lower_corner, upper_corner, bytes, inertia, swept_radius
         },
-        swiftprox_face = CFace { normal, offset, corner_count, label_count },
         swiftprox_feature = Feature { kind, ids },
         swiftprox_statistics = Statistics { marching_steps, fallback_iterations, exact_iterations, levels },
         swiftprox_pair_answer = PairAnswer {
@@ -123,22 +119,6 @@ fn layouts() -> Vec<Layout> {
         },
         swiftprox_manifold = Manifold { outcome, reference, lower, upper, normal, point_count, found_count },
         swiftprox_manifold_config = CManifoldConfig { struct_size, rotation_limit, margin, reduces },
-        swiftprox_half_space = HalfSpace { normal, offset },
-        swiftprox_motion = CMotion {
-            kind, start, end, centre, velocity, rotation, pose, user, bend, rounding
-        },
-        swiftprox_cast_answer = CastAnswer { outcome, queries, t_lo, t_hi, clearance, upper, contact },
-        swiftprox_cast_config = CCastConfig {
-            struct_size, t_begin, t_end, time_tolerance, margin, step_budget
-        },
-        swiftprox_clearance = Clearance { lower, upper, time, queries },
-        swiftprox_clearance_config = CClearanceConfig {
-            struct_size, t_begin, t_end, absolute_error, relative_error, step_budget
-        },
-        swiftprox_ray = Ray { origin, direction, t_max },
-        swiftprox_ray_answer = RayAnswer { outcome, exact, entry, exit, normal, feature, steps },
-        swiftprox_point_answer = PointAnswer { location, feature, distance, lower, upper, local, world, normal },
-        swiftprox_support_vertex = SupportVertex { vertex, exact, local, world, height },
         swiftprox_scene_options = CSceneOptions {
             struct_size, rotation_limit, worker_count, enqueue_task, finish_task, task_user
         },
@@ -161,19 +141,9 @@ fn layouts() -> Vec<Layout> {
             exact_iterations, within_tolerance, budget_spent, by_level, error_spent, bounding_spheres,
             inscribed_spheres, unmoved, out_of_reach
         },
-        swiftprox_ground_info = GroundInfo { vertex_count, triangle_count, bytes },
-        swiftprox_ground_distance = GroundDistance { answer, triangle },
-        swiftprox_ground_contact = GroundContact { manifold, triangle, first_point },
-        swiftprox_ground_count = GroundCount { contact_count, point_count },
         swiftprox_object_set = CObjectSet { ids, count, poses, among },
         swiftprox_least_distance = LeastDistance { lower, upper, nearest },
         swiftprox_first_hit = FirstHit { time, tried, pair },
-        swiftprox_scene_ray_hit = SceneRayHit { object, user_data, piece, row, answer },
-        swiftprox_scene_ray_answer = CSceneRayAnswer { hits, count },
-        swiftprox_scene_cast_answer = SceneCastAnswer { outcome, queries, t_lo, t_hi, upper, pair },
-        swiftprox_group_filter = GroupFilter { groups, mask },
-        swiftprox_scene_ground_contact = SceneGroundContact { object, user_data, piece, contact },
-        swiftprox_scene_ground_answer = CSceneGroundAnswer { contacts, contact_count, points, point_count },
         swiftprox_pair_event = PairEvent {
             object1, object2, user_data1, user_data2, piece_user_data1, piece_user_data2, piece1, piece2, state,
             objects_state, result, first_point, point_count
@@ -181,6 +151,34 @@ fn layouts() -> Vec<Layout> {
         swiftprox_point_event = PointEvent { id, point, state },
         swiftprox_listener_events = CListenerEvents { pairs, count, points, point_count },
         swiftprox_pair_question = CPairQuestion { shape1, pose1, shape2, pose2, cache },
+        swiftprox_motion = CMotion {
+            kind, start, end, centre, velocity, rotation, pose, user, bend, rounding
+        },
+        swiftprox_cast_answer = CastAnswer { outcome, queries, t_lo, t_hi, clearance, upper, contact },
+        swiftprox_cast_config = CCastConfig {
+            struct_size, t_begin, t_end, time_tolerance, margin, step_budget
+        },
+        swiftprox_clearance = Clearance { lower, upper, time, queries },
+        swiftprox_clearance_config = CClearanceConfig {
+            struct_size, t_begin, t_end, absolute_error, relative_error, step_budget
+        },
+        swiftprox_scene_cast_answer = SceneCastAnswer { outcome, queries, t_lo, t_hi, upper, pair },
+        swiftprox_half_space = HalfSpace { normal, offset },
+        swiftprox_ground_info = GroundInfo { vertex_count, triangle_count, bytes },
+        swiftprox_ground_distance = GroundDistance { answer, triangle },
+        swiftprox_ground_contact = GroundContact { manifold, triangle, first_point },
+        swiftprox_ground_count = GroundCount { contact_count, point_count },
+        swiftprox_group_filter = GroupFilter { groups, mask },
+        swiftprox_scene_ground_contact = SceneGroundContact { object, user_data, piece, contact },
+        swiftprox_scene_ground_answer = CSceneGroundAnswer { contacts, contact_count, points, point_count },
+        swiftprox_face = CFace { normal, offset, corner_count, label_count },
+        swiftprox_decomposition = CDecomposition { corners, faces, pieces, capacity, triangle_count, piece_count },
+        swiftprox_ray = Ray { origin, direction, t_max },
+        swiftprox_ray_answer = RayAnswer { outcome, exact, entry, exit, normal, feature, steps },
+        swiftprox_scene_ray_hit = SceneRayHit { object, user_data, piece, row, answer },
+        swiftprox_scene_ray_answer = CSceneRayAnswer { hits, count },
+        swiftprox_point_answer = PointAnswer { location, feature, distance, lower, upper, local, world, normal },
+        swiftprox_support_vertex = SupportVertex { vertex, exact, local, world, height },
         swiftprox_replay_step_info = CReplayStep {
             struct_size, has_step, has_query, kind, cut_off, fraction
         },
@@ -209,8 +207,7 @@ fn layouts() -> Vec<Layout> {
 fn declared() -> Vec<(String, Vec<String>)> {
     let mut structs = Vec::new();
     let mut is_open = false;
-    let lines = HEADERS.iter().flat_map(|header| header.lines());
-    for line in lines.filter(|line| !line.trim_start().starts_with(['/', '*'])) {
+    for line in headers().concat().lines().filter(|line| !line.trim_start().starts_with(['/', '*'])) {
         if let Some(name) = line.strip_prefix("typedef struct ").and_then(|rest| rest.strip_suffix(" {")) {
             structs.push((name.to_string(), Vec::new()));
             is_open = true;

@@ -6,7 +6,8 @@
 #include <cstring>
 #include <limits>
 #include <swiftprox.h>
-#include <swiftprox_tuning.h>
+#include <swiftprox/geometry.h>
+#include <swiftprox/tuning.h>
 
 #include "defaults.h"
 #include "mesh.h"

@@ -1,5 +1,5 @@
 /*
- * swiftprox: levels of detail and look-up tables, for whoever measures. What is here changes how long making a shape and answering
+ * swiftprox. Levels of detail and look-up tables, for whoever measures. What is here changes how long making a shape and answering
  * a query take, and what they take of memory. It never changes a verdict. The conventions are those of swiftprox.h.
  */
 
@@ -8,7 +8,7 @@
 #ifndef SWIFTPROX_TUNING_H
 #define SWIFTPROX_TUNING_H
 
-#include "swiftprox.h"
+#include "../swiftprox.h"
 
 #ifdef __cplusplus
 extern "C" {
