@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include <swiftprox.h>
+#include <swiftprox/scene.h>
 
 #include "program.h"
 
@@ -96,7 +97,7 @@ static swiftprox_scene *build(struct body *bodies)
         swiftprox_object_options_init(&options);
         options.user_data = (uint64_t)i;
         find_pose(&bodies[i], options.pose);
-        demand(swiftprox_scene_add_shape(scene, shapes[i % KINDS], &options, &id));
+        demand(swiftprox_scene_add_object(scene, &shapes[i % KINDS], 1, &options, &id));
     }
     for (int kind = 0; kind < KINDS; kind++) {
         swiftprox_shape_release(shapes[kind]); /* the scene has shares of its own */
@@ -127,7 +128,7 @@ static void move_all(swiftprox_scene *scene, struct body *bodies)
         walk(&bodies[i]);
         find_pose(&bodies[i], poses + 12 * i);
     }
-    demand(swiftprox_scene_set_all_poses(scene, poses, BODIES));
+    demand(swiftprox_scene_set_poses(scene, NULL, poses, BODIES));
 }
 
 /* Takes in what has changed; says how many pairs more touch than before. */

@@ -155,7 +155,7 @@ static bool record(const struct flight *flight, const char *path)
     swiftprox_object_id ids[2];
     bool good = swiftprox_scene_record(scene, path) == SWIFTPROX_OK;
     for (int k = 0; k < 2 && good; k++) {
-        good = swiftprox_scene_add_shape(scene, flight->shapes[k], NULL, &ids[k]) == SWIFTPROX_OK;
+        good = swiftprox_scene_add_object(scene, &flight->shapes[k], 1, NULL, &ids[k]) == SWIFTPROX_OK;
     }
     for (int i = 0; i < POSES && good; i += POSES / 360) {
         swiftprox_scene_answer answer;

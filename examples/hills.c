@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include <swiftprox.h>
+#include <swiftprox/sets.h>
 #include <swiftprox/ground.h>
 
 #include "program.h"
@@ -53,7 +54,7 @@ static void add_boxes(swiftprox_scene *scene, swiftprox_object_id *ids)
         swiftprox_object_options options;
         swiftprox_object_options_init(&options);
         options.user_data = (uint64_t)i;
-        demand(swiftprox_scene_add_shape(scene, box, &options, &ids[i]));
+        demand(swiftprox_scene_add_object(scene, &box, 1, &options, &ids[i]));
     }
     swiftprox_shape_release(box);
 }

@@ -32,13 +32,16 @@ static void demand(swiftprox_status status)
 static swiftprox_object_id add(swiftprox_scene *scene, const char *folder, const char *model, uint64_t name, int fixed)
 {
     char path[1024];
+    const swiftprox_shape *shape;
     swiftprox_object_options options;
     swiftprox_object_id id;
     snprintf(path, sizeof path, "%s/%s", folder, model);
     swiftprox_object_options_init(&options);
     options.user_data = name;
     options.fixed = fixed;
-    demand(swiftprox_scene_add_file(scene, path, NULL, &options, &id));
+    demand(swiftprox_shape_create_from_file(path, NULL, &shape));
+    demand(swiftprox_scene_add_object(scene, &shape, 1, &options, &id));
+    swiftprox_shape_release(shape); /* the scene has a share of its own */
     return id;
 }
 

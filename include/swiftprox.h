@@ -754,29 +754,6 @@ swiftprox_status swiftprox_pair_approximate(const struct swiftprox_shape *shape1
                                             const struct swiftprox_pair_config *config,
                                             struct swiftprox_pair_answer *answer);
 
-/**
- * An outcome of a pair query in words. Never null, valid for ever; a number that is no outcome gets a string
- * that says so.
- *
- * Stable.
- */
-const char *swiftprox_library_outcome_string(swiftprox_outcome outcome);
-
-/**
- * What decided a pair query, in words. Never null, valid for ever; an unknown number gets a string that says so.
- *
- * Stable.
- */
-const char *swiftprox_library_decided_by_string(swiftprox_decided_by decided_by);
-
-/**
- * A kind of features in a word: "none", "vertex", "edge" or "face". Never null, valid for ever; a
- * number that is no kind gets a string that says so.
- *
- * Stable.
- */
-const char *swiftprox_library_feature_kind_string(swiftprox_feature_kind kind);
-
 /** @} */
 
 /**
@@ -904,13 +881,6 @@ swiftprox_status swiftprox_pair_depth(const struct swiftprox_shape *shape1,
                                       struct swiftprox_depth_cache *cache,
                                       const struct swiftprox_depth_config *config,
                                       struct swiftprox_depth_answer *answer);
-
-/**
- * How a depth query ended, in words. Never null, valid for ever; an unknown number gets a string that says so.
- *
- * Stable.
- */
-const char *swiftprox_library_depth_ending_string(swiftprox_depth_ending ending);
 
 /** @} */
 
@@ -1102,13 +1072,6 @@ swiftprox_status swiftprox_pair_manifold_with_distance(const struct swiftprox_sh
                                                        struct swiftprox_manifold *manifold,
                                                        struct swiftprox_signed_distance *distance);
 
-/**
- * The best estimate of a point's gap: the middle of gap_lower and gap_upper. NaN of null, which the message and the log tell.
- *
- * Stable.
- */
-double swiftprox_manifold_point_gap(const struct swiftprox_manifold_point *point);
-
 /** @} */
 
 /**
@@ -1251,21 +1214,6 @@ void swiftprox_object_options_init_sized(struct swiftprox_object_options *option
 #define swiftprox_object_options_init(pointer) swiftprox_object_options_init_sized((pointer), sizeof *(pointer))
 
 /**
- * Adds an object of one convex piece. All its pairs are active. The scene takes a share of the shape: the caller's own may be
- * released at once. On failure nothing is added and `*id` is null. `options` may be null for the defaults.
- *
- * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_LIMIT: more objects than a scene holds. SWIFTPROX_ERROR_MEMORY.
- * SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_add_shape(struct swiftprox_scene *scene,
-                                           const struct swiftprox_shape *shape,
-                                           const struct swiftprox_object_options *options,
-                                           struct swiftprox_object_id *id);
-
-/**
  * Adds an object of one or several convex pieces in one local frame. All its pairs are active. The scene takes a share of each
  * shape: the caller's own may be released at once. On failure nothing is added and `*id` is null.
  * `options` may be null for the defaults.
@@ -1284,67 +1232,21 @@ swiftprox_status swiftprox_scene_add_object(struct swiftprox_scene *scene,
                                             struct swiftprox_object_id *id);
 
 /**
- * Adds an object of one convex piece for each of `count` shapes, in their order, as swiftprox_scene_add_shape does: all or none.
+ * Adds an object of one convex piece for each of `count` shapes, in their order, as swiftprox_scene_add_object does: all or none.
  * `options` are as many, one behind the other, each filled with swiftprox_object_options_init; null for the defaults of all. `ids`
  * receives the ids.
  *
  * On failure nothing is added, and all ids are null. The message names the first place that is refused. Errors as of
- * swiftprox_scene_add_shape; SWIFTPROX_ERROR_STRUCT_SIZE also where the options have different sizes.
+ * swiftprox_scene_add_object; SWIFTPROX_ERROR_STRUCT_SIZE also where the options have different sizes.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_add_shapes(struct swiftprox_scene *scene,
-                                            const struct swiftprox_shape *const *shapes,
-                                            const struct swiftprox_object_options *options,
-                                            size_t count,
-                                            struct swiftprox_object_id *ids);
-
-/**
- * Makes a shape as swiftprox_shape_create_from_mesh does and adds an object of that one piece as swiftprox_scene_add_object does,
- * with the arguments and the errors of both. Both options may be null for the defaults.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_add_mesh(struct swiftprox_scene *scene,
-                                          const double *vertices,
-                                          size_t vertex_count,
-                                          const uint32_t *indices,
-                                          const uint32_t *valences,
-                                          size_t face_count,
-                                          const struct swiftprox_shape_options *shape_options,
-                                          const struct swiftprox_object_options *object_options,
-                                          struct swiftprox_object_id *id);
-
-/**
- * Makes a shape as swiftprox_shape_create_from_file does and adds an object of that one piece as swiftprox_scene_add_object does,
- * with the arguments and the errors of both. Both options may be null for the defaults.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_add_file(struct swiftprox_scene *scene,
-                                          const char *path,
-                                          const struct swiftprox_shape_options *shape_options,
-                                          const struct swiftprox_object_options *object_options,
-                                          struct swiftprox_object_id *id);
-
-/**
- * Adds an object like `original`: with its pieces (shared) and their poses, its pose, fixedness, groups and mask, and all user
- * data, as they are now. All its pairs are active, whatever those of its original are; what pairs remember is not copied. On
- * failure nothing is added and `*id` is null.
- *
- * SWIFTPROX_ERROR_HANDLE: original names no object of this scene. SWIFTPROX_ERROR_LIMIT: more objects than a scene holds.
- * SWIFTPROX_ERROR_MEMORY.
- * SWIFTPROX_ERROR_NULL_POINTER: the message names the argument. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_copy_object(struct swiftprox_scene *scene,
-                                             struct swiftprox_object_id original,
-                                             struct swiftprox_object_id *id);
+swiftprox_status swiftprox_scene_add_objects(struct swiftprox_scene *scene,
+                                             const struct swiftprox_shape *const *shapes,
+                                             const struct swiftprox_object_options *options,
+                                             size_t count,
+                                             struct swiftprox_object_id *ids);
 
 /**
  * Removes an object and its pairs. Its id is refused from now on; all other ids stay as they are.
@@ -1385,7 +1287,7 @@ swiftprox_status swiftprox_scene_is_object_valid(const struct swiftprox_scene *s
                                                  int32_t *valid);
 
 /**
- * Writes the ids of all objects in order of creation, which is that of results and of swiftprox_scene_set_all_poses, and their
+ * Writes the ids of all objects in order of creation, which is that of results and of swiftprox_scene_set_poses, and their
  * number to `*count`. `ids` has room for `capacity` of them; with capacity 0 it may be null, and only the number is written. On
  * failure `*count` is 0.
  *
@@ -1426,11 +1328,12 @@ swiftprox_status swiftprox_scene_set_transform(struct swiftprox_scene *scene,
 
 /**
  * Moves the objects of `count` ids, fixed ones too: `poses` holds 12 doubles for each. Of an object that is given twice the later
- * pose counts. On failure all stay where they are.
+ * pose counts. Null `ids` are all objects that are not fixed, in order of creation. On failure all stay where they are; the
+ * message says which pose or id is refused. Workers share the work where it is in order of creation.
  *
- * Workers share what is in order of creation. SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_POSE: a
- * pose is refused. The message says which. SWIFTPROX_ERROR_MEMORY: only in a scene with workers. SWIFTPROX_ERROR_NULL_POINTER:
- * scene, ids or poses is null. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_POSE: a pose is refused.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: ids is null, and count is not the number of objects that are not fixed.
+ * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or poses is null. SWIFTPROX_ERROR_POISONED.
  *
  * Stable.
  */
@@ -1441,116 +1344,16 @@ swiftprox_status swiftprox_scene_set_poses(struct swiftprox_scene *scene,
                                            size_t count);
 
 /**
- * Moves all objects that are not fixed, in order of creation: `poses` holds 12 doubles for each of the `count`. On failure all
- * stay where they are.
- *
- * Workers share the work. SWIFTPROX_ERROR_INVALID_ARGUMENT: count is not the number of objects that are not fixed.
- * SWIFTPROX_ERROR_POSE: a pose is refused; the message names it. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or
- * poses is null. SWIFTPROX_ERROR_POISONED.
+ * As swiftprox_scene_set_poses, from 9 doubles of `rotations` and 3 of `translations` for each object.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_all_poses(struct swiftprox_scene *scene,
-                                               const double *poses,
-                                               size_t count);
-
-/**
- * As swiftprox_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_all_transforms(struct swiftprox_scene *scene,
-                                                    const double *rotations,
-                                                    const double *translations,
-                                                    size_t count);
-
-/**
- * Moves one piece within its object, by its number from 0: `pose` is 12 doubles, row-major [R|T]. The piece is in the world where
- * the object's pose times this one puts it, each of the twelve numbers rounded; its exact body is what these give. Points and
- * features of results are in the piece's own frame. On failure it stays where it is.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
- * SWIFTPROX_ERROR_POSE: the pose is refused, alone or with the object's. SWIFTPROX_ERROR_MEMORY.
- * SWIFTPROX_ERROR_NULL_POINTER: scene or pose is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_piece_pose(struct swiftprox_scene *scene,
-                                                struct swiftprox_object_id id,
-                                                uint32_t piece,
-                                                const double *pose);
-
-/**
- * Writes where a piece of an object is in the world, 12 doubles, row-major [R|T]: the pose for which queries answer, as
- * swiftprox_pair_verify takes it. On failure they are NaN.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
- * SWIFTPROX_ERROR_NULL_POINTER: scene or pose is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_get_piece_pose(const struct swiftprox_scene *scene,
-                                                struct swiftprox_object_id id,
-                                                uint32_t piece,
-                                                double *pose);
-
-/**
- * Fixes an object (`fixed` not 0) or lets it move again: pairs of two fixed objects are never tested. What its other pairs
- * remember stays.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_fixed(struct swiftprox_scene *scene,
-                                           struct swiftprox_object_id id,
-                                           int32_t fixed);
-
-/**
- * Sets the number that comes back in every result of this object.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_user_data(struct swiftprox_scene *scene,
-                                               struct swiftprox_object_id id,
-                                               uint64_t user_data);
-
-/**
- * Sets the number of a piece, which swiftprox_scene_get_piece_user_data gives, and the events of listeners; 0 before. Results name
- * the object and the piece.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
- * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_piece_user_data(struct swiftprox_scene *scene,
-                                                     struct swiftprox_object_id id,
-                                                     uint32_t piece,
-                                                     uint64_t user_data);
-
-/**
- * Writes the caller's number of a piece, in a time that does not grow with the scene. On failure it is 0.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
- * SWIFTPROX_ERROR_NULL_POINTER: scene or user_data is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_get_piece_user_data(const struct swiftprox_scene *scene,
-                                                     struct swiftprox_object_id id,
-                                                     uint32_t piece,
-                                                     uint64_t *user_data);
+swiftprox_status swiftprox_scene_set_transforms(struct swiftprox_scene *scene,
+                                                const struct swiftprox_object_id *ids,
+                                                const double *rotations,
+                                                const double *translations,
+                                                size_t count);
 
 /** What an object is. Set struct_size to sizeof(swiftprox_object_info) before asking for it. */
 typedef struct swiftprox_object_info {
@@ -1584,36 +1387,19 @@ swiftprox_status swiftprox_scene_get_object_info(const struct swiftprox_scene *s
                                                  struct swiftprox_object_info *info);
 
 /**
- * A box along the world's axes that contains an object, swept radii included: the corners where all coordinates are least and
- * greatest, three numbers each. It is wider than the object by less than 1e-5 of the radius and the place of each piece; around a
- * piece of more than 512 vertices it is the box of that piece's own turned box. On failure all numbers are NaN.
+ * Makes an object what `info` says: its user data, pose, fixedness, groups and mask. Fill info by
+ * swiftprox_scene_get_object_info and change members; a pose as it was moves nothing. What pairs remember stays.
  *
- * SWIFTPROX_ERROR_HANDLE: the id is null, stale or another scene's. SWIFTPROX_ERROR_NULL_POINTER.
- * SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_get_object_box(const struct swiftprox_scene *scene,
-                                                struct swiftprox_object_id id,
-                                                double *lower_corner,
-                                                double *upper_corner);
-
-/**
- * Gives a piece of an object, by its number from 0: a size_t as info's piece_count is, where results and other calls have a
- * uint32_t, so that programs of before run on. The scene owns the share: take one more with swiftprox_shape_retain to keep
- * the shape longer than the object. On failure `*shape` is null.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
- * SWIFTPROX_ERROR_NULL_POINTER: scene or shape is null. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_POSE: the pose is refused.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count is another one. SWIFTPROX_ERROR_NULL_POINTER: scene or info is null.
+ * SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown. SWIFTPROX_ERROR_POISONED. Nothing has changed then.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_get_piece(const struct swiftprox_scene *scene,
-                                           struct swiftprox_object_id id,
-                                           size_t piece,
-                                           const struct swiftprox_shape **shape);
+swiftprox_status swiftprox_scene_set_object_info(struct swiftprox_scene *scene,
+                                                 struct swiftprox_object_id id,
+                                                 const struct swiftprox_object_info *info);
 
 /** @} */
 
@@ -1830,21 +1616,6 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_get_contacts(const struct swiftprox_scene *scene,
                                               struct swiftprox_scene_contacts *contacts);
 
-/**
- * The distance of a pair of the last query of contacts, or minus how deep it is: one interval through zero, normal and witness
- * points, as of swiftprox_pair_signed_distance. They come from swiftprox_pair_result.answer or swiftprox_contact.depth, at no
- * further search. `number` is the pair's among swiftprox_scene_contacts.contacts. On failure the answer's numbers are NaN.
- *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: there are not so many contacts, or the last query was none of contacts with a
- * swiftprox_scene_query.detail. SWIFTPROX_ERROR_NULL_POINTER: scene or answer is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_get_signed_distance(const struct swiftprox_scene *scene,
-                                                     size_t number,
-                                                     struct swiftprox_signed_distance *answer);
-
 /** What is asked of a pair. */
 typedef enum swiftprox_query_kind SWIFTPROX_INT32 {
   /** The verdict alone. */
@@ -1911,144 +1682,6 @@ swiftprox_status swiftprox_scene_query_placed_pieces(struct swiftprox_scene *sce
                                                      const struct swiftprox_scene_query *query,
                                                      struct swiftprox_scene_answer *answer);
 
-/** A pair of objects, the earlier created first. */
-typedef struct swiftprox_object_pair {
-  /** The earlier created object. */
-  struct swiftprox_object_id object1;
-  /** The later created object. */
-  struct swiftprox_object_id object2;
-  /** The caller's own number of object 1. */
-  uint64_t user_data1;
-  /** The caller's own number of object 2. */
-  uint64_t user_data2;
-} swiftprox_object_pair;
-
-/** What has changed since the last query about events. */
-typedef struct swiftprox_scene_events {
-  /**
-   * Pairs of objects that are near and were not, in order of creation. Owned by the scene, valid until its next query about
-   * events. Null when began_count is 0.
-   */
-  const struct swiftprox_object_pair *began;
-  /** How many. */
-  size_t began_count;
-  /**
-   * Pairs of objects that were near and are not, those of removed objects and of deactivated pairs among them. Owned and valid
-   * as began are. Null when ended_count is 0.
-   */
-  const struct swiftprox_object_pair *ended;
-  /** How many. */
-  size_t ended_count;
-} swiftprox_scene_events;
-
-/**
- * Which pairs of objects began or ended touching (`distance` 0), or being within a distance, since the last call; the first call
- * lists all that are. Objects are near if any of their pieces are. It is a query as others are: results of queries before end. The
- * scene has one such memory; swiftprox_scene_listen has one for each listener, and tells of contact points. On failure `*events`
- * is empty, and what was near stays remembered.
- *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene
- * or events is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_query_events(struct swiftprox_scene *scene,
-                                              double distance,
-                                              struct swiftprox_scene_events *events);
-
-/** What the queries of a scene did since it was made or swiftprox_scene_reset_statistics was called. */
-typedef struct swiftprox_scene_statistics {
-  /** Queries. */
-  uint64_t queries;
-  /** Active pairs of convex pieces that were near enough to be looked at. How near that is depends on earlier queries. */
-  uint64_t pairs;
-  /** ... of which Voronoi marching decided. */
-  uint64_t marched;
-  /** ... of which the vertex pairs or the separating axis of the query before decided. */
-  uint64_t coherent;
-  /** ... of which Gilbert-Johnson-Keerthi in floating point decided. */
-  uint64_t fallback;
-  /** ... of which integer arithmetic decided. */
-  uint64_t exact;
-  /** Feature pairs visited by Voronoi marching. */
-  uint64_t marching_steps;
-  /** Iterations of Gilbert-Johnson-Keerthi in floating point. */
-  uint64_t fallback_iterations;
-  /** Iterations in integer arithmetic. */
-  uint64_t exact_iterations;
-  /** Of the pairs, those that an approximate query stopped at because their interval was narrow enough. */
-  uint64_t within_tolerance;
-  /** ... of which the step budget ran out. */
-  uint64_t budget_spent;
-  /**
-   * Of the pairs, how many were answered by which level of detail: the coarser one of the two objects', 0 for the objects
-   * themselves, also where no geometry was asked; the last entry is for all levels beyond, too.
-   */
-  uint64_t by_level[8];
-  /**
-   * Sum of `upper - lower` over the pairs that queries about distances answered as SWIFTPROX_OUTCOME_SEPARATED or left
-   * SWIFTPROX_OUTCOME_UNDECIDED. Queries of intersection add nothing: their intervals are wide and only prove the verdict.
-   */
-  double error_spent;
-  /** Of the pairs, those whose bounding spheres decided. */
-  uint64_t bounding_spheres;
-  /** ... of which balls inside the pieces decided. */
-  uint64_t inscribed_spheres;
-  /** ... of which neither piece had moved since the same query before: its answer was given again. */
-  uint64_t unmoved;
-  /** ... of which the pieces had not moved far enough since their last test to be listed. */
-  uint64_t out_of_reach;
-} swiftprox_scene_statistics;
-
-/**
- * What the queries of a scene did since it was made or swiftprox_scene_reset_statistics was called. On failure error_spent is NaN,
- * all else 0.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: scene or statistics is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_get_statistics(const struct swiftprox_scene *scene,
-                                                struct swiftprox_scene_statistics *statistics);
-
-/**
- * Sets the statistics of a scene to zero.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_reset_statistics(struct swiftprox_scene *scene);
-
-/**
- * Queries without a tolerance are about all pairs of pieces. While these are no more than `limit`, each remembers its last answer,
- * which makes the next one several times faster and takes about 150 bytes, if there is memory for that. Of more than `limit` only
- * near pairs remember theirs. Results and their order are the same. Default: 1048576 pairs, about 150 MB, which 1448
- * single pieces make. 0: none but near pairs.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_kept_pair_limit(struct swiftprox_scene *scene,
-                                                     uint64_t limit);
-
-/**
- * Gives back the memory that a scene keeps for later: that of the last query's results, which end, and that of pairs that are no
- * more. What the others remember stays. The next query takes anew what it needs.
- *
- * SWIFTPROX_ERROR_MEMORY: there is not enough for a smaller list of pairs; nothing has changed.
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_shrink(struct swiftprox_scene *scene);
-
 /** @} */
 
 /**
@@ -2057,93 +1690,33 @@ swiftprox_status swiftprox_scene_shrink(struct swiftprox_scene *scene);
  */
 
 /**
- * Activates the pair of two objects, in either order, with all its pairs of pieces. Two fixed objects are never tested all the
- * same.
+ * Sets whether queries test pairs of objects: `active` other than 0, or 0. With two ids it is their pair, in either order, with all
+ * its pairs of pieces; with one null pointer all pairs that the other object is in now; with two all that there are now. Objects
+ * added later begin with all their pairs active; two fixed objects are never tested.
  *
  * SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice.
- * SWIFTPROX_ERROR_MEMORY.
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_activate_pair(struct swiftprox_scene *scene,
-                                               struct swiftprox_object_id id1,
-                                               struct swiftprox_object_id id2);
-
-/**
- * Deactivates the pair of two objects: queries leave it out. Errors as of swiftprox_scene_activate_pair.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_deactivate_pair(struct swiftprox_scene *scene,
-                                                 struct swiftprox_object_id id1,
-                                                 struct swiftprox_object_id id2);
-
-/**
- * Activates all pairs that an object is in now.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_activate_object(struct swiftprox_scene *scene,
-                                                 struct swiftprox_object_id id);
-
-/**
- * Deactivates all pairs that an object is in now. Errors as of swiftprox_scene_activate_object.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_deactivate_object(struct swiftprox_scene *scene,
-                                                   struct swiftprox_object_id id);
-
-/**
- * Activates all pairs that there are now. Objects added later begin with all their pairs active in any case.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_activate_all(struct swiftprox_scene *scene);
-
-/**
- * Deactivates all pairs that there are now. Errors as of swiftprox_scene_activate_all.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_deactivate_all(struct swiftprox_scene *scene);
+swiftprox_status swiftprox_scene_set_pair_active(struct swiftprox_scene *scene,
+                                                 const struct swiftprox_object_id *id1,
+                                                 const struct swiftprox_object_id *id2,
+                                                 int32_t active);
 
 /**
  * Sets `*active` to 1 if queries test the pair of two objects, given in either order, else to 0 (also on failure).
  *
- * Errors as of swiftprox_scene_activate_pair; SWIFTPROX_ERROR_NULL_POINTER also when active is null.
+ * Errors as of swiftprox_scene_set_pair_active; SWIFTPROX_ERROR_NULL_POINTER also when active is null.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_is_pair_active(const struct swiftprox_scene *scene,
-                                                struct swiftprox_object_id id1,
-                                                struct swiftprox_object_id id2,
-                                                int32_t *active);
-
-/**
- * Sets the groups that an object is in and those that it is tested against, as swiftprox_object_options has them.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_filter(struct swiftprox_scene *scene,
-                                            struct swiftprox_object_id id,
-                                            uint32_t groups,
-                                            uint32_t mask);
+swiftprox_status swiftprox_scene_get_pair_active(const struct swiftprox_scene *scene,
+                                                 struct swiftprox_object_id id1,
+                                                 struct swiftprox_object_id id2,
+                                                 int32_t *active);
 
 /**
  * Says whether a pair of objects is to be tested (not 0) or not (0), the earlier created object first; `user` is the pointer given
@@ -2157,7 +1730,7 @@ typedef int32_t (*swiftprox_pair_filter_callback)(struct swiftprox_object_id obj
 /**
  * Asks `filter` of each pair of objects whether it is to be tested, once for each of its pairs of pieces when that comes near, and
  * of many objects without a tolerance in each query. Null: none is asked, as before the first call. All pairs that are near are
- * asked anew. The callback may be called from every thread that queries the scene.
+ * asked anew: set the same filter again when it has changed its mind. The callback may be called from every thread that queries the scene.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
  *
@@ -2167,182 +1740,6 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_pair_filter(struct swiftprox_scene *scene,
                                                  swiftprox_pair_filter_callback filter,
                                                  void *user);
-
-/**
- * Asks the filter anew of all pairs that are near, in the next query.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_filter_again(struct swiftprox_scene *scene);
-
-/**
- * From now on queries test these pairs of objects and no others, however near: for a program with a broad phase of its own.
- * `pairs` holds 2 ids for each of the `count`, in any order; what is there twice is tested once. Activation, filters and fixed
- * objects are heeded as ever; objects removed later are in no pair. Pairs that stay keep what they remember. On failure the pairs
- * of before stay.
- *
- * SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice in a pair. The
- * message says which. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or pairs is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_pairs(struct swiftprox_scene *scene,
-                                           const struct swiftprox_object_id *pairs,
-                                           size_t count);
-
-/**
- * Takes back what swiftprox_scene_set_pairs has set: from now on the scene finds the pairs that are near by itself, as it did
- * before.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_reset_pairs(struct swiftprox_scene *scene);
-
-/** @} */
-
-/**
- * @defgroup swiftprox_set Questions about sets of objects, which threads may ask one scene at once
- * @{
- */
-
-/** Objects that a question is about. */
-typedef struct swiftprox_object_set {
-  /** Which, in any order. */
-  const struct swiftprox_object_id *ids;
-  /** How many. */
-  size_t count;
-  /** 12 doubles for each object: where it is for this question. Null: where the scene has it. */
-  const double *poses;
-  /** Not 0: pairs of two objects of the set are asked about, too. */
-  int32_t among;
-} swiftprox_object_set;
-
-/**
- * Room to work in for questions that threads ask a scene at once: about sets of objects, and of rays, grounds and half-spaces. One
- * thread at a time uses it, for any scenes.
- *
- * Of sets it keeps what pairs of objects remember, which changes how fast an answer comes and which of several nearest points it
- * gives, never a verdict. Of rays, grounds and half-spaces it keeps nothing but the room and the last answer: whatever it has
- * seen, they are answered bit for bit as with a new one.
- */
-typedef struct swiftprox_scratch swiftprox_scratch;
-
-/**
- * Makes room to work in for questions that threads ask a scene at once: about sets of objects, and of rays, grounds and
- * half-spaces. The caller owns it and gives it back with swiftprox_scratch_destroy. One thread at a time uses it, for any scenes.
- * Of sets it keeps what pairs of objects remember, which changes how fast an answer comes and which of several nearest points it
- * gives, never a verdict: where bits matter, take a new one. Rays, grounds and half-spaces remember nothing: whatever it has seen,
- * they are answered bit for bit as with a new one. On failure `*scratch` is null.
- *
- * SWIFTPROX_ERROR_NULL_POINTER.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scratch_create(struct swiftprox_scratch **scratch);
-
-/**
- * Gives back what swiftprox_scratch_create made, and what it owns. Null is ignored.
- *
- * Experimental.
- */
-void swiftprox_scratch_destroy(struct swiftprox_scratch *scratch);
-
-/**
- * Makes questions about sets fast after objects were moved, added or removed: they find what is near by the trees of the broad
- * phase, which this brings up to date. It changes no answer. Without it they go through what has changed one by one, and through
- * all pieces if many have.
- *
- * SWIFTPROX_ERROR_MEMORY: questions take longer. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_prepare(struct swiftprox_scene *scene);
-
-/** The least distance between two sets of objects. Numbers that it does not say are NaN. */
-typedef struct swiftprox_least_distance {
-  /** The least distance is at least this, of sets that are farther apart than the cut-off that ... */
-  double lower;
-  /** ... and at most this: infinite of sets that are farther apart than the cut-off, and where no pair is tested. */
-  double upper;
-  /**
-   * A pair with that distance, object 1 of the first set; with null ids if there is none within the cut-off. Of several pairs as
-   * near, as far as doubles tell, it is any.
-   */
-  struct swiftprox_pair_result nearest;
-} swiftprox_least_distance;
-
-/**
- * The least distance between two sets of objects, or between a set and all other objects (against is null), with its interval and
- * a pair that has it. Of sets farther apart than cut_off (infinity: none are) no more than that is said.
- *
- * Pairs are those that queries test: activation, groups and the filter are heeded. Two fixed objects are left out, unless one of
- * the sets has poses. Any number of threads may ask a scene at once that nobody changes, each with its own scratch; a null scratch
- * is made for the call.
- *
- * On failure the answer's numbers are NaN. SWIFTPROX_ERROR_HANDLE: an id names no object of this scene.
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: cut_off is negative or NaN. SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_BUSY: the
- * scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_POISONED.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_least_distance(const struct swiftprox_scene *scene,
-                                                const struct swiftprox_object_set *set,
-                                                const struct swiftprox_object_set *against,
-                                                double cut_off,
-                                                struct swiftprox_scratch *scratch,
-                                                struct swiftprox_least_distance *answer);
-
-/** In which order times are tried. */
-typedef enum swiftprox_pose_order SWIFTPROX_INT32 {
-  /** The first, the middle, the quarters, and so on: what is found is any of those that hit, and found soonest. */
-  SWIFTPROX_POSE_ORDER_BISECTION = 0,
-  /** One after the other: what is found is the first that hits. */
-  SWIFTPROX_POSE_ORDER_IN_ORDER = 1
-} swiftprox_pose_order;
-
-/** At which of many times a set of objects meets something. */
-typedef struct swiftprox_first_hit {
-  /** The number of the time that was found to hit; how many times there are if none does. */
-  size_t time;
-  /** How many times were tried. */
-  size_t tried;
-  /**
-   * A pair that is no farther apart than the margin, object 1 of the set: of an answer the verdict and its proof, or an interval
-   * of the distance. Null ids if nothing hits.
-   */
-  struct swiftprox_pair_result pair;
-} swiftprox_first_hit;
-
-/**
- * At which of many times a set of objects is no farther from something than margin: all other objects, and if set->among is not 0
- * one another. poses are 12 doubles for each object at the first time, then at the second, and so on; set->poses is not looked at,
- * nor are poses of times that are not tried. Pairs are those that queries test; both may be fixed. Threads and scratch as of
- * swiftprox_scene_least_distance.
- *
- * On failure nothing is said: time and tried are 0, the pair's ids null. Errors as of swiftprox_scene_least_distance;
- * SWIFTPROX_ERROR_INVALID_ARGUMENT also for an empty set, an unknown order, and a margin that is negative, infinite or NaN.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_first_hit(const struct swiftprox_scene *scene,
-                                           const struct swiftprox_object_set *set,
-                                           const double *poses,
-                                           size_t time_count,
-                                           swiftprox_pose_order order,
-                                           double margin,
-                                           struct swiftprox_scratch *scratch,
-                                           struct swiftprox_first_hit *answer);
 
 /** @} */
 

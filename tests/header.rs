@@ -532,6 +532,7 @@ fn headers_compile_in_every_standard() {
     let source = r#"
 #include "swiftprox/tuning.h"
 #include "swiftprox.h"
+#include "swiftprox/scene.h"
 #include "swiftprox.h"
 #include "swiftprox/tuning.h"
 swiftprox_status unit(swiftprox_scene *scene, const double *points);
@@ -551,7 +552,7 @@ swiftprox_status unit(swiftprox_scene *scene, const double *points)
     options.tuning = &tuning;
     status = swiftprox_shape_create_from_points(points, 4, &options, &shape);
     if (status == SWIFTPROX_OK) {
-        status = swiftprox_scene_add_shape(scene, shape, NULL, &id);
+        status = swiftprox_scene_add_object(scene, &shape, 1, NULL, &id);
     }
     if (status == SWIFTPROX_OK) {
         status = swiftprox_scene_add_object(scene, &shape, 1, NULL, &id);
@@ -573,15 +574,18 @@ swiftprox_status unit(swiftprox_scene *scene, const double *points)
 }
 
 /// A status that is ignored on purpose.
-const IGNORED: &str = "SWIFTPROX_IGNORE(swiftprox_scene_activate_all(scene));";
+const IGNORED: &str = "SWIFTPROX_IGNORE(swiftprox_scene_set_pair_active(scene, 0, 0, 1));";
 
 /// Each of these compiles no more, under usual warnings that are errors here.
 #[test]
 fn compilers_see_what_is_mixed_up_or_ignored() {
     let folder = scratch("mixed-up");
     for (what, line) in [
-        ("a status ignored", "swiftprox_scene_activate_all(scene);"),
-        ("what decided, compared with a status", "return answer->decided_by == swiftprox_scene_activate_all(scene);"),
+        ("a status ignored", "swiftprox_scene_set_pair_active(scene, 0, 0, 1);"),
+        (
+            "what decided, compared with a status",
+            "return answer->decided_by == swiftprox_scene_set_pair_active(scene, 0, 0, 1);",
+        ),
         ("what decided, compared with a status's name", "return answer->decided_by == SWIFTPROX_OK;"),
         ("an outcome, compared with what decided", "return answer->outcome == answer->decided_by;"),
         ("an id for a number", "return id == 0;"),

@@ -121,7 +121,7 @@ static int set_up(struct player *player)
         swiftprox_object_options_init(&options);
         options.user_data = i;
         options.fixed = object->fixed;
-        if (swiftprox_scene_add_shape(player->scene, player->shapes[object->shape], &options, &player->ids[i]) !=
+        if (swiftprox_scene_add_object(player->scene, &player->shapes[object->shape], 1, &options, &player->ids[i]) !=
             SWIFTPROX_OK) {
             return player_failed();
         }

@@ -3,6 +3,7 @@
 #include <stdlib.h>
 
 #include <swiftprox.h>
+#include <swiftprox/scene.h>
 #include <swiftprox/replay.h>
 
 static void demand(swiftprox_status status)
@@ -35,7 +36,7 @@ int main(int argc, char **argv)
     demand(swiftprox_scene_create(NULL, &scene));
     demand(swiftprox_scene_record(scene, argv[1]));
     for (int i = 0; i < 3; i++) {
-        demand(swiftprox_scene_add_shape(scene, cube, NULL, &ids[i]));
+        demand(swiftprox_scene_add_object(scene, &cube, 1, NULL, &ids[i]));
     }
     swiftprox_scene_query_init(&query);
 

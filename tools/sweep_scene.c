@@ -1,5 +1,6 @@
 #include "sweep_scene.h"
 #include <swiftprox/geometry.h>
+#include <swiftprox/scene.h>
 #include <swiftprox/motion.h>
 
 #include <math.h>

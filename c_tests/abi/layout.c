@@ -4,6 +4,8 @@
 #include "swiftprox/ground.h"
 #include "swiftprox/process.h"
 #include "swiftprox/replay.h"
+#include "swiftprox/scene.h"
+#include "swiftprox/sets.h"
 #include "swiftprox/tuning.h"
 #include "swiftprox/verify.h"
 

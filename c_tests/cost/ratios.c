@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "swiftprox/scene.h"
 
 enum { STEPS = 200, POINTS = 1002, BOXES = 40 };
 
@@ -124,7 +125,7 @@ static void make_scene(const swiftprox_shape *shape, int objects)
     int i;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     for (i = 0; i < objects; ++i) {
-        CHECK_OK(swiftprox_scene_add_shape(scene, shape, NULL, &ids[i]));
+        CHECK_OK(swiftprox_scene_add_object(scene, &shape, 1, NULL, &ids[i]));
     }
 }
 

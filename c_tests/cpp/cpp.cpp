@@ -394,7 +394,7 @@ static void scenes(const std::string &folder)
     CHECK(scene.try_query_placed_pieces(pieces, placed, 1, SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 3);
     CHECK(scene.try_query_placed_pieces(pieces, placed, 2, SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 0);
     const std::array<swiftprox::ObjectOptions, 2> each{};
-    const auto more = scene.try_add_shapes(pieces, each);
+    const auto more = scene.try_add_objects(pieces, each);
     CHECK(more && more.value.size() == 2 && scene.try_object_ids().value.size() == 5);
     CHECK_OK(scene.try_set_piece_user_data(c.value, 1, 77).status);
     CHECK(scene.try_piece_user_data(c.value, 1).value == 77 && scene.try_piece_user_data(c.value).value == 0);
@@ -422,8 +422,8 @@ static void scenes(const std::string &folder)
     CHECK_OK(other.try_set_pairs({}).status);
     CHECK(other.try_query_intersection().value.count == 0);
     CHECK_OK(other.try_reset_pairs().status);
-    CHECK_OK(other.try_deactivate_pair(a.value, b.value).status);
-    CHECK(!other.try_is_pair_active(a.value, b.value).value && other.try_is_object_valid(a.value).value);
+    CHECK_OK(other.try_set_pair_active(a.value, b.value, false).status);
+    CHECK(!other.try_pair_active(a.value, b.value).value && other.try_is_object_valid(a.value).value);
     CHECK(other.try_query_intersection().value.count == 0);
     CHECK_OK(other.try_remove_object(a.value).status);
     CHECK(other.try_remove_object(a.value).status == SWIFTPROX_ERROR_HANDLE);

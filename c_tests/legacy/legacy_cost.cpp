@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "legacy_bodies.h"
+#include "swiftprox/scene.h"
 
 namespace {
 
@@ -97,11 +98,18 @@ double by_c(const Task& task, int steps)
         swiftprox_object_options options;
         swiftprox_object_options_init(&options);
         if (i == 0) {
-            must(swiftprox_scene_add_mesh(scene, &task.body.vertices[0], task.body.vertices.size() / 3, &triangles[0], NULL,
-                                          triangles.size() / 3, NULL, &options, &ids[0]));
+            const swiftprox_shape *shape;
+            must(swiftprox_shape_create_from_mesh(&task.body.vertices[0], task.body.vertices.size() / 3, &triangles[0], NULL,
+                                                  triangles.size() / 3, NULL, &shape));
+            must(swiftprox_scene_add_object(scene, &shape, 1, &options, &ids[0]));
+            swiftprox_shape_release(shape);
         } else {
             must(swiftprox_scene_copy_object(scene, ids[0], &ids[i]));
-            must(swiftprox_scene_set_user_data(scene, ids[i], i));
+            swiftprox_object_info info;
+            info.struct_size = sizeof info;
+            must(swiftprox_scene_get_object_info(scene, ids[i], &info));
+            info.user_data = i;
+            must(swiftprox_scene_set_object_info(scene, ids[i], &info));
         }
     }
     swiftprox_scene_query query;

@@ -9,6 +9,7 @@
 #include "legacy_test.h"
 
 #include <swiftprox/tuning.h>
+#include <swiftprox/scene.h>
 
 namespace {
 

@@ -7,6 +7,7 @@
 
 #include "check.h"
 #include "swiftprox/geometry.h"
+#include "swiftprox/scene.h"
 #include "swiftprox/ground.h"
 #include "swiftprox/verify.h"
 
@@ -174,7 +175,7 @@ static void boxes(void)
     options.pose[3] = 1;
     options.pose[7] = 2;
     options.pose[11] = 3;
-    CHECK_OK(swiftprox_scene_add_shape(scene, capsule, &options, &id));
+    CHECK_OK(swiftprox_scene_add_object(scene, &capsule, 1, &options, &id));
     CHECK_OK(swiftprox_scene_get_object_box(scene, id, lower, upper));
     for (k = 0; k < 3; ++k) {
         CHECK(lower[k] <= least[k] && least[k] - lower[k] < 1e-4);

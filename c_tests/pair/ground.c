@@ -6,6 +6,7 @@
 
 #include "bodies.h"
 #include "swiftprox/ground.h"
+#include "swiftprox/sets.h"
 
 static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
@@ -111,7 +112,7 @@ static void objects_of_a_scene(void)
         options.groups = i == 1 ? 2 : 1;
         options.fixed = i == 2;
         options.user_data = 10 + (uint64_t)i;
-        CHECK_OK(swiftprox_scene_add_shape(scene, body, &options, &ids[i]));
+        CHECK_OK(swiftprox_scene_add_object(scene, &body, 1, &options, &ids[i]));
     }
     swiftprox_manifold_config_init(&config);
     config.reduces = 1;

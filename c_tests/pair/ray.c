@@ -6,6 +6,7 @@
 
 #include "bodies.h"
 #include "swiftprox/geometry.h"
+#include "swiftprox/sets.h"
 
 static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
@@ -58,7 +59,7 @@ static void round_bodies(void)
             swiftprox_object_id id;
             swiftprox_object_options_init(&placed);
             placed.pose[7] = (k ^ i) == 1 ? 100 : 0;
-            CHECK_OK(swiftprox_scene_add_shape(scene, shapes[k ^ i], &placed, &id));
+            CHECK_OK(swiftprox_scene_add_object(scene, &shapes[k ^ i], 1, &placed, &id));
         }
         for (hits = 0; hits < 3; ++hits) {
             CHECK_OK(swiftprox_scene_cast_ray(scene, &ray, (swiftprox_ray_hits)hits, UINT32_MAX, scratch, &met));

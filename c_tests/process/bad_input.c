@@ -13,6 +13,8 @@
 
 #include "check.h"
 #include "swiftprox/tuning.h"
+#include "swiftprox/process.h"
+#include "swiftprox/scene.h"
 #include "swiftprox/geometry.h"
 #include "swiftprox/ground.h"
 #include "swiftprox/verify.h"
@@ -36,6 +38,15 @@ static swiftprox_status mesh(const double *vertices, size_t vertex_count, const 
     const swiftprox_status status =
         swiftprox_shape_create_from_mesh(vertices, vertex_count, indices, valences, face_count, options, &shape);
     CHECK((status == SWIFTPROX_OK) == (shape != NULL));
+    swiftprox_shape_release(shape);
+    return status;
+}
+
+static swiftprox_status add_tetrahedron(swiftprox_scene *scene, const swiftprox_object_options *options, swiftprox_object_id *id)
+{
+    const swiftprox_shape *shape = NULL;
+    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
+    const swiftprox_status status = swiftprox_scene_add_object(scene, &shape, 1, options, id);
     swiftprox_shape_release(shape);
     return status;
 }
@@ -569,11 +580,11 @@ static void scenes(void)
 
     swiftprox_object_options_init(&object_options);
     memcpy(object_options.pose, THERE, sizeof THERE);
-    CHECK_OK(swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, NULL, NULL, &here));
-    CHECK_OK(swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, NULL, &object_options, &there));
+    CHECK_OK(add_tetrahedron(scene, NULL, &here));
+    CHECK_OK(add_tetrahedron(scene, &object_options, &there));
     CHECK_OK(swiftprox_scene_copy_object(scene, there, &stale));
     CHECK_OK(swiftprox_scene_remove_object(scene, stale));
-    CHECK_OK(swiftprox_scene_add_mesh(other, CORNERS, 4, FACES, NULL, 4, NULL, NULL, &foreign));
+    CHECK_OK(add_tetrahedron(other, NULL, &foreign));
     still_usable(scene, __LINE__);
 
     /* Ids: null, stale, another scene's, made up. */
@@ -586,12 +597,12 @@ static void scenes(void)
             CHECK(swiftprox_scene_copy_object(scene, wrong[i], &id) == SWIFTPROX_ERROR_HANDLE && id.bits == 0);
             CHECK_OK(swiftprox_scene_is_object_valid(scene, wrong[i], &valid));
             CHECK(valid == 0);
-            CHECK(swiftprox_scene_activate_object(scene, wrong[i]) == SWIFTPROX_ERROR_HANDLE);
-            CHECK(swiftprox_scene_deactivate_pair(scene, here, wrong[i]) == SWIFTPROX_ERROR_HANDLE);
-            CHECK(swiftprox_scene_set_user_data(scene, wrong[i], 1) == SWIFTPROX_ERROR_HANDLE);
-            CHECK(swiftprox_scene_is_pair_active(scene, wrong[i], there, &active) == SWIFTPROX_ERROR_HANDLE && active == 0);
+            CHECK(swiftprox_scene_set_pair_active(scene, &wrong[i], NULL, 1) == SWIFTPROX_ERROR_HANDLE);
+            CHECK(swiftprox_scene_set_pair_active(scene, &here, &wrong[i], 0) == SWIFTPROX_ERROR_HANDLE);
+                        CHECK(swiftprox_scene_get_pair_active(scene, wrong[i], there, &active) == SWIFTPROX_ERROR_HANDLE && active == 0);
             info.struct_size = sizeof info;
             CHECK(swiftprox_scene_get_object_info(scene, wrong[i], &info) == SWIFTPROX_ERROR_HANDLE);
+            CHECK(swiftprox_scene_set_object_info(scene, wrong[i], &info) == SWIFTPROX_ERROR_HANDLE);
             CHECK(swiftprox_scene_get_piece(scene, wrong[i], 0, &piece) == SWIFTPROX_ERROR_HANDLE && piece == NULL);
         }
     }
@@ -600,20 +611,25 @@ static void scenes(void)
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_is_object_valid(NULL, here, &valid));
     CHECK(valid == 0);
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "valid", swiftprox_scene_is_object_valid(scene, here, NULL));
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "twice", swiftprox_scene_deactivate_pair(scene, here, here));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "twice", swiftprox_scene_set_pair_active(scene, &here, &here, 0));
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "piece 1", swiftprox_scene_get_piece(scene, here, 1, &piece));
+    CHECK_OK(swiftprox_scene_get_object_info(scene, here, &info));
+    info.piece_count = 2;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "piece_count is 2", swiftprox_scene_set_object_info(scene, here, &info));
+    info.piece_count = 1;
+    info.pose[3] = NAN;
+    info.user_data = 7;
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "finite", swiftprox_scene_set_object_info(scene, here, &info));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "info", swiftprox_scene_set_object_info(scene, here, NULL));
+    CHECK_OK(swiftprox_scene_get_object_info(scene, here, &info));
+    CHECK(info.user_data == 0);
     still_usable(scene, __LINE__);
 
     /* Adding. */
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "id",
-                swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, NULL, NULL, NULL));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "vertices",
-                swiftprox_scene_add_mesh(scene, NULL, 4, FACES, NULL, 4, NULL, NULL, &id));
-    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "edge", swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 3, NULL, NULL, &id));
-    CHECK_FAILS(SWIFTPROX_ERROR_FILE, "no-such-file", swiftprox_scene_add_file(scene, "no-such-file", NULL, NULL, &id));
     CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
     pieces[0] = shape;
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape", swiftprox_scene_add_shape(scene, NULL, NULL, &id));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "id", swiftprox_scene_add_object(scene, pieces, 1, NULL, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pieces[0]", swiftprox_scene_add_object(scene, &pieces[1], 1, NULL, &id));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pieces[1]", swiftprox_scene_add_object(scene, pieces, 2, NULL, &id));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pieces", swiftprox_scene_add_object(scene, NULL, 2, NULL, &id));
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "piece", swiftprox_scene_add_object(scene, pieces, 0, NULL, &id));
@@ -634,15 +650,15 @@ static void scenes(void)
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "rotation", swiftprox_scene_set_transform(scene, here, NULL, CORNERS));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "translation", swiftprox_scene_set_transform(scene, here, CORNERS, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal", swiftprox_scene_set_transform(scene, here, CORNERS, CORNERS));
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "3 poses", swiftprox_scene_set_all_poses(scene, HERE, 3));
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "poses", swiftprox_scene_set_all_poses(scene, HERE, SIZE_MAX));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "poses", swiftprox_scene_set_all_poses(scene, NULL, 2));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "rotations", swiftprox_scene_set_all_transforms(scene, NULL, HERE, 2));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "3 poses", swiftprox_scene_set_poses(scene, NULL, HERE, 3));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "poses", swiftprox_scene_set_poses(scene, NULL, HERE, SIZE_MAX));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "poses", swiftprox_scene_set_poses(scene, NULL, NULL, 2));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "rotations", swiftprox_scene_set_transforms(scene, NULL, NULL, HERE, 2));
     {
         double poses[24];
         memcpy(poses, THERE, sizeof THERE);
         memcpy(poses + 12, with(0, 2), sizeof HERE);
-        CHECK_FAILS(SWIFTPROX_ERROR_POSE, "pose 1", swiftprox_scene_set_all_poses(scene, poses, 2));
+        CHECK_FAILS(SWIFTPROX_ERROR_POSE, "pose 1", swiftprox_scene_set_poses(scene, NULL, poses, 2));
     }
     still_usable(scene, __LINE__);
 

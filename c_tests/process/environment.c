@@ -12,6 +12,7 @@
 
 #include "check.h"
 #include "swiftprox/tuning.h"
+#include "swiftprox/scene.h"
 #include "swiftprox/geometry.h"
 #include "swiftprox/ground.h"
 #include "swiftprox/process.h"
@@ -486,7 +487,10 @@ static void ask_a_scene(void)
         options.user_data = (uint64_t)i;
         CALL_OK(swiftprox_scene_add_object(scene, &piece, 1, &options, &ids[i]));
     }
-    CALL_OK(swiftprox_scene_add_mesh(scene, TETRAHEDRON, 4, TETRAHEDRON_FACES, NULL, 4, NULL, NULL, &ids[4]));
+    const swiftprox_shape *tetrahedron;
+    CALL_OK(swiftprox_shape_create_from_mesh(TETRAHEDRON, 4, TETRAHEDRON_FACES, NULL, 4, NULL, &tetrahedron));
+    CALL_OK(swiftprox_scene_add_object(scene, &tetrahedron, 1, NULL, &ids[4]));
+    swiftprox_shape_release(tetrahedron);
     for (int i = 0; i < POSES; ++i) {
         CALL_OK(swiftprox_scene_set_pose(scene, ids[i % 5], poses[i]));
         for (size_t k = 0; k < sizeof queries / sizeof queries[0]; ++k) {

@@ -14,6 +14,8 @@
 
 #include "bodies.h"
 #include "swiftprox/geometry.h"
+#include "swiftprox/scene.h"
+#include "swiftprox/sets.h"
 #include "swiftprox/motion.h"
 #include "swiftprox/verify.h"
 
@@ -90,7 +92,7 @@ static void look_at_scene(worker *worker)
         info.struct_size = sizeof info;
         REQUIRE(swiftprox_scene_get_object_info(scene, ids[i], &info) == SWIFTPROX_OK && info.user_data == (uint64_t)i);
         REQUIRE(swiftprox_scene_get_piece(scene, ids[i], 0, &piece) == SWIFTPROX_OK && piece == shapes[i]);
-        REQUIRE(swiftprox_scene_is_pair_active(scene, ids[i], ids[(i + 1) % SHAPES], &active) == SWIFTPROX_OK && active == 1);
+        REQUIRE(swiftprox_scene_get_pair_active(scene, ids[i], ids[(i + 1) % SHAPES], &active) == SWIFTPROX_OK && active == 1);
     }
 }
 

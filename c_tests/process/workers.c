@@ -74,7 +74,7 @@ static swiftprox_scene *make_scene(const swiftprox_shape *shape, const swiftprox
         swiftprox_object_options object;
         swiftprox_object_options_init(&object);
         object.user_data = k;
-        CHECK(swiftprox_scene_add_shape(scene, shape, &object, &id) == SWIFTPROX_OK);
+        CHECK(swiftprox_scene_add_object(scene, &shape, 1, &object, &id) == SWIFTPROX_OK);
     }
     return scene;
 }
@@ -90,7 +90,7 @@ static void move(swiftprox_scene *scene, int step)
         for (int i = 0; i < 3; i++)
             poses[k][4 * i + 3] = 1.1 * place[i] + 0.01 * step * ((7 * k + 3 * i) % 11 - 5);
     }
-    CHECK(swiftprox_scene_set_all_poses(scene, &poses[0][0], BODIES) == SWIFTPROX_OK);
+    CHECK(swiftprox_scene_set_poses(scene, NULL, &poses[0][0], BODIES) == SWIFTPROX_OK);
 }
 
 static swiftprox_scene_answer ask(swiftprox_scene *scene)

@@ -21,7 +21,7 @@ static void make(void)
         const swiftprox_shape *const shape = box(half[body][0], half[body][1], half[body][2]);
         place(options.pose, 0, 0, height[body]);
         options.user_data = 10 + (uint64_t)body;
-        CHECK_OK(swiftprox_scene_add_shape(scene, shape, &options, ids[body]));
+        CHECK_OK(swiftprox_scene_add_object(scene, &shape, 1, &options, ids[body]));
         swiftprox_shape_release(shape);
     }
 }

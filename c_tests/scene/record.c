@@ -11,6 +11,7 @@
 
 #include "bodies.h"
 #include "swiftprox/process.h"
+#include "swiftprox/scene.h"
 #include "swiftprox/replay.h"
 
 enum { CUBES = 12, STEPS = 30 };
@@ -54,7 +55,7 @@ static size_t session(swiftprox_scene *scene, double *sums)
         set_pose(options.pose);
         options.user_data = (uint64_t)i;
         options.fixed = i < 2;
-        CHECK_OK(swiftprox_scene_add_shape(scene, shape, &options, &ids[i]));
+        CHECK_OK(swiftprox_scene_add_object(scene, &shape, 1, &options, &ids[i]));
     }
     for (int step = 0; step < STEPS; ++step) {
         swiftprox_scene_query query;
@@ -68,7 +69,7 @@ static size_t session(swiftprox_scene *scene, double *sums)
         if (step == 4)
             CHECK_OK(swiftprox_scene_set_pair_filter(scene, likes, NULL));
         if (step == 8)
-            CHECK_OK(swiftprox_scene_deactivate_object(scene, ids[3]));
+            CHECK_OK(swiftprox_scene_set_pair_active(scene, &ids[3], NULL, 0));
         if (step == 12)
             CHECK_OK(swiftprox_scene_set_pairs(scene, ids, CUBES / 2));
         if (step == 16)

@@ -7,6 +7,7 @@
 
 #include "bodies.h"
 #include "swiftprox/process.h"
+#include "swiftprox/scene.h"
 
 enum { OBJECTS = 60, PAIRS = OBJECTS * (OBJECTS - 1) / 2 };
 
@@ -37,7 +38,7 @@ static swiftprox_object_id add(swiftprox_scene *scene, const swiftprox_shape *sh
     int32_t valid = 0;
     swiftprox_object_options_init(&options);
     place(options.pose, x, 0, 0);
-    CHECK_OK(swiftprox_scene_add_shape(scene, shape, &options, &id));
+    CHECK_OK(swiftprox_scene_add_object(scene, &shape, 1, &options, &id));
     CHECK_OK(swiftprox_scene_is_object_valid(scene, id, &valid));
     CHECK(valid == 1);
     return id;
@@ -82,12 +83,16 @@ static void results_stay(const swiftprox_shape *shape)
         }
         place(pose, pair->answer.distance, 0, 0);
         CHECK_OK(swiftprox_scene_set_pose(scene, pair->object1, pose));
-        CHECK_OK(swiftprox_scene_set_user_data(scene, pair->object1, i));
+        swiftprox_object_info info;
+        info.struct_size = sizeof info;
+        CHECK_OK(swiftprox_scene_get_object_info(scene, pair->object1, &info));
+        info.user_data = i;
+        CHECK_OK(swiftprox_scene_set_object_info(scene, pair->object1, &info));
         if (i % 8 == 0) {
             swiftprox_object_id twin;
             CHECK_OK(swiftprox_scene_copy_object(scene, pair->object1, &twin));
             add(scene, shape, 0);
-            CHECK_OK(swiftprox_scene_deactivate_object(scene, twin));
+            CHECK_OK(swiftprox_scene_set_pair_active(scene, &twin, NULL, 0));
         }
         if (i % 64 == 0) {
             CHECK_OK(swiftprox_scene_remove_object(scene, pair->object1));

@@ -6,6 +6,7 @@
 
 #include "bodies.h"
 #include "swiftprox/tuning.h"
+#include "swiftprox/scene.h"
 
 static const double CORNERS[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
 static const uint32_t FACES[24] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
@@ -22,12 +23,15 @@ static int is(swiftprox_object_id id, swiftprox_object_id other)
 /* Adds a cube whose lower corner is at x, its user data ten times x. */
 static swiftprox_object_id add_cube(swiftprox_scene *scene, double x)
 {
+    const swiftprox_shape *cube;
     swiftprox_object_options options;
     swiftprox_object_id id;
     swiftprox_object_options_init(&options);
     options.user_data = (uint64_t)(10 * x);
     place(options.pose, x, 0, 0);
-    CHECK_OK(swiftprox_scene_add_mesh(scene, CORNERS, 8, FACES, VALENCES, 6, NULL, &options, &id));
+    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 8, FACES, VALENCES, 6, NULL, &cube));
+    CHECK_OK(swiftprox_scene_add_object(scene, &cube, 1, &options, &id));
+    swiftprox_shape_release(cube);
     return id;
 }
 
@@ -113,12 +117,12 @@ static void motion(void)
 
     place(poses, 1, 0, 0);
     place(poses + 12, 6, 0, 0);
-    CHECK_OK(swiftprox_scene_set_all_poses(scene, poses, 2));
+    CHECK_OK(swiftprox_scene_set_poses(scene, NULL, poses, 2));
     CHECK(lists(scene, 1, (const double[]){4}));
 
     const double identity_and_quarter[18] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 1, 0, 0, 0, 0, 1};
     const double translations[6] = {-1, 0, 0, 4, 0, 0};
-    CHECK_OK(swiftprox_scene_set_all_transforms(scene, identity_and_quarter, translations, 2));
+    CHECK_OK(swiftprox_scene_set_transforms(scene, NULL, identity_and_quarter, translations, 2));
     CHECK(lists(scene, 1, (const double[]){3}));
 
     /* A copy stands where its original does. */
@@ -138,20 +142,20 @@ static void activation(void)
     const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 2), c = add_cube(scene, 5);
     CHECK(lists(scene, 3, (const double[]){1, 4, 2}));
 
-    CHECK_OK(swiftprox_scene_deactivate_pair(scene, c, a));
-    CHECK_OK(swiftprox_scene_is_pair_active(scene, a, c, &active));
+    CHECK_OK(swiftprox_scene_set_pair_active(scene, &c, &a, 0));
+    CHECK_OK(swiftprox_scene_get_pair_active(scene, a, c, &active));
     CHECK(active == 0 && lists(scene, 2, (const double[]){1, 2}));
-    CHECK_OK(swiftprox_scene_activate_pair(scene, a, c));
-    CHECK_OK(swiftprox_scene_is_pair_active(scene, a, c, &active));
+    CHECK_OK(swiftprox_scene_set_pair_active(scene, &a, &c, 1));
+    CHECK_OK(swiftprox_scene_get_pair_active(scene, a, c, &active));
     CHECK(active == 1 && lists(scene, 3, (const double[]){1, 4, 2}));
 
-    CHECK_OK(swiftprox_scene_deactivate_object(scene, b));
+    CHECK_OK(swiftprox_scene_set_pair_active(scene, &b, NULL, 0));
     CHECK(lists(scene, 1, (const double[]){4}));
-    CHECK_OK(swiftprox_scene_deactivate_all(scene));
+    CHECK_OK(swiftprox_scene_set_pair_active(scene, NULL, NULL, 0));
     CHECK(lists(scene, 0, NULL));
-    CHECK_OK(swiftprox_scene_activate_object(scene, b));
+    CHECK_OK(swiftprox_scene_set_pair_active(scene, &b, NULL, 1));
     CHECK(lists(scene, 2, (const double[]){1, 2}));
-    CHECK_OK(swiftprox_scene_activate_all(scene));
+    CHECK_OK(swiftprox_scene_set_pair_active(scene, NULL, NULL, 1));
     CHECK(lists(scene, 3, (const double[]){1, 4, 2}));
     CHECK_OK(swiftprox_scene_destroy(scene));
 }
@@ -207,7 +211,7 @@ static void levels(void)
     for (int i = 0; i < 3; ++i) {
         place(pose, 4.0 * i, 0, 0);
         memcpy(where.pose, pose, sizeof pose);
-        CHECK_OK(swiftprox_scene_add_shape(scene, shape, &where, &id));
+        CHECK_OK(swiftprox_scene_add_object(scene, &shape, 1, &where, &id));
     }
     swiftprox_scene_query_init(&query);
     asking.levels = SWIFTPROX_LEVELS_ALL;
@@ -253,6 +257,25 @@ static int32_t refuse(swiftprox_object_id object1, swiftprox_object_id object2, 
     return !is(object1, refusal->id) && !is(object2, refusal->id);
 }
 
+static void set_groups(swiftprox_scene *scene, swiftprox_object_id id, uint32_t groups, uint32_t mask)
+{
+    swiftprox_object_info info;
+    info.struct_size = sizeof info;
+    CHECK_OK(swiftprox_scene_get_object_info(scene, id, &info));
+    info.groups = groups;
+    info.mask = mask;
+    CHECK_OK(swiftprox_scene_set_object_info(scene, id, &info));
+}
+
+static void set_fixed(swiftprox_scene *scene, swiftprox_object_id id, int32_t fixed)
+{
+    swiftprox_object_info info;
+    info.struct_size = sizeof info;
+    CHECK_OK(swiftprox_scene_get_object_info(scene, id, &info));
+    info.fixed = fixed;
+    CHECK_OK(swiftprox_scene_set_object_info(scene, id, &info));
+}
+
 /* What decides which pairs are tested, beside activation: groups, fixed objects, a filter and pairs of the program's own. */
 static void filters(void)
 {
@@ -264,17 +287,17 @@ static void filters(void)
     CHECK_OK(swiftprox_scene_get_object_info(scene, a, &info));
     CHECK(info.groups == 1 && info.mask == UINT32_MAX);
 
-    CHECK_OK(swiftprox_scene_set_filter(scene, a, 2, 1));
+    set_groups(scene, a, 2, 1);
     CHECK(lists(scene, 3, (const double[]){0, 2, 1.5}));
-    CHECK_OK(swiftprox_scene_set_filter(scene, b, 1, 4));
+    set_groups(scene, b, 1, 4);
     CHECK(lists(scene, 1, (const double[]){2}));
-    CHECK_OK(swiftprox_scene_set_filter(scene, b, 0, 0));
+    set_groups(scene, b, 0, 0);
     CHECK(lists(scene, 3, (const double[]){0, 2, 1.5}));
 
-    CHECK_OK(swiftprox_scene_set_fixed(scene, a, 1));
-    CHECK_OK(swiftprox_scene_set_fixed(scene, b, 1));
+    set_fixed(scene, a, 1);
+    set_fixed(scene, b, 1);
     CHECK(lists(scene, 2, (const double[]){2, 1.5}));
-    CHECK_OK(swiftprox_scene_set_fixed(scene, b, 0));
+    set_fixed(scene, b, 0);
     CHECK(lists(scene, 3, (const double[]){0, 2, 1.5}));
 
     struct refusal refusal = {b, 0};
@@ -282,7 +305,7 @@ static void filters(void)
     CHECK(lists(scene, 1, (const double[]){2}) && lists(scene, 1, (const double[]){2}) && refusal.calls == 3);
     refusal.id = c;
     CHECK(lists(scene, 1, (const double[]){2}) && refusal.calls == 3);
-    CHECK_OK(swiftprox_scene_filter_again(scene));
+    CHECK_OK(swiftprox_scene_set_pair_filter(scene, refuse, &refusal));
     CHECK(lists(scene, 1, (const double[]){0}) && refusal.calls == 6);
     CHECK_OK(swiftprox_scene_set_pair_filter(scene, NULL, NULL));
 
@@ -436,7 +459,7 @@ static void workers(void)
     for (int s = 0; s < 3; ++s) {
         for (int i = 0; i < 80; ++i) {
             place(where.pose, 0.25 * i, 0, 0);
-            CHECK_OK(swiftprox_scene_add_shape(scenes[s], shape, &where, &id));
+            CHECK_OK(swiftprox_scene_add_object(scenes[s], &shape, 1, &where, &id));
         }
         CHECK_OK(swiftprox_scene_query_distance(scenes[s], NULL, &answers[s]));
         CHECK(answers[s].count == 80 * 79 / 2 && answers[s].intersecting);

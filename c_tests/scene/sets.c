@@ -6,6 +6,7 @@
 
 #include "bodies.h"
 #include "swiftprox/geometry.h"
+#include "swiftprox/sets.h"
 #include "swiftprox/motion.h"
 
 static swiftprox_scene *scene;
@@ -21,12 +22,12 @@ static void make(void)
     swiftprox_object_options_init(&options);
     for (i = 0; i < 2; ++i) {
         place(options.pose, 0, 2.0 * i, 0);
-        CHECK_OK(swiftprox_scene_add_shape(scene, shape, &options, &arm[i]));
+        CHECK_OK(swiftprox_scene_add_object(scene, &shape, 1, &options, &arm[i]));
     }
     options.fixed = 1;
     for (i = 0; i < 20; ++i) {
         place(options.pose, 10 + 3.0 * i, 0, 0);
-        CHECK_OK(swiftprox_scene_add_shape(scene, shape, &options, &posts[i]));
+        CHECK_OK(swiftprox_scene_add_object(scene, &shape, 1, &options, &posts[i]));
     }
     swiftprox_shape_release(shape);
 }

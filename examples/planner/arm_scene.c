@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "arm.h"
+#include <swiftprox/sets.h>
 
 enum { STATES = 64 };
 
@@ -25,7 +26,7 @@ static swiftprox_object_id add(swiftprox_scene *scene, const swiftprox_shape *sh
     swiftprox_object_options_init(&options);
     memcpy(options.pose, pose, sizeof options.pose);
     options.fixed = fixed;
-    cell_demand(swiftprox_scene_add_shape(scene, shape, &options, &id));
+    cell_demand(swiftprox_scene_add_object(scene, &shape, 1, &options, &id));
     return id;
 }
 
@@ -40,7 +41,7 @@ static void build(struct arm_scene *world)
         world->links[i] = add(world->scene, world->cell.bodies[i], poses + 12 * i, 0);
         /* Neighbours in the chain always meet. */
         if (i > 0) {
-            cell_demand(swiftprox_scene_deactivate_pair(world->scene, world->links[i - 1], world->links[i]));
+            cell_demand(swiftprox_scene_set_pair_active(world->scene, &world->links[i - 1], &world->links[i], 0));
         }
     }
     for (size_t i = 0; i < world->cell.obstacle_count; i++) {

@@ -152,7 +152,7 @@ void world_add(struct world *world, const swiftprox_shape *shape, const double p
     options.user_data = world->count;
     options.fixed = fixed;
     memcpy(options.pose, body->pose, sizeof options.pose);
-    demand(swiftprox_scene_add_shape(world->scene, shape, &options, &body->id));
+    demand(swiftprox_scene_add_object(world->scene, &shape, 1, &options, &body->id));
     world->count++;
 }
 

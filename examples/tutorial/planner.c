@@ -61,7 +61,7 @@ static void add_obstacle(struct world *world, size_t index, double width, double
     swiftprox_object_options_init(&options);
     memcpy(options.pose, pose, sizeof pose);
     swiftprox_object_id id;
-    demand(swiftprox_scene_add_shape(world->scene, obstacle->shape, &options, &id));
+    demand(swiftprox_scene_add_object(world->scene, &obstacle->shape, 1, &options, &id));
 }
 
 /* A wall from y = -4 to 4 with a gap of 0.6, and three pillars about it. */

@@ -57,7 +57,7 @@ static void add_body(swiftprox_scene *scene, struct body *bodies, size_t index, 
     options.user_data = index; /* comes back in each result */
     options.fixed = index == 0;
     memcpy(options.pose, body->pose, sizeof options.pose);
-    demand(swiftprox_scene_add_shape(scene, shape, &options, &body->id));
+    demand(swiftprox_scene_add_object(scene, &shape, 1, &options, &body->id));
 }
 
 static double dot(const double a[3], const double b[3])

@@ -8,7 +8,7 @@
 #ifndef SWIFTPROX_GEOMETRY_H
 #define SWIFTPROX_GEOMETRY_H
 
-#include "../swiftprox.h"
+#include "sets.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -7,7 +7,7 @@
 #ifndef SWIFTPROX_GROUND_H
 #define SWIFTPROX_GROUND_H
 
-#include "../swiftprox.h"
+#include "sets.h"
 
 #ifdef __cplusplus
 extern "C" {

@@ -7,7 +7,7 @@
 #ifndef SWIFTPROX_MOTION_H
 #define SWIFTPROX_MOTION_H
 
-#include "../swiftprox.h"
+#include "sets.h"
 
 #ifdef __cplusplus
 extern "C" {

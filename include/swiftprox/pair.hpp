@@ -110,7 +110,7 @@ inline Result<ManifoldWithDistance> try_manifold_with_distance(Placed a, Placed 
 /** The best estimate of a point's gap. */
 inline double gap(const swiftprox_manifold_point &point) noexcept
 {
-    return swiftprox_manifold_point_gap(&point);
+    return point.gap_lower + (point.gap_upper - point.gap_lower) / 2;
 }
 inline Result<swiftprox_signed_distance> try_half_space_distance(Placed body, const swiftprox_half_space &half_space) noexcept
 {

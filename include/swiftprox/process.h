@@ -1,5 +1,6 @@
 /*
- * swiftprox. The process: its log, its memory and its readers of mesh files. The conventions are those of swiftprox.h.
+ * swiftprox. The process: its log, its memory, its readers of mesh files, and answers in words. The conventions are those of
+ * swiftprox.h.
  */
 
 /* Generated from the Rust source by `BLESS=1 cargo test --test header`; do not edit. */
@@ -92,7 +93,7 @@ typedef int32_t (*swiftprox_mesh_reader_callback)(void *user,
                                                   struct swiftprox_mesh_sink *sink);
 
 /**
- * Registers a reader of mesh files, which swiftprox_shape_create_from_file and swiftprox_scene_add_file call for every file that
+ * Registers a reader of mesh files, which swiftprox_shape_create_from_file calls for every file that
  * begins with the bytes of `magic`, a string that is copied, behind white space and a UTF-8 byte order mark: whatever the
  * extension of the file is, and before the built-in readers for TRI, POLY, OFF, OBJ and STL, which a magic such as "OFF" replaces.
  * The first bytes alone count: "PLY" is the magic of a file that begins with PLYMOUTH, too. The callback is handed what was
@@ -166,6 +167,43 @@ swiftprox_status swiftprox_mesh_sink_set_single_precision(struct swiftprox_mesh_
  */
 swiftprox_status swiftprox_mesh_sink_fail(struct swiftprox_mesh_sink *sink,
                                           const char *message);
+
+/** @} */
+
+/**
+ * @defgroup swiftprox_words Answers in words
+ * @{
+ */
+
+/**
+ * An outcome of a pair query in words. Never null, valid for ever; a number that is no outcome gets a string
+ * that says so.
+ *
+ * Stable.
+ */
+const char *swiftprox_library_outcome_string(swiftprox_outcome outcome);
+
+/**
+ * What decided a pair query, in words. Never null, valid for ever; an unknown number gets a string that says so.
+ *
+ * Stable.
+ */
+const char *swiftprox_library_decided_by_string(swiftprox_decided_by decided_by);
+
+/**
+ * A kind of features in a word: "none", "vertex", "edge" or "face". Never null, valid for ever; a
+ * number that is no kind gets a string that says so.
+ *
+ * Stable.
+ */
+const char *swiftprox_library_feature_kind_string(swiftprox_feature_kind kind);
+
+/**
+ * How a depth query ended, in words. Never null, valid for ever; an unknown number gets a string that says so.
+ *
+ * Stable.
+ */
+const char *swiftprox_library_depth_ending_string(swiftprox_depth_ending ending);
 
 /** @} */
 

@@ -3,6 +3,7 @@
 #define SWIFTPROX_SCENE_HPP
 
 #include "replay.h"
+#include "scene.h"
 #include "shape.hpp"
 
 #include <array>
@@ -36,11 +37,11 @@ inline const double *rows_of(Range<const Pose> poses) noexcept
     return poses.data() ? poses.data()->data() : nullptr;
 }
 
-/** An id to point at where there are no pairs: C takes no null pointer there. */
-inline const swiftprox_object_id *no_pairs() noexcept
+/** Ids to point at, where there are none, too: a null pointer means all. */
+inline const swiftprox_object_id *ids_of(Range<const swiftprox_object_id> ids) noexcept
 {
     static const swiftprox_object_id none{};
-    return &none;
+    return ids.data() ? ids.data() : &none;
 }
 
 template <class Call> Result<bool> flag(Call &&call)
@@ -94,7 +95,8 @@ class SceneView
     {
         const swiftprox_object_options c = options.to_c();
         return detail::asked<swiftprox_object_id>([&](swiftprox_object_id *id) {
-            return swiftprox_scene_add_shape(scene_, shape.get(), &c, id);
+            const swiftprox_shape *piece = shape.get();
+            return swiftprox_scene_add_object(scene_, &piece, 1, &c, id);
         });
     }
     /** An object of several convex pieces in one local frame. */
@@ -109,32 +111,6 @@ class SceneView
             return swiftprox_scene_add_object(scene_, shapes.data(), shapes.size(), &c, id);
         });
     }
-    Result<swiftprox_object_id> try_add_mesh(Range<const double> vertices, Range<const std::uint32_t> indices,
-                                             Range<const std::uint32_t> valences = {}, const ShapeOptions &shape_options = {},
-                                             const ObjectOptions &options = {})
-    {
-        if (const char *fault = detail::mesh_fault(vertices, indices, valences)) {
-            return detail::refused<swiftprox_object_id>(fault);
-        }
-        swiftprox_shape_tuning tuning;
-        const swiftprox_shape_options shape_c = shape_options.to_c(tuning);
-        const swiftprox_object_options c = options.to_c();
-        const std::size_t faces = valences.empty() ? indices.size() / 3 : valences.size();
-        return detail::asked<swiftprox_object_id>([&](swiftprox_object_id *id) {
-            return swiftprox_scene_add_mesh(scene_, vertices.data(), vertices.size() / 3, indices.data(),
-                                            valences.empty() ? nullptr : valences.data(), faces, &shape_c, &c, id);
-        });
-    }
-    Result<swiftprox_object_id> try_add_file(const std::string &path, const ShapeOptions &shape_options = {},
-                                             const ObjectOptions &options = {})
-    {
-        swiftprox_shape_tuning tuning;
-        const swiftprox_shape_options shape_c = shape_options.to_c(tuning);
-        const swiftprox_object_options c = options.to_c();
-        return detail::asked<swiftprox_object_id>([&](swiftprox_object_id *id) {
-            return swiftprox_scene_add_file(scene_, path.c_str(), &shape_c, &c, id);
-        });
-    }
     Result<swiftprox_object_id> try_copy_object(swiftprox_object_id original)
     {
         return detail::asked<swiftprox_object_id>([&](swiftprox_object_id *id) {
@@ -142,7 +118,7 @@ class SceneView
         });
     }
     /** An object of one convex piece for each shape: all or none. `options`: as many, or none for the defaults. */
-    Result<std::vector<swiftprox_object_id>> try_add_shapes(Range<const Shape> shapes, Range<const ObjectOptions> options = {})
+    Result<std::vector<swiftprox_object_id>> try_add_objects(Range<const Shape> shapes, Range<const ObjectOptions> options = {})
     {
         Result<std::vector<swiftprox_object_id>> result;
         if (!options.empty() && options.size() != shapes.size()) {
@@ -157,7 +133,7 @@ class SceneView
             c.push_back(each.to_c());
         }
         result.value.resize(shapes.size());
-        result.status = swiftprox_scene_add_shapes(scene_, pointers.data(), c.empty() ? nullptr : c.data(), shapes.size(),
+        result.status = swiftprox_scene_add_objects(scene_, pointers.data(), c.empty() ? nullptr : c.data(), shapes.size(),
                                                    result.value.data());
         return result;
     }
@@ -200,21 +176,31 @@ class SceneView
         if (ids.size() != poses.size()) {
             return detail::refused<void>("poses: there are not as many as ids");
         }
-        return detail::status(swiftprox_scene_set_poses(scene_, ids.data(), detail::rows_of(poses), poses.size()));
+        return detail::status(swiftprox_scene_set_poses(scene_, detail::ids_of(ids), detail::rows_of(poses), poses.size()));
     }
     /** Of all objects that are not fixed, in order of creation. */
-    Result<void> try_set_all_poses(Range<const Pose> poses)
+    Result<void> try_set_poses(Range<const Pose> poses)
     {
-        return detail::status(swiftprox_scene_set_all_poses(scene_, detail::rows_of(poses), poses.size()));
+        return detail::status(swiftprox_scene_set_poses(scene_, nullptr, detail::rows_of(poses), poses.size()));
     }
-    /** 9 numbers of rotations and 3 of translations an object. */
-    Result<void> try_set_all_transforms(Range<const double> rotations, Range<const double> translations)
+    /** 9 numbers of rotations and 3 of translations for each of the ids. */
+    Result<void> try_set_transforms(Range<const swiftprox_object_id> ids, Range<const double> rotations,
+                                    Range<const double> translations)
+    {
+        if (rotations.size() != 9 * ids.size() || translations.size() != 3 * ids.size()) {
+            return detail::refused<void>("rotations, translations: they are not 9 and 3 numbers an id");
+        }
+        return detail::status(
+            swiftprox_scene_set_transforms(scene_, detail::ids_of(ids), rotations.data(), translations.data(), ids.size()));
+    }
+    /** Of all objects that are not fixed, in order of creation. */
+    Result<void> try_set_transforms(Range<const double> rotations, Range<const double> translations)
     {
         if (rotations.size() % 9 != 0 || translations.size() % 3 != 0 || rotations.size() / 9 != translations.size() / 3) {
             return detail::refused<void>("rotations, translations: they are not 9 and 3 numbers an object");
         }
         const std::size_t count = translations.size() / 3;
-        return detail::status(swiftprox_scene_set_all_transforms(scene_, rotations.data(), translations.data(), count));
+        return detail::status(swiftprox_scene_set_transforms(scene_, nullptr, rotations.data(), translations.data(), count));
     }
     Result<void> try_set_piece_pose(swiftprox_object_id id, std::uint32_t piece, const Pose &pose)
     {
@@ -227,14 +213,6 @@ class SceneView
         result.status = swiftprox_scene_get_piece_pose(scene_, id, piece, rows.data());
         result.value = Pose(rows);
         return result;
-    }
-    Result<void> try_set_fixed(swiftprox_object_id id, bool fixed)
-    {
-        return detail::status(swiftprox_scene_set_fixed(scene_, id, fixed ? 1 : 0));
-    }
-    Result<void> try_set_user_data(swiftprox_object_id id, std::uint64_t user_data)
-    {
-        return detail::status(swiftprox_scene_set_user_data(scene_, id, user_data));
     }
     Result<void> try_set_piece_user_data(swiftprox_object_id id, std::uint32_t piece, std::uint64_t user_data)
     {
@@ -252,6 +230,11 @@ class SceneView
             info->struct_size = sizeof *info;
             return swiftprox_scene_get_object_info(scene_, id, info);
         });
+    }
+    /** Makes an object what an info says, which object_info() gave and the program has changed. */
+    Result<void> try_set_object_info(swiftprox_object_id id, const swiftprox_object_info &info)
+    {
+        return detail::status(swiftprox_scene_set_object_info(scene_, id, &info));
     }
     /** A box along the world's axes that contains the object. */
     Result<Box> try_object_box(swiftprox_object_id id) const
@@ -361,38 +344,29 @@ class SceneView
         return detail::status(swiftprox_scene_set_kept_pair_limit(scene_, limit));
     }
     Result<void> try_shrink() { return detail::status(swiftprox_scene_shrink(scene_)); }
-    Result<void> try_activate_pair(swiftprox_object_id id1, swiftprox_object_id id2)
+    Result<void> try_set_pair_active(swiftprox_object_id id1, swiftprox_object_id id2, bool active)
     {
-        return detail::status(swiftprox_scene_activate_pair(scene_, id1, id2));
+        return detail::status(swiftprox_scene_set_pair_active(scene_, &id1, &id2, active ? 1 : 0));
     }
-    Result<void> try_deactivate_pair(swiftprox_object_id id1, swiftprox_object_id id2)
+    /** All pairs that an object is in now. */
+    Result<void> try_set_pairs_active(swiftprox_object_id id, bool active)
     {
-        return detail::status(swiftprox_scene_deactivate_pair(scene_, id1, id2));
+        return detail::status(swiftprox_scene_set_pair_active(scene_, &id, nullptr, active ? 1 : 0));
     }
-    Result<void> try_activate_object(swiftprox_object_id id)
+    /** All pairs that there are now. */
+    Result<void> try_set_pairs_active(bool active)
     {
-        return detail::status(swiftprox_scene_activate_object(scene_, id));
+        return detail::status(swiftprox_scene_set_pair_active(scene_, nullptr, nullptr, active ? 1 : 0));
     }
-    Result<void> try_deactivate_object(swiftprox_object_id id)
-    {
-        return detail::status(swiftprox_scene_deactivate_object(scene_, id));
-    }
-    Result<void> try_activate_all() { return detail::status(swiftprox_scene_activate_all(scene_)); }
-    Result<void> try_deactivate_all() { return detail::status(swiftprox_scene_deactivate_all(scene_)); }
-    Result<bool> try_is_pair_active(swiftprox_object_id id1, swiftprox_object_id id2) const
+    Result<bool> try_pair_active(swiftprox_object_id id1, swiftprox_object_id id2) const
     {
         return detail::flag([&](std::int32_t *flag) {
-            return swiftprox_scene_is_pair_active(scene_, id1, id2, flag);
+            return swiftprox_scene_get_pair_active(scene_, id1, id2, flag);
         });
     }
-    Result<void> try_set_filter(swiftprox_object_id id, std::uint32_t groups, std::uint32_t mask)
-    {
-        return detail::status(swiftprox_scene_set_filter(scene_, id, groups, mask));
-    }
-    Result<void> try_filter_again() { return detail::status(swiftprox_scene_filter_again(scene_)); }
     Result<void> try_set_pairs(Range<const std::array<swiftprox_object_id, 2>> pairs)
     {
-        const swiftprox_object_id *ids = pairs.empty() ? detail::no_pairs() : pairs.data()->data();
+        const swiftprox_object_id *ids = detail::ids_of(pairs.empty() ? Range<const swiftprox_object_id>() : Range<const swiftprox_object_id>(*pairs.data()));
         return detail::status(swiftprox_scene_set_pairs(scene_, ids, pairs.size()));
     }
     Result<void> try_reset_pairs() { return detail::status(swiftprox_scene_reset_pairs(scene_)); }
@@ -405,20 +379,10 @@ class SceneView
     {
         return take(try_add(pieces, options));
     }
-    swiftprox_object_id add_mesh(Range<const double> vertices, Range<const std::uint32_t> indices,
-                                 Range<const std::uint32_t> valences = {}, const ShapeOptions &shape_options = {},
-                                 const ObjectOptions &options = {})
-    {
-        return take(try_add_mesh(vertices, indices, valences, shape_options, options));
-    }
-    swiftprox_object_id add_file(const std::string &path, const ShapeOptions &shape_options = {}, const ObjectOptions &options = {})
-    {
-        return take(try_add_file(path, shape_options, options));
-    }
     swiftprox_object_id copy_object(swiftprox_object_id original) { return take(try_copy_object(original)); }
-    std::vector<swiftprox_object_id> add_shapes(Range<const Shape> shapes, Range<const ObjectOptions> options = {})
+    std::vector<swiftprox_object_id> add_objects(Range<const Shape> shapes, Range<const ObjectOptions> options = {})
     {
-        return take(try_add_shapes(shapes, options));
+        return take(try_add_objects(shapes, options));
     }
     void remove_objects(Range<const swiftprox_object_id> ids) { take(try_remove_objects(ids)); }
     void remove_object(swiftprox_object_id id) { take(try_remove_object(id)); }
@@ -430,18 +394,20 @@ class SceneView
         take(try_set_transform(id, rotation, translation));
     }
     void set_poses(Range<const swiftprox_object_id> ids, Range<const Pose> poses) { take(try_set_poses(ids, poses)); }
-    void set_all_poses(Range<const Pose> poses) { take(try_set_all_poses(poses)); }
-    void set_all_transforms(Range<const double> rotations, Range<const double> translations)
+    void set_poses(Range<const Pose> poses) { take(try_set_poses(poses)); }
+    void set_transforms(Range<const swiftprox_object_id> ids, Range<const double> rotations, Range<const double> translations)
     {
-        take(try_set_all_transforms(rotations, translations));
+        take(try_set_transforms(ids, rotations, translations));
+    }
+    void set_transforms(Range<const double> rotations, Range<const double> translations)
+    {
+        take(try_set_transforms(rotations, translations));
     }
     void set_piece_pose(swiftprox_object_id id, std::uint32_t piece, const Pose &pose)
     {
         take(try_set_piece_pose(id, piece, pose));
     }
     Pose piece_pose(swiftprox_object_id id, std::uint32_t piece = 0) const { return take(try_piece_pose(id, piece)); }
-    void set_fixed(swiftprox_object_id id, bool fixed) { take(try_set_fixed(id, fixed)); }
-    void set_user_data(swiftprox_object_id id, std::uint64_t user_data) { take(try_set_user_data(id, user_data)); }
     void set_piece_user_data(swiftprox_object_id id, std::uint32_t piece, std::uint64_t user_data)
     {
         take(try_set_piece_user_data(id, piece, user_data));
@@ -451,6 +417,7 @@ class SceneView
         return take(try_piece_user_data(id, piece));
     }
     swiftprox_object_info object_info(swiftprox_object_id id) const { return take(try_object_info(id)); }
+    void set_object_info(swiftprox_object_id id, const swiftprox_object_info &info) { take(try_set_object_info(id, info)); }
     Box object_box(swiftprox_object_id id) const { return take(try_object_box(id)); }
     Shape piece(swiftprox_object_id id, std::size_t piece = 0) const { return take(try_piece(id, piece)); }
     swiftprox_scene_answer query_intersection(const SceneQuery &query = {}) { return take(try_query_intersection(query)); }
@@ -481,18 +448,13 @@ class SceneView
     void reset_statistics() { take(try_reset_statistics()); }
     void set_kept_pair_limit(std::uint64_t limit) { take(try_set_kept_pair_limit(limit)); }
     void shrink() { take(try_shrink()); }
-    void activate_pair(swiftprox_object_id id1, swiftprox_object_id id2) { take(try_activate_pair(id1, id2)); }
-    void deactivate_pair(swiftprox_object_id id1, swiftprox_object_id id2) { take(try_deactivate_pair(id1, id2)); }
-    void activate_object(swiftprox_object_id id) { take(try_activate_object(id)); }
-    void deactivate_object(swiftprox_object_id id) { take(try_deactivate_object(id)); }
-    void activate_all() { take(try_activate_all()); }
-    void deactivate_all() { take(try_deactivate_all()); }
-    bool is_pair_active(swiftprox_object_id id1, swiftprox_object_id id2) const { return take(try_is_pair_active(id1, id2)); }
-    void set_filter(swiftprox_object_id id, std::uint32_t groups, std::uint32_t mask)
+    void set_pair_active(swiftprox_object_id id1, swiftprox_object_id id2, bool active)
     {
-        take(try_set_filter(id, groups, mask));
+        take(try_set_pair_active(id1, id2, active));
     }
-    void filter_again() { take(try_filter_again()); }
+    void set_pairs_active(swiftprox_object_id id, bool active) { take(try_set_pairs_active(id, active)); }
+    void set_pairs_active(bool active) { take(try_set_pairs_active(active)); }
+    bool pair_active(swiftprox_object_id id1, swiftprox_object_id id2) const { return take(try_pair_active(id1, id2)); }
     void set_pairs(Range<const std::array<swiftprox_object_id, 2>> pairs) { take(try_set_pairs(pairs)); }
     void reset_pairs() { take(try_reset_pairs()); }
     void record(const std::string &path) { take(try_record(path)); }

@@ -458,19 +458,6 @@ pub unsafe extern "C" fn swiftprox_pair_manifold_verify(
     })
 }
 
-/// The best estimate of a point's gap: the middle of gap_lower and gap_upper. NaN of null, which the message and the log tell.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_manifold_point_gap(point: *const ManifoldPoint) -> f64 {
-    let mut gap = f64::NAN;
-    // The status is in the message and the log.
-    let _: StatusCode = guard(|| {
-        // SAFETY: the header's pointer rules.
-        gap = unsafe { input(point, "point") }?.gap();
-        Ok(())
-    });
-    gap
-}
-
 /// The caller's manifold to read, its enumerator checked.
 ///
 /// # Safety

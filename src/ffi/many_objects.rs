@@ -9,14 +9,14 @@ use crate::base::memory::with_capacity;
 use crate::scene::object::{ObjectId, ObjectOptions};
 use crate::shape::Shape;
 
-/// Adds an object of one convex piece for each of `count` shapes, in their order, as swiftprox_scene_add_shape does: all or none.
+/// Adds an object of one convex piece for each of `count` shapes, in their order, as swiftprox_scene_add_object does: all or none.
 /// `options` are as many, one behind the other, each filled with swiftprox_object_options_init; null for the defaults of all. `ids`
 /// receives the ids.
 ///
 /// On failure nothing is added, and all ids are null. The message names the first place that is refused. Errors as of
-/// swiftprox_scene_add_shape; SWIFTPROX_ERROR_STRUCT_SIZE also where the options have different sizes.
+/// swiftprox_scene_add_object; SWIFTPROX_ERROR_STRUCT_SIZE also where the options have different sizes.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_add_shapes(
+pub unsafe extern "C" fn swiftprox_scene_add_objects(
     scene: *mut SceneHandle,
     shapes: *const *const Shape,
     options: *const CObjectOptions,

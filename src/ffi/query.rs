@@ -325,7 +325,7 @@ pub(super) unsafe fn ask(
 mod tests {
     use super::super::library::swiftprox_library_last_error_message;
     use super::super::object::swiftprox_scene_add_object;
-    use super::super::scene::{swiftprox_scene_activate_all, swiftprox_scene_create, swiftprox_scene_destroy};
+    use super::super::scene::{swiftprox_scene_create, swiftprox_scene_destroy, swiftprox_scene_set_pair_active};
     use super::*;
     use crate::base::math::Vector;
     use crate::scene::object::ObjectId;
@@ -361,7 +361,7 @@ mod tests {
             let mut statistics = SceneStatistics::default();
             assert_eq!(swiftprox_scene_query_contact(broken, null(), &mut answer), StatusCode::ErrorPoisoned);
             assert_eq!((answer.count, answer.intersecting), (0, 0));
-            assert_eq!(swiftprox_scene_activate_all(broken), StatusCode::ErrorPoisoned);
+            assert_eq!(swiftprox_scene_set_pair_active(broken, null(), null(), 1), StatusCode::ErrorPoisoned);
             assert_eq!(swiftprox_scene_get_statistics(broken, &mut statistics), StatusCode::ErrorPoisoned);
             assert_eq!(swiftprox_scene_query_contact(sound, null(), &mut answer), StatusCode::Ok);
             assert_eq!(swiftprox_scene_destroy(broken), StatusCode::Ok);

@@ -134,6 +134,13 @@ fn layouts() -> Vec<Layout> {
         swiftprox_scene_answer = CSceneAnswer { pairs, count, intersecting, found },
         swiftprox_contact = Contact { depth, manifold, first_point },
         swiftprox_scene_contacts = CSceneContacts { contacts, count, points, point_count },
+        swiftprox_pair_event = PairEvent {
+            object1, object2, user_data1, user_data2, piece_user_data1, piece_user_data2, piece1, piece2, state,
+            objects_state, result, first_point, point_count
+        },
+        swiftprox_point_event = PointEvent { id, point, state },
+        swiftprox_listener_events = CListenerEvents { pairs, count, points, point_count },
+        swiftprox_pair_question = CPairQuestion { shape1, pose1, shape2, pose2, cache },
         swiftprox_object_pair = ObjectPair { object1, object2, user_data1, user_data2 },
         swiftprox_scene_events = CSceneEvents { began, began_count, ended, ended_count },
         swiftprox_scene_statistics = SceneStatistics {
@@ -144,13 +151,6 @@ fn layouts() -> Vec<Layout> {
         swiftprox_object_set = CObjectSet { ids, count, poses, among },
         swiftprox_least_distance = LeastDistance { lower, upper, nearest },
         swiftprox_first_hit = FirstHit { time, tried, pair },
-        swiftprox_pair_event = PairEvent {
-            object1, object2, user_data1, user_data2, piece_user_data1, piece_user_data2, piece1, piece2, state,
-            objects_state, result, first_point, point_count
-        },
-        swiftprox_point_event = PointEvent { id, point, state },
-        swiftprox_listener_events = CListenerEvents { pairs, count, points, point_count },
-        swiftprox_pair_question = CPairQuestion { shape1, pose1, shape2, pose2, cache },
         swiftprox_motion = CMotion {
             kind, start, end, centre, velocity, rotation, pose, user, bend, rounding
         },

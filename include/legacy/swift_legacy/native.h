@@ -7,6 +7,7 @@
 #include <limits>
 #include <swiftprox.h>
 #include <swiftprox/geometry.h>
+#include <swiftprox/scene.h>
 #include <swiftprox/tuning.h>
 
 #include "defaults.h"
@@ -175,14 +176,14 @@ inline swiftprox_status set_all_transforms(swiftprox_scene* scene, const SWIFT_R
                                            std::size_t count)
 {
     std::vector<double> R(room_for(rotations, 9 * count)), T(room_for(translations, 3 * count));
-    return swiftprox_scene_set_all_transforms(scene, doubles(rotations, &R[0], 9 * count), doubles(translations, &T[0], 3 * count),
-                                              count);
+    return swiftprox_scene_set_transforms(scene, NULL, doubles(rotations, &R[0], 9 * count), doubles(translations, &T[0], 3 * count),
+                                          count);
 }
 
 inline swiftprox_status set_all_poses(swiftprox_scene* scene, const SWIFT_Real* poses, std::size_t count)
 {
     std::vector<double> RT(room_for(poses, 12 * count));
-    return swiftprox_scene_set_all_poses(scene, doubles(poses, &RT[0], 12 * count), count);
+    return swiftprox_scene_set_poses(scene, NULL, doubles(poses, &RT[0], 12 * count), count);
 }
 
 /* The largest double below a positive one. */

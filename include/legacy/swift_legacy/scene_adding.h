@@ -273,7 +273,11 @@ inline bool SWIFT_Scene::Copy_Object(int copy_oid, int& id)
         swift_legacy::report_failure("Error (Copy_Object): ");
         return false;
     }
-    check(swiftprox_scene_set_user_data(scene_, native, static_cast<uint64_t>(next)), "Copy_Object");
+    swiftprox_object_info info;
+    info.struct_size = sizeof info;
+    check(swiftprox_scene_get_object_info(scene_, native, &info), "Copy_Object");
+    info.user_data = static_cast<uint64_t>(next);
+    check(swiftprox_scene_set_object_info(scene_, native, &info), "Copy_Object");
     objects_.add(native, objects_[copy_oid].is_fixed, copy);
     id = next;
     return true;
