@@ -2,14 +2,18 @@
 #ifndef SWIFTPROX_SCENE_HPP
 #define SWIFTPROX_SCENE_HPP
 
+#include "ground.hpp"
+#include "listener.hpp"
 #include "replay.h"
 #include "scene.h"
+#include "sets.hpp"
 #include "shape.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -30,13 +34,6 @@ namespace swiftprox
 
 namespace detail
 {
-// A Pose is its 12 doubles, so that an array of poses is what C takes.
-static_assert(std::is_standard_layout_v<Pose> && sizeof(Pose) == 12 * sizeof(double), "poses are 12 doubles each");
-inline const double *rows_of(Range<const Pose> poses) noexcept
-{
-    return poses.data() ? poses.data()->data() : nullptr;
-}
-
 /** Ids to point at, where there are none, too: a null pointer means all. */
 inline const swiftprox_object_id *ids_of(Range<const swiftprox_object_id> ids) noexcept
 {
@@ -366,10 +363,107 @@ class SceneView
     }
     Result<void> try_set_pairs(Range<const std::array<swiftprox_object_id, 2>> pairs)
     {
-        const swiftprox_object_id *ids = detail::ids_of(pairs.empty() ? Range<const swiftprox_object_id>() : Range<const swiftprox_object_id>(*pairs.data()));
+        const swiftprox_object_id *first = pairs.empty() ? nullptr : pairs.data()->data();
+        const swiftprox_object_id *ids = detail::ids_of({first, pairs.size()});
         return detail::status(swiftprox_scene_set_pairs(scene_, ids, pairs.size()));
     }
     Result<void> try_reset_pairs() { return detail::status(swiftprox_scene_reset_pairs(scene_)); }
+    /** What began, goes on and has ended since the listener last asked. */
+    Result<Heard> try_listen(Listener &listener, swiftprox_query_kind kind, const SceneQuery &query = {})
+    {
+        const swiftprox_scene_query c = query.to_c();
+        Result<Heard> result;
+        result.status =
+            swiftprox_scene_listen(scene_, listener.get(), kind, &c, &result.value.answer, &result.value.events);
+        return result;
+    }
+    /** Makes the questions below fast after changes. */
+    Result<void> try_prepare() { return detail::status(swiftprox_scene_prepare(scene_)); }
+    /** Without a second set: against all others. */
+    Result<swiftprox_least_distance> try_least_distance(const ObjectSet &set, SetScratch &scratch,
+                                                        const ObjectSet *against = nullptr,
+                                                        double cut_off = std::numeric_limits<double>::infinity()) const
+    {
+        if (set.is_uneven() || (against && against->is_uneven())) {
+            return detail::uneven<swiftprox_least_distance>();
+        }
+        const swiftprox_object_set c = set.to_c();
+        const swiftprox_object_set second = against ? against->to_c() : swiftprox_object_set{};
+        return detail::asked<swiftprox_least_distance>([&](swiftprox_least_distance *answer) {
+            return swiftprox_scene_least_distance(scene_, &c, against ? &second : nullptr, cut_off, scratch.get(), answer);
+        });
+    }
+    /** `poses`: those of all objects at the first time, then at the second, and so on. */
+    Result<swiftprox_first_hit> try_first_hit(const ObjectSet &set, Range<const Pose> poses,
+                                              SetScratch &scratch,
+                                              swiftprox_pose_order order = SWIFTPROX_POSE_ORDER_BISECTION, double margin = 0) const
+    {
+        if (set.ids.empty() || poses.size() % set.ids.size() != 0) {
+            return detail::refused<swiftprox_first_hit>("poses: there is not one for each object at each time");
+        }
+        const swiftprox_object_set c = set.to_c();
+        const std::size_t times = poses.size() / set.ids.size();
+        return detail::asked<swiftprox_first_hit>([&](swiftprox_first_hit *answer) {
+            return swiftprox_scene_first_hit(scene_, &c, detail::rows_of(poses), times, order, margin, scratch.get(), answer);
+        });
+    }
+    /** The scratch owns the hits, until its next use. */
+    Result<swiftprox_scene_ray_answer> try_cast_ray(const swiftprox_ray &ray, SetScratch &scratch,
+                                                    swiftprox_ray_hits hits = SWIFTPROX_RAY_HITS_FIRST,
+                                                    std::uint32_t mask = UINT32_MAX) const
+    {
+        return detail::asked<swiftprox_scene_ray_answer>([&](swiftprox_scene_ray_answer *answer) {
+            return swiftprox_scene_cast_ray(scene_, &ray, hits, mask, scratch.get(), answer);
+        });
+    }
+    /** One motion for all objects together, or one for each. */
+    Result<swiftprox_scene_cast_answer> try_cast(const ObjectSet &set,
+                                                 Range<const swiftprox_motion> motions, SetScratch &scratch,
+                                                 const CastConfig &config = {}) const
+    {
+        const swiftprox_object_set c = set.to_c();
+        const swiftprox_cast_config of_cast = config.to_c();
+        return detail::asked<swiftprox_scene_cast_answer>([&](swiftprox_scene_cast_answer *answer) {
+            return swiftprox_scene_cast(scene_, &c, motions.data(), motions.size(), &of_cast, scratch.get(), answer);
+        });
+    }
+    /** One motion for each edge, or one for each object at each edge. */
+    Result<std::vector<swiftprox_scene_cast_answer>> try_cast_batch(const ObjectSet &set,
+                                                                    Range<const swiftprox_motion> motions,
+                                                                    std::size_t edge_count, SetScratch &scratch,
+                                                                    const CastConfig &config = {}) const
+    {
+        const swiftprox_object_set c = set.to_c();
+        const swiftprox_cast_config of_cast = config.to_c();
+        Result<std::vector<swiftprox_scene_cast_answer>> result;
+        result.value.resize(edge_count);
+        result.status = swiftprox_scene_cast_batch(scene_, &c, motions.data(), motions.size(), &of_cast, scratch.get(),
+                                                   result.value.data(), edge_count);
+        return result;
+    }
+    /** Without a set: of all objects. The scratch owns contacts and points, until its next use. */
+    Result<swiftprox_scene_ground_answer> try_ground_contacts(PlacedGround ground, SetScratch &scratch,
+                                                              const ManifoldConfig &config = {},
+                                                              const ObjectSet *set = nullptr,
+                                                              const swiftprox_group_filter *filter = nullptr) const
+    {
+        return detail::floor_contacts(set, config, [&](const swiftprox_object_set *of, const swiftprox_manifold_config *c,
+                                                       swiftprox_scene_ground_answer *answer) {
+            return swiftprox_scene_ground_contacts(scene_, of, ground.ground(), ground.pose(), c, filter,
+                                                   scratch.get(), answer);
+        });
+    }
+    /** A contact for each piece. */
+    Result<swiftprox_scene_ground_answer> try_half_space_contacts(const swiftprox_half_space &half_space,
+                                                                  SetScratch &scratch, const ManifoldConfig &config = {},
+                                                                  const ObjectSet *set = nullptr,
+                                                                  const swiftprox_group_filter *filter = nullptr) const
+    {
+        return detail::floor_contacts(set, config, [&](const swiftprox_object_set *of, const swiftprox_manifold_config *c,
+                                                       swiftprox_scene_ground_answer *answer) {
+            return swiftprox_scene_half_space_contacts(scene_, of, &half_space, c, filter, scratch.get(), answer);
+        });
+    }
     Result<void> try_record(const std::string &path) { return detail::status(swiftprox_scene_record(scene_, path.c_str())); }
     Result<void> try_end_recording() { return detail::status(swiftprox_scene_record(scene_, nullptr)); }
 
@@ -457,6 +551,51 @@ class SceneView
     bool pair_active(swiftprox_object_id id1, swiftprox_object_id id2) const { return take(try_pair_active(id1, id2)); }
     void set_pairs(Range<const std::array<swiftprox_object_id, 2>> pairs) { take(try_set_pairs(pairs)); }
     void reset_pairs() { take(try_reset_pairs()); }
+    Heard listen(Listener &listener, swiftprox_query_kind kind, const SceneQuery &query = {})
+    {
+        return take(try_listen(listener, kind, query));
+    }
+    void prepare() { take(try_prepare()); }
+    swiftprox_least_distance least_distance(const ObjectSet &set, SetScratch &scratch,
+                                            const ObjectSet *against = nullptr,
+                                            double cut_off = std::numeric_limits<double>::infinity()) const
+    {
+        return take(try_least_distance(set, scratch, against, cut_off));
+    }
+    swiftprox_first_hit first_hit(const ObjectSet &set, Range<const Pose> poses, SetScratch &scratch,
+                                  swiftprox_pose_order order = SWIFTPROX_POSE_ORDER_BISECTION, double margin = 0) const
+    {
+        return take(try_first_hit(set, poses, scratch, order, margin));
+    }
+    swiftprox_scene_ray_answer cast_ray(const swiftprox_ray &ray, SetScratch &scratch,
+                                        swiftprox_ray_hits hits = SWIFTPROX_RAY_HITS_FIRST, std::uint32_t mask = UINT32_MAX) const
+    {
+        return take(try_cast_ray(ray, scratch, hits, mask));
+    }
+    swiftprox_scene_cast_answer cast(const ObjectSet &set, Range<const swiftprox_motion> motions,
+                                     SetScratch &scratch, const CastConfig &config = {}) const
+    {
+        return take(try_cast(set, motions, scratch, config));
+    }
+    std::vector<swiftprox_scene_cast_answer> cast_batch(const ObjectSet &set,
+                                                        Range<const swiftprox_motion> motions, std::size_t edge_count,
+                                                        SetScratch &scratch, const CastConfig &config = {}) const
+    {
+        return take(try_cast_batch(set, motions, edge_count, scratch, config));
+    }
+    swiftprox_scene_ground_answer ground_contacts(PlacedGround ground, SetScratch &scratch,
+                                                  const ManifoldConfig &config = {}, const ObjectSet *set = nullptr,
+                                                  const swiftprox_group_filter *filter = nullptr) const
+    {
+        return take(try_ground_contacts(ground, scratch, config, set, filter));
+    }
+    swiftprox_scene_ground_answer half_space_contacts(const swiftprox_half_space &half_space,
+                                                      SetScratch &scratch, const ManifoldConfig &config = {},
+                                                      const ObjectSet *set = nullptr,
+                                                      const swiftprox_group_filter *filter = nullptr) const
+    {
+        return take(try_half_space_contacts(half_space, scratch, config, set, filter));
+    }
     void record(const std::string &path) { take(try_record(path)); }
     void end_recording() { take(try_end_recording()); }
 #endif
