@@ -92,9 +92,8 @@ static swiftprox_scene *build(struct body *bodies)
     }
     for (int i = 0; i < BODIES; i++) {
         bodies[i] = (struct body){{SIDE * draw(), SIDE * draw()}, 6.283185307179586 * draw(), 0};
-        swiftprox_object_options options;
+        swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
         swiftprox_object_id id;
-        swiftprox_object_options_init(&options);
         options.user_data = (uint64_t)i;
         find_pose(&bodies[i], options.pose);
         demand(swiftprox_scene_add_object(scene, &shapes[i % KINDS], 1, &options, &id));

@@ -37,8 +37,8 @@
  * path, of a file's content or of a callback's message is not UTF-8 stands in messages as U+FFFD.
  *
  * Structs. Options, configs, queries, tunings and infos begin with struct_size and may grow at their end. The program's compiler
- * says it: fill the first four with their _init macro and change members, set an info's struct_size to its sizeof. Then header and
- * library may differ within an interface. A smaller struct of an older header is read and written as far as it goes, what it lacks
+ * says it: begin the first four with their SWIFTPROX_..._DEFAULT and change members, set an info's struct_size to its sizeof. Then
+ * header and library may differ within an interface. A smaller struct of an older header is read and written as far as it goes, what it lacks
  * is the default. Of a larger struct of a newer header this library leaves 0 what it does not know, and refuses by
  * SWIFTPROX_ERROR_STRUCT_SIZE one that sets it: a member that is added later means by 0 what was done before. All others (answers,
  * results, features, statistics, meshes, caches, ids) have a fixed size.
@@ -74,6 +74,7 @@
 #ifndef SWIFTPROX_H
 #define SWIFTPROX_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -138,7 +139,7 @@ typedef enum swiftprox_status SWIFTPROX_INT32 {
   /** An argument is out of range, not finite or unknown: the message names it. */
   SWIFTPROX_ERROR_INVALID_ARGUMENT = 2,
   /**
-   * A struct_size is unknown: the struct was not initialised by its _init macro. Or the struct comes from a newer header and
+   * A struct_size is unknown: the struct was not begun with its SWIFTPROX_..._DEFAULT. Or the struct comes from a newer header and
    * sets what this library does not know.
    */
   SWIFTPROX_ERROR_STRUCT_SIZE = 3,
@@ -258,9 +259,9 @@ typedef enum swiftprox_input SWIFTPROX_INT32 {
  */
 typedef int32_t (*swiftprox_progress_callback)(void *user, double fraction);
 
-/** How a shape is made. Fill it with swiftprox_shape_options_init, then change what should differ. */
+/** How a shape is made. Begin with SWIFTPROX_SHAPE_OPTIONS_DEFAULT, then change what should differ. */
 typedef struct swiftprox_shape_options {
-  /** Set by swiftprox_shape_options_init. */
+  /** Set by SWIFTPROX_SHAPE_OPTIONS_DEFAULT. */
   size_t struct_size;
   /** What to do with input that is not a closed convex mesh with interior. Default: refuse it. */
   swiftprox_input input;
@@ -301,15 +302,9 @@ typedef struct swiftprox_shape_options {
   double swept_radius;
 } swiftprox_shape_options;
 
-/**
- * Fills `options` with the defaults. Call it as swiftprox_shape_options_init(&options), which hands over the size that the program
- * was compiled with. Null is ignored.
- *
- * Stable.
- */
-void swiftprox_shape_options_init_sized(struct swiftprox_shape_options *options,
-                                        size_t struct_size);
-#define swiftprox_shape_options_init(pointer) swiftprox_shape_options_init_sized((pointer), sizeof *(pointer))
+/** Begins a swiftprox_shape_options: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_SHAPE_OPTIONS_DEFAULT \
+  {sizeof(swiftprox_shape_options), SWIFTPROX_INPUT_STRICT, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}, 1, -1, 0, 0, 0, -1, 0}
 
 /**
  * Makes a shape from a polygon mesh; the caller owns it and gives it back with swiftprox_shape_release. The arrays are copied.
@@ -642,9 +637,9 @@ typedef struct swiftprox_pair_cache {
   uint32_t words[24];
 } swiftprox_pair_cache;
 
-/** What a pair query is asked for. Fill it with swiftprox_pair_config_init, then change what should differ. */
+/** What a pair query is asked for. Begin with SWIFTPROX_PAIR_CONFIG_DEFAULT, then change what should differ. */
 typedef struct swiftprox_pair_config {
-  /** Set by swiftprox_pair_config_init. */
+  /** Set by SWIFTPROX_PAIR_CONFIG_DEFAULT. */
   size_t struct_size;
   /** Pairs farther apart than this are SWIFTPROX_OUTCOME_BEYOND; from 0 to infinity (the default: none is). */
   double distance_tolerance;
@@ -668,15 +663,8 @@ typedef struct swiftprox_pair_config {
   const struct swiftprox_pair_tuning *tuning;
 } swiftprox_pair_config;
 
-/**
- * Fills `config` with the defaults. Call it as swiftprox_pair_config_init(&config), which hands over the size that the program was
- * compiled with. Null is ignored.
- *
- * Stable.
- */
-void swiftprox_pair_config_init_sized(struct swiftprox_pair_config *config,
-                                      size_t struct_size);
-#define swiftprox_pair_config_init(pointer) swiftprox_pair_config_init_sized((pointer), sizeof *(pointer))
+/** Begins a swiftprox_pair_config: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_PAIR_CONFIG_DEFAULT {sizeof(swiftprox_pair_config), HUGE_VAL, 1e-2, 0, 0, UINT32_MAX, 0}
 
 /**
  * The distance of two objects with a rigorous interval, witness points, normal and features. Of an intersecting pair the
@@ -837,9 +825,9 @@ typedef struct swiftprox_depth_cache {
   uint32_t words[352];
 } swiftprox_depth_cache;
 
-/** What a depth query is asked for. Fill it with swiftprox_depth_config_init, then change what should differ. */
+/** What a depth query is asked for. Begin with SWIFTPROX_DEPTH_CONFIG_DEFAULT, then change what should differ. */
 typedef struct swiftprox_depth_config {
-  /** Set by swiftprox_depth_config_init. */
+  /** Set by SWIFTPROX_DEPTH_CONFIG_DEFAULT. */
   size_t struct_size;
   /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
   double rotation_limit;
@@ -853,16 +841,10 @@ typedef struct swiftprox_depth_config {
    */
   uint32_t step_budget;
 } swiftprox_depth_config;
+/** What the header calls its default. */
 
-/**
- * Fills `config` with the defaults. Call it as swiftprox_depth_config_init(&config), which hands over the size that the program
- * was compiled with. Null is ignored.
- *
- * Stable.
- */
-void swiftprox_depth_config_init_sized(struct swiftprox_depth_config *config,
-                                       size_t struct_size);
-#define swiftprox_depth_config_init(pointer) swiftprox_depth_config_init_sized((pointer), sizeof *(pointer))
+/** Begins a swiftprox_depth_config: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_DEPTH_CONFIG_DEFAULT {sizeof(swiftprox_depth_config), 1e-2, 0, 0, UINT32_MAX}
 
 /**
  * How deep two objects are in each other: the least translation that parts them, with a rigorous interval, unit normal, witness
@@ -998,9 +980,9 @@ typedef struct swiftprox_manifold {
   uint32_t found_count;
 } swiftprox_manifold;
 
-/** What a manifold query is asked for. Fill it with swiftprox_manifold_config_init, then change what should differ. */
+/** What a manifold query is asked for. Begin with SWIFTPROX_MANIFOLD_CONFIG_DEFAULT, then change what should differ. */
 typedef struct swiftprox_manifold_config {
-  /** Set by swiftprox_manifold_config_init. */
+  /** Set by SWIFTPROX_MANIFOLD_CONFIG_DEFAULT. */
   size_t struct_size;
   /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
   double rotation_limit;
@@ -1016,16 +998,10 @@ typedef struct swiftprox_manifold_config {
    */
   int32_t reduces;
 } swiftprox_manifold_config;
+/** What the header calls its default. */
 
-/**
- * Fills `config` with the defaults. Call it as swiftprox_manifold_config_init(&config), which hands over the size that the program
- * was compiled with. Null is ignored.
- *
- * Stable.
- */
-void swiftprox_manifold_config_init_sized(struct swiftprox_manifold_config *config,
-                                          size_t struct_size);
-#define swiftprox_manifold_config_init(pointer) swiftprox_manifold_config_init_sized((pointer), sizeof *(pointer))
+/** Begins a swiftprox_manifold_config: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_MANIFOLD_CONFIG_DEFAULT {sizeof(swiftprox_manifold_config), 1e-2, 0, 0}
 
 /**
  * Where two objects meet, or are up to config->margin apart: pairs of points along the normal of least overlap or of the shortest
@@ -1101,9 +1077,9 @@ typedef void *(*swiftprox_enqueue_task_callback)(swiftprox_task_callback task,
 /** Is to return when the task that swiftprox_enqueue_task_callback returned is done. It must return, as that. */
 typedef void (*swiftprox_finish_task_callback)(void *task, void *user);
 
-/** How a scene is made. Fill it with swiftprox_scene_options_init, then change what should differ. */
+/** How a scene is made. Begin with SWIFTPROX_SCENE_OPTIONS_DEFAULT, then change what should differ. */
 typedef struct swiftprox_scene_options {
-  /** Set by swiftprox_scene_options_init. */
+  /** Set by SWIFTPROX_SCENE_OPTIONS_DEFAULT. */
   size_t struct_size;
   /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
   double rotation_limit;
@@ -1126,15 +1102,8 @@ typedef struct swiftprox_scene_options {
   void *task_user;
 } swiftprox_scene_options;
 
-/**
- * Fills `options` with the defaults. Call it as swiftprox_scene_options_init(&options), which hands over the size that the program
- * was compiled with. Null is ignored.
- *
- * Stable.
- */
-void swiftprox_scene_options_init_sized(struct swiftprox_scene_options *options,
-                                        size_t struct_size);
-#define swiftprox_scene_options_init(pointer) swiftprox_scene_options_init_sized((pointer), sizeof *(pointer))
+/** Begins a swiftprox_scene_options: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_SCENE_OPTIONS_DEFAULT {sizeof(swiftprox_scene_options), 1e-2, 0, 0, 0, 0}
 
 /**
  * Makes an empty scene; the caller owns it and gives it back with swiftprox_scene_destroy. On failure `*scene` is null. `options`
@@ -1184,9 +1153,9 @@ typedef struct swiftprox_object_id {
 #define SWIFTPROX_OBJECT_ID_NULL ((swiftprox_object_id){0})
 #endif
 
-/** How an object begins. Fill it with swiftprox_object_options_init, then change what should differ. */
+/** How an object begins. Begin with SWIFTPROX_OBJECT_OPTIONS_DEFAULT, then change what should differ. */
 typedef struct swiftprox_object_options {
-  /** Set by swiftprox_object_options_init. */
+  /** Set by SWIFTPROX_OBJECT_OPTIONS_DEFAULT. */
   size_t struct_size;
   /** The caller's own; it comes back in every result. Default: 0. */
   uint64_t user_data;
@@ -1202,16 +1171,10 @@ typedef struct swiftprox_object_options {
   /** The groups that it is tested against. Default: 0, which stands for all. */
   uint32_t mask;
 } swiftprox_object_options;
+/** What the header calls its default. */
 
-/**
- * Fills `options` with the defaults. Call it as swiftprox_object_options_init(&options), which hands over the size that the
- * program was compiled with. Null is ignored.
- *
- * Stable.
- */
-void swiftprox_object_options_init_sized(struct swiftprox_object_options *options,
-                                         size_t struct_size);
-#define swiftprox_object_options_init(pointer) swiftprox_object_options_init_sized((pointer), sizeof *(pointer))
+/** Begins a swiftprox_object_options: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_OBJECT_OPTIONS_DEFAULT {sizeof(swiftprox_object_options), 0, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, 0, 0, 0}
 
 /**
  * Adds an object of one or several convex pieces in one local frame. All its pairs are active. The scene takes a share of each
@@ -1233,7 +1196,7 @@ swiftprox_status swiftprox_scene_add_object(struct swiftprox_scene *scene,
 
 /**
  * Adds an object of one convex piece for each of `count` shapes, in their order, as swiftprox_scene_add_object does: all or none.
- * `options` are as many, one behind the other, each filled with swiftprox_object_options_init; null for the defaults of all. `ids`
+ * `options` are as many, one behind the other, each begun with SWIFTPROX_OBJECT_OPTIONS_DEFAULT; null for the defaults of all. `ids`
  * receives the ids.
  *
  * On failure nothing is added, and all ids are null. The message names the first place that is refused. Errors as of
@@ -1426,9 +1389,9 @@ typedef enum swiftprox_contact_detail SWIFTPROX_INT32 {
   SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD = 3
 } swiftprox_contact_detail;
 
-/** What a query over a scene is asked for. Fill it with swiftprox_scene_query_init, then change what should differ. */
+/** What a query over a scene is asked for. Begin with SWIFTPROX_SCENE_QUERY_DEFAULT, then change what should differ. */
 typedef struct swiftprox_scene_query {
-  /** Set by swiftprox_scene_query_init. */
+  /** Set by SWIFTPROX_SCENE_QUERY_DEFAULT. */
   size_t struct_size;
   /**
    * List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
@@ -1472,15 +1435,9 @@ typedef struct swiftprox_scene_query {
   swiftprox_contact_detail detail;
 } swiftprox_scene_query;
 
-/**
- * Fills `query` with the defaults. Call it as swiftprox_scene_query_init(&query), which hands over the size that the program was
- * compiled with. Null is ignored.
- *
- * Stable.
- */
-void swiftprox_scene_query_init_sized(struct swiftprox_scene_query *query,
-                                      size_t struct_size);
-#define swiftprox_scene_query_init(pointer) swiftprox_scene_query_init_sized((pointer), sizeof *(pointer))
+/** Begins a swiftprox_scene_query: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_SCENE_QUERY_DEFAULT \
+  {sizeof(swiftprox_scene_query), SWIFTPROX_DEFAULT_TOLERANCE, 0, 0, HUGE_VAL, UINT32_MAX, 0, 0, HUGE_VAL, SWIFTPROX_CONTACT_DETAIL_NONE}
 
 /** One pair of convex pieces in a query's list. */
 typedef struct swiftprox_pair_result {

@@ -41,6 +41,7 @@ const SOURCES: [&str; 28] = [
 
 /// What stands before the declarations of swiftprox.h.
 const BEFORE: &str = "\
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -170,7 +171,7 @@ fn laid_out(head: &str, declared: &mut HashMap<String, String>) -> Vec<(String, 
     let contents = fs::read_to_string(root().join("include/contents.txt")).expect("the list of contents is there");
     let mut headers: Vec<(String, String)> = Vec::new();
     let mut is_open = false;
-    let mut mark = "";
+    let (mut mark, mut last) = ("", "");
     for line in contents.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
         let (word, rest) = line.split_once(' ').unwrap_or((line, ""));
         match word {
@@ -184,6 +185,10 @@ fn laid_out(head: &str, declared: &mut HashMap<String, String>) -> Vec<(String, 
                     guarded(&side, name)
                 };
                 headers.push((name.to_string(), opening));
+            }
+            "default" => {
+                let (_, text) = headers.last_mut().expect("a header before its declarations");
+                *text += &format!("{}\n", default_of(last, rest));
             }
             "include" => {
                 let (name, text) = headers.last_mut().expect("a header before what it includes");
@@ -206,6 +211,7 @@ fn laid_out(head: &str, declared: &mut HashMap<String, String>) -> Vec<(String, 
             }
             _ => {
                 let (_, text) = headers.last_mut().expect("a header before its declarations");
+                last = line;
                 let declaration = declared.remove(line).unwrap_or_else(|| panic!("{line} is not declared"));
                 *text += &if is_function(&declaration) { marked(&declaration, mark) } else { declaration };
                 text.push('\n');
@@ -238,6 +244,14 @@ fn head_of(what: &str) -> String {
         *last += &format!(" {word}");
     }
     lines.join("\n")
+}
+
+/// The constant that a struct begins with. tests/project/layout.rs compares it with the library's defaults.
+fn default_of(name: &str, members: &str) -> String {
+    let define = format!("#define {}_DEFAULT", name.to_uppercase());
+    let line = format!("{define} {{sizeof({name}), {members}}}");
+    let line = if line.len() <= 132 { line } else { format!("{define} \\\n  {{sizeof({name}), {members}}}") };
+    format!("/** Begins a {name}: the defaults. In C and C++, as an initialiser. */\n{line}\n")
 }
 
 /// What a function's comment says of its future.
@@ -280,7 +294,7 @@ fn external(brace: &str) -> String {
 }
 
 /// What C89 and C++98 want otherwise: enums without a comma behind the last enumerator, their size by a macro; no literal that
-/// begins with a minus in a macro. Before a status the attribute, behind an `_init_sized` the macro that hands over the size.
+/// begins with a minus in a macro. Before a status the attribute.
 fn old_standards(declaration: &str) -> String {
     let mut lines: Vec<String> = Vec::new();
     let mut skipping = false;
@@ -308,10 +322,6 @@ fn old_standards(declaration: &str) -> String {
             _ if line.starts_with("#define ") && line.contains(" -") => lines.push(line.replace(" -", " (-") + ")"),
             _ => lines.push(line.into()),
         }
-    }
-    let name = name_of(declaration);
-    if let Some(macro_name) = name.strip_suffix("_sized") {
-        lines.push(format!("#define {macro_name}(pointer) {name}((pointer), sizeof *(pointer))"));
     }
     lines.join("\n") + "\n"
 }
@@ -540,15 +550,12 @@ swiftprox_status unit(swiftprox_scene *scene, const double *points)
 {
     swiftprox_pair_cache cache = {{0}};
     swiftprox_object_id id = {0};
-    swiftprox_shape_options options;
-    swiftprox_shape_tuning tuning;
-    swiftprox_pair_config config;
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
+    swiftprox_shape_tuning tuning = SWIFTPROX_SHAPE_TUNING_DEFAULT;
+    swiftprox_pair_config config = SWIFTPROX_PAIR_CONFIG_DEFAULT;
     swiftprox_pair_answer answer;
     const swiftprox_shape *shape;
     swiftprox_status status;
-    swiftprox_shape_tuning_init(&tuning);
-    swiftprox_shape_options_init(&options);
-    swiftprox_pair_config_init(&config);
     options.tuning = &tuning;
     status = swiftprox_shape_create_from_points(points, 4, &options, &shape);
     if (status == SWIFTPROX_OK) {

@@ -27,7 +27,7 @@ int main(int argc, char **argv)
     const swiftprox_shape *cube;
     swiftprox_object_id ids[4];
     swiftprox_scene *scene;
-    swiftprox_scene_query query;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer;
     if (argc < 2) {
         return EXIT_FAILURE;
@@ -38,7 +38,6 @@ int main(int argc, char **argv)
     for (int i = 0; i < 3; i++) {
         demand(swiftprox_scene_add_object(scene, &cube, 1, NULL, &ids[i]));
     }
-    swiftprox_scene_query_init(&query);
 
     /* Two overlap by a quarter, the third is far from them. */
     move(scene, ids[1], 0.75);

@@ -23,12 +23,8 @@ static const Member members[] = {
 };
 
 /* Defaults are those of C: each member but struct_size, which the compiler says. */
-template <class C, class Config>
-static void check_defaults(const Config &config, void (*init)(C *, std::size_t), const char *type)
+template <class C> static void check_defaults(const C &given, const C &expected, const char *type)
 {
-    C expected;
-    init(&expected, sizeof expected);
-    const C given = config;
     std::size_t count = 0;
     for (const Member &member : members) {
         if (std::strcmp(member.type, type) == 0) {
@@ -40,27 +36,31 @@ static void check_defaults(const Config &config, void (*init)(C *, std::size_t),
     }
     CHECK(count > 1);
 }
-#define CHECK_DEFAULTS(config, type) check_defaults(config, type##_init_sized, #type)
+#define CHECK_DEFAULTS(config, type, constant) \
+    do { \
+        const type expected = constant; \
+        check_defaults<type>(config, expected, #type); \
+    } while (false)
 
 static void defaults()
 {
     using namespace swiftprox;
-    CHECK_DEFAULTS(PairConfig{}.to_c(), swiftprox_pair_config);
-    CHECK_DEFAULTS(DepthConfig{}.to_c(), swiftprox_depth_config);
-    CHECK_DEFAULTS(ManifoldConfig{}.to_c(), swiftprox_manifold_config);
-    CHECK_DEFAULTS(SceneOptions{}.to_c(), swiftprox_scene_options);
-    CHECK_DEFAULTS(ObjectOptions{}.to_c(), swiftprox_object_options);
-    CHECK_DEFAULTS(SceneQuery{}.to_c(), swiftprox_scene_query);
-    CHECK_DEFAULTS(CastConfig{}.to_c(), swiftprox_cast_config);
-    CHECK_DEFAULTS(ClearanceConfig{}.to_c(), swiftprox_clearance_config);
-    CHECK_DEFAULTS(ShapeTuning{}.to_c(), swiftprox_shape_tuning);
-    CHECK_DEFAULTS(PairTuning{}.to_c(), swiftprox_pair_tuning);
+    CHECK_DEFAULTS(PairConfig{}.to_c(), swiftprox_pair_config, SWIFTPROX_PAIR_CONFIG_DEFAULT);
+    CHECK_DEFAULTS(DepthConfig{}.to_c(), swiftprox_depth_config, SWIFTPROX_DEPTH_CONFIG_DEFAULT);
+    CHECK_DEFAULTS(ManifoldConfig{}.to_c(), swiftprox_manifold_config, SWIFTPROX_MANIFOLD_CONFIG_DEFAULT);
+    CHECK_DEFAULTS(SceneOptions{}.to_c(), swiftprox_scene_options, SWIFTPROX_SCENE_OPTIONS_DEFAULT);
+    CHECK_DEFAULTS(ObjectOptions{}.to_c(), swiftprox_object_options, SWIFTPROX_OBJECT_OPTIONS_DEFAULT);
+    CHECK_DEFAULTS(SceneQuery{}.to_c(), swiftprox_scene_query, SWIFTPROX_SCENE_QUERY_DEFAULT);
+    CHECK_DEFAULTS(CastConfig{}.to_c(), swiftprox_cast_config, SWIFTPROX_CAST_CONFIG_DEFAULT);
+    CHECK_DEFAULTS(ClearanceConfig{}.to_c(), swiftprox_clearance_config, SWIFTPROX_CLEARANCE_CONFIG_DEFAULT);
+    CHECK_DEFAULTS(ShapeTuning{}.to_c(), swiftprox_shape_tuning, SWIFTPROX_SHAPE_TUNING_DEFAULT);
+    CHECK_DEFAULTS(PairTuning{}.to_c(), swiftprox_pair_tuning, SWIFTPROX_PAIR_TUNING_DEFAULT);
     swiftprox_shape_tuning tuning;
     const ShapeOptions options; // of which the C struct points into
     swiftprox_shape_options shape = options.to_c(tuning);
     shape.tuning = nullptr;
     shape.progress_user = nullptr;
-    CHECK_DEFAULTS(shape, swiftprox_shape_options);
+    CHECK_DEFAULTS(shape, swiftprox_shape_options, SWIFTPROX_SHAPE_OPTIONS_DEFAULT);
 }
 
 /* A unit cube about the origin. */

@@ -95,8 +95,7 @@ double by_c(const Task& task, int steps)
     std::vector<uint32_t> triangles(task.body.triangles.begin(), task.body.triangles.end());
     std::vector<swiftprox_object_id> ids(static_cast<std::size_t>(task.count));
     for (std::size_t i = 0; i < ids.size(); ++i) {
-        swiftprox_object_options options;
-        swiftprox_object_options_init(&options);
+        swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
         if (i == 0) {
             const swiftprox_shape *shape;
             must(swiftprox_shape_create_from_mesh(&task.body.vertices[0], task.body.vertices.size() / 3, &triangles[0], NULL,
@@ -112,8 +111,7 @@ double by_c(const Task& task, int steps)
             must(swiftprox_scene_set_object_info(scene, ids[i], &info));
         }
     }
-    swiftprox_scene_query query;
-    swiftprox_scene_query_init(&query);
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     query.distance_tolerance = task.tolerance;
     double sum = 0;
     for (int step = 0; step < steps; ++step) {

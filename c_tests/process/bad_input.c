@@ -158,22 +158,16 @@ static void decompositions(void)
 
 static void shape_options(void)
 {
-    swiftprox_shape_options options;
-    /* Ignored, but not without a word. */
-    swiftprox_shape_options_init_sized(NULL, sizeof options);
-    CHECK(strstr(swiftprox_library_last_error_message(), "`swiftprox_shape_options` is null") != NULL);
-    memset(&options, 7, sizeof options);
-    swiftprox_shape_options_init_sized(&options, 8);
-    CHECK(strstr(swiftprox_library_last_error_message(), "struct_size is 8") != NULL && ((char *)&options)[0] == 7);
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     memset(&options, 0, sizeof options);
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_shape_options", mesh(CORNERS, 4, FACES, NULL, 4, &options));
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "begin with SWIFTPROX_SHAPE_OPTIONS_DEFAULT",
+                mesh(CORNERS, 4, FACES, NULL, 4, &options));
     memset(&options, 0xff, sizeof options);
     CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_shape_options", mesh(CORNERS, 4, FACES, NULL, 4, &options));
 
-    swiftprox_shape_options_init(&options);
     any_number(&options.input, INT32_MIN);
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "input", mesh(CORNERS, 4, FACES, NULL, 4, &options));
-    swiftprox_shape_options_init(&options);
+    options = (swiftprox_shape_options)SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     options.scale = 0;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "scale", mesh(CORNERS, 4, FACES, NULL, 4, &options));
     options.scale = NAN;
@@ -181,10 +175,10 @@ static void shape_options(void)
     options.scale = 1e308;
     options.translation[1] = 1.7e308;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "range", mesh(CORNERS, 4, FACES, NULL, 4, &options));
-    swiftprox_shape_options_init(&options);
+    options = (swiftprox_shape_options)SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     options.rotation[4] = 0;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "transform", mesh(CORNERS, 4, FACES, NULL, 4, &options));
-    swiftprox_shape_options_init(&options);
+    options = (swiftprox_shape_options)SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     options.convexity_tolerance = NAN;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "convexity", mesh(CORNERS, 4, FACES, NULL, 4, &options));
 }
@@ -256,8 +250,8 @@ static void pairs(void)
     static const double bad[] = {NAN, INFINITY, -INFINITY, 1e300, -1e300};
     const swiftprox_shape *shape = NULL;
     swiftprox_pair_cache cache = {{0}};
-    swiftprox_pair_config config;
-    swiftprox_pair_tuning tuning;
+    swiftprox_pair_config config = SWIFTPROX_PAIR_CONFIG_DEFAULT;
+    swiftprox_pair_tuning tuning = SWIFTPROX_PAIR_TUNING_DEFAULT;
     swiftprox_pair_answer answer;
     size_t i;
     int entry;
@@ -297,7 +291,6 @@ static void pairs(void)
     /* A shear within the limit is the caller's to use, unless a config says otherwise. */
     CHECK_OK(swiftprox_pair_distance(shape, with(1, 0.009), shape, THERE, &cache, NULL, &answer));
     CHECK_OK(swiftprox_pair_verify(shape, with(1, 0.009), shape, THERE, &answer));
-    swiftprox_pair_config_init(&config);
     config.rotation_limit = 1e-9;
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal",
                 swiftprox_pair_distance(shape, with(1, 0.009), shape, THERE, &cache, &config, &answer));
@@ -309,21 +302,20 @@ static void pairs(void)
     config.rotation_limit = 0.5;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "rotation_limit is 0.5, it must be from 0 to 0.01",
                 swiftprox_pair_intersection(shape, HERE, shape, THERE, &cache, &config, &answer));
-    swiftprox_pair_config_init(&config);
+    config = (swiftprox_pair_config)SWIFTPROX_PAIR_CONFIG_DEFAULT;
     config.distance_tolerance = -1;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "distance_tolerance",
                 swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
-    swiftprox_pair_config_init(&config);
-    swiftprox_pair_tuning_init(&tuning);
+    config = (swiftprox_pair_config)SWIFTPROX_PAIR_CONFIG_DEFAULT;
     any_number(&tuning.levels, 17);
     config.tuning = &tuning;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tuning->levels is 17",
                 swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
     memset(&tuning, 0, sizeof tuning);
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_pair_tuning_init",
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_PAIR_TUNING_DEFAULT",
                 swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
     memset(&config, 0, sizeof config);
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_pair_config_init",
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_PAIR_CONFIG_DEFAULT",
                 swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
 
     /* After all that the pair is answered as ever. */
@@ -345,9 +337,8 @@ static void pairs(void)
 
     /* Tiny and vast bodies: whatever is accepted is answered. */
     for (i = 0; i < 2; ++i) {
-        swiftprox_shape_options options;
+        swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
         const swiftprox_shape *extreme = NULL;
-        swiftprox_shape_options_init(&options);
         options.scale = i == 0 ? 1e-300 : 1e300;
         CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, &options, &extreme));
         CHECK_OK(swiftprox_pair_distance(extreme, HERE, shape, THERE, &cache, NULL, &answer));
@@ -364,10 +355,10 @@ static void swept_shapes(void)
 {
     static const double bad[] = {NAN, INFINITY, -1};
     const swiftprox_shape *const before = (const swiftprox_shape *)(const void *)CORNERS, *shape;
-    swiftprox_shape_options options;
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     size_t i;
     for (i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
-        swiftprox_shape_options_init(&options);
+        options = (swiftprox_shape_options)SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
         options.swept_radius = bad[i];
         shape = before;
         CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "swept_radius",
@@ -375,11 +366,10 @@ static void swept_shapes(void)
         CHECK(shape == NULL);
         CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "swept_radius", mesh(CORNERS, 4, FACES, NULL, 4, &options));
     }
-    swiftprox_shape_options_init(&options);
     options.swept_radius = 1e300;
     options.scale = 1e10;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "swept_radius times scale", mesh(CORNERS, 4, FACES, NULL, 4, &options));
-    swiftprox_shape_options_init(&options);
+    options = (swiftprox_shape_options)SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     options.face_noise = INFINITY;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "face_noise", mesh(CORNERS, 4, FACES, NULL, 4, &options));
 }
@@ -390,15 +380,14 @@ static void half_spaces(void)
     static const double bad[] = {NAN, INFINITY, -INFINITY};
     const swiftprox_half_space ground = {{0, 0, 2}, 8};
     const double origin[3] = {0, 0, 0};
-    swiftprox_shape_options options;
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     const swiftprox_shape *shape = NULL;
     swiftprox_half_space other;
     swiftprox_signed_distance answer;
-    swiftprox_manifold_config config;
+    swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
     swiftprox_manifold manifold;
     swiftprox_manifold_point point, untouched;
     size_t i;
-    swiftprox_shape_options_init(&options);
     options.input = SWIFTPROX_INPUT_HULL;
     options.swept_radius = 0.5;
     CHECK_OK(swiftprox_shape_create_from_points(origin, 1, &options, &shape));
@@ -419,14 +408,13 @@ static void half_spaces(void)
                     swiftprox_pair_half_space_manifold(shape, HERE, &other, NULL, &point, 1, &manifold));
         CHECK(manifold.outcome == SWIFTPROX_OUTCOME_NONE && manifold.point_count == 0);
     }
-    swiftprox_manifold_config_init(&config);
     config.margin = NAN;
     memset(&point, 0x5a, sizeof point);
     memset(&untouched, 0x5a, sizeof untouched);
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin",
                 swiftprox_pair_half_space_manifold(shape, HERE, &ground, &config, &point, 1, &manifold));
     memset(&config, 0, sizeof config);
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_manifold_config_init",
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_MANIFOLD_CONFIG_DEFAULT",
                 swiftprox_pair_half_space_manifold(shape, HERE, &ground, &config, &point, 1, &manifold));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "points",
                 swiftprox_pair_half_space_manifold(shape, HERE, &ground, NULL, NULL, 1, &manifold));
@@ -508,12 +496,12 @@ static void grounds(void)
                 DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, with(5, 0), ground, HERE, NULL, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "reflection",
                 DISTANCE(SWIFTPROX_QUERY_KIND_INTERSECTION, shape, HERE, ground, with(0, -1), NULL, &answer));
-    swiftprox_pair_config_init(&distance);
+    distance = (swiftprox_pair_config)SWIFTPROX_PAIR_CONFIG_DEFAULT;
     distance.distance_tolerance = -1;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "distance_tolerance",
                 DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, HERE, ground, HERE, &distance, &answer));
     memset(&distance, 0, sizeof distance);
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_pair_config_init",
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_PAIR_CONFIG_DEFAULT",
                 DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, HERE, ground, HERE, &distance, &answer));
 #undef DISTANCE
 
@@ -528,11 +516,11 @@ static void grounds(void)
                 swiftprox_pair_ground_contacts(shape, HERE, ground, HERE, NULL, NULL, 0, NULL, 0, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "entry 3",
                 swiftprox_pair_ground_contacts(shape, with(3, NAN), ground, HERE, NULL, NULL, 0, NULL, 0, &count));
-    swiftprox_manifold_config_init(&config);
+    config = (swiftprox_manifold_config)SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
     config.margin = -1;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin", CONTACTS(&config, &contact, 1, &point, 1));
     memset(&config, 0, sizeof config);
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_manifold_config_init", CONTACTS(&config, &contact, 1, &point, 1));
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_MANIFOLD_CONFIG_DEFAULT", CONTACTS(&config, &contact, 1, &point, 1));
 
     /* After all that the tetrahedron stands on the triangle, with more points than there is room for. */
     CHECK_OK(CONTACTS(NULL, &contact, 1, &point, 1));
@@ -555,21 +543,20 @@ static void still_usable(swiftprox_scene *scene, int line)
 static void scenes(void)
 {
     swiftprox_scene *scene = NULL, *other = NULL;
-    swiftprox_scene_options options;
-    swiftprox_scene_query query;
+    swiftprox_scene_options options = SWIFTPROX_SCENE_OPTIONS_DEFAULT;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer;
-    swiftprox_object_options object_options;
+    swiftprox_object_options object_options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     swiftprox_object_info info;
     const swiftprox_shape *shape = NULL;
     const swiftprox_shape *pieces[2] = {NULL, NULL};
-    swiftprox_pair_tuning tuning;
+    swiftprox_pair_tuning tuning = SWIFTPROX_PAIR_TUNING_DEFAULT;
     const swiftprox_shape *piece = NULL;
     swiftprox_object_id here, there, stale, foreign, id = {7};
     int32_t active = 7, valid = 7;
     size_t i;
 
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_create(NULL, NULL));
-    swiftprox_scene_options_init(&options);
     options.rotation_limit = 0.5;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "rotation_limit is 0.5, it must be from 0 to 0.01",
                 swiftprox_scene_create(&options, &scene));
@@ -578,7 +565,6 @@ static void scenes(void)
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     CHECK_OK(swiftprox_scene_create(NULL, &other));
 
-    swiftprox_object_options_init(&object_options);
     memcpy(object_options.pose, THERE, sizeof THERE);
     CHECK_OK(add_tetrahedron(scene, NULL, &here));
     CHECK_OK(add_tetrahedron(scene, &object_options, &there));
@@ -663,17 +649,15 @@ static void scenes(void)
     still_usable(scene, __LINE__);
 
     /* Asking. */
-    swiftprox_scene_query_init(&query);
     query.distance_tolerance = -2;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tolerance", swiftprox_scene_query_distance(scene, &query, &answer));
     CHECK(answer.count == 0 && answer.pairs == NULL);
     query.distance_tolerance = NAN;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tolerance", swiftprox_scene_query_distance(scene, &query, &answer));
-    swiftprox_scene_query_init(&query);
+    query = (swiftprox_scene_query)SWIFTPROX_SCENE_QUERY_DEFAULT;
     query.step_budget = 0;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "step_budget", swiftprox_scene_query_intersection(scene, &query, &answer));
-    swiftprox_scene_query_init(&query);
-    swiftprox_pair_tuning_init(&tuning);
+    query = (swiftprox_scene_query)SWIFTPROX_SCENE_QUERY_DEFAULT;
     any_number(&tuning.refinement, -3);
     query.tuning = &tuning;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tuning->refinement is -3",

@@ -155,10 +155,9 @@ static int32_t on_progress(void *user, double fraction)
 
 static void test_progress(void)
 {
-    swiftprox_shape_options options;
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     const swiftprox_shape *made;
     swiftprox_object_id id;
-    swiftprox_shape_options_init(&options);
     options.progress = on_progress;
     CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, &options, &made));
     CHECK_OK(swiftprox_scene_add_object(scene, &made, 1, NULL, &id));

@@ -64,10 +64,8 @@ static const swiftprox_shape *made;
 
 static swiftprox_status from_points(void)
 {
-    swiftprox_shape_options options;
-    swiftprox_shape_tuning tuning;
-    swiftprox_shape_options_init(&options);
-    swiftprox_shape_tuning_init(&tuning);
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
+    swiftprox_shape_tuning tuning = SWIFTPROX_SHAPE_TUNING_DEFAULT;
     tuning.hierarchy = kind;
     options.tuning = &tuning;
     return swiftprox_shape_create_from_points(points, VERTICES, &options, &made);
@@ -305,7 +303,7 @@ static const swiftprox_shape *cube;
 static swiftprox_status ask_scene(uint64_t *told)
 {
     static int is_answered;
-    swiftprox_scene_query query;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer;
     swiftprox_status status;
     if (scene == NULL || is_answered) {
@@ -319,7 +317,6 @@ static swiftprox_status ask_scene(uint64_t *told)
         asked = 0;
         refused = number;
     }
-    swiftprox_scene_query_init(&query);
     query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
     status = swiftprox_scene_query_contact(scene, &query, &answer);
     is_answered = status == SWIFTPROX_OK;

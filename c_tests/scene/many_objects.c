@@ -22,7 +22,7 @@ static void make(void)
     cube = box(0.5, 0.5, 0.5);
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     for (i = 0; i < COUNT; ++i) {
-        swiftprox_object_options_init(&options[i]);
+        options[i] = (swiftprox_object_options)SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
         options[i].pose[3] = 2 * i;
         options[i].user_data = (uint64_t)i;
         options[i].groups = 1u << i % 2;

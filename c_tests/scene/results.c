@@ -33,10 +33,9 @@ static void give_back(void *user, void *memory, size_t size, size_t alignment)
 
 static swiftprox_object_id add(swiftprox_scene *scene, const swiftprox_shape *shape, double x)
 {
-    swiftprox_object_options options;
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     swiftprox_object_id id;
     int32_t valid = 0;
-    swiftprox_object_options_init(&options);
     place(options.pose, x, 0, 0);
     CHECK_OK(swiftprox_scene_add_object(scene, &shape, 1, &options, &id));
     CHECK_OK(swiftprox_scene_is_object_valid(scene, id, &valid));
@@ -63,7 +62,7 @@ static void results_stay(const swiftprox_shape *shape)
 {
     swiftprox_scene *scene;
     swiftprox_object_id ids[OBJECTS];
-    swiftprox_scene_query query;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer, found, none;
     double pose[12];
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
@@ -105,7 +104,6 @@ static void results_stay(const swiftprox_shape *shape)
     free(copy);
 
     /* So does the pair at which a query stopped. */
-    swiftprox_scene_query_init(&query);
     query.early_exit = 1;
     CHECK_OK(swiftprox_scene_query_distance(scene, &query, &found));
     CHECK(found.found != NULL);
@@ -124,12 +122,11 @@ static void results_stay(const swiftprox_shape *shape)
 static void contacts_touch(const swiftprox_shape *shape)
 {
     swiftprox_scene *scene;
-    swiftprox_scene_query query;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     const swiftprox_object_id a = add(scene, shape, 0), b = add(scene, shape, 1);
     add(scene, shape, 1.5);
-    swiftprox_scene_query_init(&query);
     for (int i = 0; i < 2; ++i) {
         CHECK_OK(swiftprox_scene_query_contact(scene, i == 0 ? NULL : &query, &answer));
         /* a touches b, b overlaps the third, which a is away from. */

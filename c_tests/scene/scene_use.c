@@ -24,9 +24,8 @@ static int is(swiftprox_object_id id, swiftprox_object_id other)
 static swiftprox_object_id add_cube(swiftprox_scene *scene, double x)
 {
     const swiftprox_shape *cube;
-    swiftprox_object_options options;
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     swiftprox_object_id id;
-    swiftprox_object_options_init(&options);
     options.user_data = (uint64_t)(10 * x);
     place(options.pose, x, 0, 0);
     CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 8, FACES, VALENCES, 6, NULL, &cube));
@@ -49,7 +48,7 @@ static int lists(swiftprox_scene *scene, size_t count, const double *distances)
 static void queries(void)
 {
     swiftprox_scene *scene;
-    swiftprox_scene_query query;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 0.5), c = add_cube(scene, 3);
@@ -60,7 +59,6 @@ static void queries(void)
     CHECK(is(answer.pairs[0].object1, a) && is(answer.pairs[0].object2, b));
     CHECK(answer.pairs[0].user_data1 == 0 && answer.pairs[0].user_data2 == 5);
 
-    swiftprox_scene_query_init(&query);
     query.distance_tolerance = 1.75;
     CHECK_OK(swiftprox_scene_query_distance(scene, &query, &answer));
     CHECK(answer.count == 2 && is(answer.pairs[1].object1, b) && is(answer.pairs[1].object2, c));
@@ -166,15 +164,12 @@ static void levels(void)
 {
     enum { COUNT = 500 };
     double points[3 * COUNT], pose[12];
-    swiftprox_shape_options options;
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     const swiftprox_shape *shape;
     swiftprox_shape_info info = {sizeof info};
     swiftprox_shape_tuning_info has = {sizeof has};
-    swiftprox_shape_tuning making;
-    swiftprox_pair_tuning asking;
-    swiftprox_shape_tuning_init(&making);
-    swiftprox_pair_tuning_init(&asking);
-    swiftprox_shape_options_init(&options);
+    swiftprox_shape_tuning making = SWIFTPROX_SHAPE_TUNING_DEFAULT;
+    swiftprox_pair_tuning asking = SWIFTPROX_PAIR_TUNING_DEFAULT;
     making.hierarchy = SWIFTPROX_HIERARCHY_QUADRIC;
     options.tuning = &making;
     for (int i = 0; i < COUNT; ++i) { /* a spiral around the sphere */
@@ -201,19 +196,17 @@ static void levels(void)
     swiftprox_shape_release(prepared);
 
     swiftprox_scene *scene;
-    swiftprox_scene_query query;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer;
     swiftprox_scene_statistics statistics;
-    swiftprox_object_options where;
+    swiftprox_object_options where = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     swiftprox_object_id id;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
-    swiftprox_object_options_init(&where);
     for (int i = 0; i < 3; ++i) {
         place(pose, 4.0 * i, 0, 0);
         memcpy(where.pose, pose, sizeof pose);
         CHECK_OK(swiftprox_scene_add_object(scene, &shape, 1, &where, &id));
     }
-    swiftprox_scene_query_init(&query);
     asking.levels = SWIFTPROX_LEVELS_ALL;
     query.tuning = &asking;
     query.error_budget = 3;
@@ -367,13 +360,12 @@ static void near_objects(void)
 {
     swiftprox_scene *scene;
     const swiftprox_shape *shape;
-    swiftprox_scene_query query;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer;
     swiftprox_scene_events events;
     double pose[12];
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 0.5), c = add_cube(scene, 3);
-    swiftprox_scene_query_init(&query);
     query.distance_tolerance = 1.75;
     CHECK_OK(swiftprox_scene_query_object(scene, c, SWIFTPROX_QUERY_KIND_DISTANCE, &query, &answer));
     CHECK(answer.count == 1 && is(answer.pairs[0].object1, b) && is(answer.pairs[0].object2, c));
@@ -440,12 +432,11 @@ static void workers(void)
 {
     struct waiting waiting = {NULL, NULL, 0, 0};
     swiftprox_scene *scenes[3];
-    swiftprox_scene_options options;
+    swiftprox_scene_options options = SWIFTPROX_SCENE_OPTIONS_DEFAULT;
     swiftprox_scene_answer answers[3];
     const swiftprox_shape *shape;
-    swiftprox_object_options where;
+    swiftprox_object_options where = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     swiftprox_object_id id;
-    swiftprox_scene_options_init(&options);
     options.worker_count = 2;
     CHECK_OK(swiftprox_scene_create(NULL, &scenes[0]));
     CHECK_OK(swiftprox_scene_create(&options, &scenes[1]));
@@ -455,7 +446,6 @@ static void workers(void)
     options.task_user = &waiting;
     CHECK_OK(swiftprox_scene_create(&options, &scenes[2]));
     CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 8, FACES, VALENCES, 6, NULL, &shape));
-    swiftprox_object_options_init(&where);
     for (int s = 0; s < 3; ++s) {
         for (int i = 0; i < 80; ++i) {
             place(where.pose, 0.25 * i, 0, 0);

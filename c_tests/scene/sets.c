@@ -17,9 +17,8 @@ static void make(void)
 {
     int i;
     const swiftprox_shape *const shape = box(0.5, 0.5, 0.5);
-    swiftprox_object_options options;
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
-    swiftprox_object_options_init(&options);
     for (i = 0; i < 2; ++i) {
         place(options.pose, 0, 2.0 * i, 0);
         CHECK_OK(swiftprox_scene_add_object(scene, &shape, 1, &options, &arm[i]));

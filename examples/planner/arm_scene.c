@@ -21,9 +21,8 @@ struct arm_scene {
 
 static swiftprox_object_id add(swiftprox_scene *scene, const swiftprox_shape *shape, const double *pose, int32_t fixed)
 {
-    swiftprox_object_options options;
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     swiftprox_object_id id;
-    swiftprox_object_options_init(&options);
     memcpy(options.pose, pose, sizeof options.pose);
     options.fixed = fixed;
     cell_demand(swiftprox_scene_add_object(scene, &shape, 1, &options, &id));
@@ -96,8 +95,7 @@ static double free_up_to(const struct arm_scene *world, const double *from, cons
     swiftprox_motion motions[MOST_JOINTS];
     arm_motions(&world->arm, from, to, &edge, motions);
     const swiftprox_object_set set = {.ids = world->links, .count = world->arm.joint_count, .among = 1};
-    swiftprox_cast_config config;
-    swiftprox_cast_config_init(&config);
+    swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
     config.margin = world->cell.margin;
     config.time_tolerance = 1e-6;
     swiftprox_scene_cast_answer answer;

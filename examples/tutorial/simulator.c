@@ -52,8 +52,7 @@ static void add_body(swiftprox_scene *scene, struct body *bodies, size_t index, 
         body->inverse_mass = 1;
         body->inverse_inertia = 6;
     }
-    swiftprox_object_options options;
-    swiftprox_object_options_init(&options);
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     options.user_data = index; /* comes back in each result */
     options.fixed = index == 0;
     memcpy(options.pose, body->pose, sizeof options.pose);
@@ -145,8 +144,7 @@ static struct contact contact_of(struct body *body1, struct body *body2, const d
 /* Where all bodies meet, or will within a moment. */
 static void find_contacts(swiftprox_scene *scene, struct body *bodies, struct contacts *found)
 {
-    swiftprox_scene_query query;
-    swiftprox_scene_query_init(&query);
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     query.distance_tolerance = MARGIN;
     query.detail = SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD;
 

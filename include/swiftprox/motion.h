@@ -122,9 +122,9 @@ typedef struct swiftprox_cast_answer {
   struct swiftprox_pair_answer contact;
 } swiftprox_cast_answer;
 
-/** What a cast is asked for. Fill it with swiftprox_cast_config_init, then change what should differ. */
+/** What a cast is asked for. Begin with SWIFTPROX_CAST_CONFIG_DEFAULT, then change what should differ. */
 typedef struct swiftprox_cast_config {
-  /** Set by swiftprox_cast_config_init. */
+  /** Set by SWIFTPROX_CAST_CONFIG_DEFAULT. */
   size_t struct_size;
   /** Where the range of times begins. Default: 0. */
   double t_begin;
@@ -138,15 +138,8 @@ typedef struct swiftprox_cast_config {
   uint32_t step_budget;
 } swiftprox_cast_config;
 
-/**
- * Fills `config` with the defaults. Call it as swiftprox_cast_config_init(&config), which hands over the size that the program was
- * compiled with. Null is ignored.
- *
- * Experimental.
- */
-void swiftprox_cast_config_init_sized(struct swiftprox_cast_config *config,
-                                      size_t struct_size);
-#define swiftprox_cast_config_init(pointer) swiftprox_cast_config_init_sized((pointer), sizeof *(pointer))
+/** Begins a swiftprox_cast_config: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_CAST_CONFIG_DEFAULT {sizeof(swiftprox_cast_config), 0, 1, 1e-9, 0, 100000}
 
 /**
  * Whether two moving objects stay farther apart than config->margin, or when they first do not: certain for the motions exactly as
@@ -184,9 +177,9 @@ typedef struct swiftprox_clearance {
   uint32_t queries;
 } swiftprox_clearance;
 
-/** What a clearance is asked for. Fill it with swiftprox_clearance_config_init, then change what should differ. */
+/** What a clearance is asked for. Begin with SWIFTPROX_CLEARANCE_CONFIG_DEFAULT, then change what should differ. */
 typedef struct swiftprox_clearance_config {
-  /** Set by swiftprox_clearance_config_init. */
+  /** Set by SWIFTPROX_CLEARANCE_CONFIG_DEFAULT. */
   size_t struct_size;
   /** Where the range of times begins. Default: 0. */
   double t_begin;
@@ -200,15 +193,8 @@ typedef struct swiftprox_clearance_config {
   uint32_t step_budget;
 } swiftprox_clearance_config;
 
-/**
- * Fills `config` with the defaults. Call it as swiftprox_clearance_config_init(&config), which hands over the size that the
- * program was compiled with. Null is ignored.
- *
- * Experimental.
- */
-void swiftprox_clearance_config_init_sized(struct swiftprox_clearance_config *config,
-                                           size_t struct_size);
-#define swiftprox_clearance_config_init(pointer) swiftprox_clearance_config_init_sized((pointer), sizeof *(pointer))
+/** Begins a swiftprox_clearance_config: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_CLEARANCE_CONFIG_DEFAULT {sizeof(swiftprox_clearance_config), 0, 1, 0, 0.01, 100000}
 
 /**
  * The smallest distance of two moving objects over the range of times, as an interval [lower, upper]: as narrow as asked for, or

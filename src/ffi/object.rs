@@ -7,18 +7,18 @@ use super::failure::{Checked, Failure, StatusCode};
 use super::guard::guard;
 use super::pointers::{array, input, output};
 use super::scene::{SceneHandle, change, look};
-use super::structs::{Versioned, init_struct, read_struct, write_struct};
+use super::structs::{Versioned, read_struct, write_struct};
 use crate::base::math::Pose;
 use crate::base::memory::with_capacity;
 use crate::scene::Object;
 use crate::scene::object::{ObjectId, ObjectOptions};
 use crate::shape::Shape;
 
-/// How an object begins. Fill it with swiftprox_object_options_init, then change what should differ.
+/// How an object begins. Begin with SWIFTPROX_OBJECT_OPTIONS_DEFAULT, then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CObjectOptions {
-    /// Set by swiftprox_object_options_init.
+    /// Set by SWIFTPROX_OBJECT_OPTIONS_DEFAULT.
     pub struct_size: usize,
     /// The caller's own; it comes back in every result. Default: 0.
     pub user_data: u64,
@@ -39,7 +39,8 @@ unsafe impl Versioned for CObjectOptions {
 }
 
 impl CObjectOptions {
-    const DEFAULT: CObjectOptions = CObjectOptions {
+    /// What the header calls its default.
+    pub const DEFAULT: CObjectOptions = CObjectOptions {
         struct_size: size_of::<CObjectOptions>(),
         user_data: 0,
         pose: [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
@@ -88,14 +89,6 @@ impl ObjectInfo {
 }
 
 // --- Objects -------------------------------------------------------------------------------------------------------------
-
-/// Fills `options` with the defaults. Call it as swiftprox_object_options_init(&options), which hands over the size that the
-/// program was compiled with. Null is ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_object_options_init_sized(options: *mut CObjectOptions, struct_size: usize) {
-    // SAFETY: the header's pointer rules.
-    unsafe { init_struct(options, struct_size, &CObjectOptions::DEFAULT) }
-}
 
 /// Adds an object of one or several convex pieces in one local frame. All its pairs are active. The scene takes a share of each
 /// shape: the caller's own may be released at once. On failure nothing is added and `*id` is null.

@@ -8,7 +8,7 @@ use super::failure::{Checked, Failure, StatusCode};
 use super::guard::{guard, keep_panics_quiet};
 use super::log::log;
 use super::pointers::{input, output};
-use super::structs::{Versioned, init_struct, read_struct};
+use super::structs::{Versioned, read_struct};
 use super::workers::{EnqueueTaskCallback, FinishTaskCallback, workers};
 use crate::base::math::ROTATION_LIMIT;
 use crate::base::workers::parked::MOST_THREADS;
@@ -96,11 +96,11 @@ const _: () = {
     is_shared_between_threads::<Shape>();
 };
 
-/// How a scene is made. Fill it with swiftprox_scene_options_init, then change what should differ.
+/// How a scene is made. Begin with SWIFTPROX_SCENE_OPTIONS_DEFAULT, then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CSceneOptions {
-    /// Set by swiftprox_scene_options_init.
+    /// Set by SWIFTPROX_SCENE_OPTIONS_DEFAULT.
     pub struct_size: usize,
     /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
@@ -125,7 +125,8 @@ unsafe impl Versioned for CSceneOptions {
 }
 
 impl CSceneOptions {
-    pub(super) const DEFAULT: CSceneOptions = CSceneOptions {
+    /// What the header calls its default.
+    pub const DEFAULT: CSceneOptions = CSceneOptions {
         struct_size: size_of::<CSceneOptions>(),
         rotation_limit: ROTATION_LIMIT,
         worker_count: 0,
@@ -136,14 +137,6 @@ impl CSceneOptions {
 }
 
 // --- Scenes --------------------------------------------------------------------------------------------------------------
-
-/// Fills `options` with the defaults. Call it as swiftprox_scene_options_init(&options), which hands over the size that the program
-/// was compiled with. Null is ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_options_init_sized(options: *mut CSceneOptions, struct_size: usize) {
-    // SAFETY: the header's pointer rules.
-    unsafe { init_struct(options, struct_size, &CSceneOptions::DEFAULT) }
-}
 
 /// Makes an empty scene; the caller owns it and gives it back with swiftprox_scene_destroy. On failure `*scene` is null. `options`
 /// may be null for the defaults.

@@ -28,7 +28,7 @@ fn each_function_has_its_counterpart() {
     for line in code().iter().filter(|line| !line.starts_with([' ', '#', 't', '}'])) {
         let name = line.split_once('(').map_or("", |(before, _)| before).split([' ', '*']).next_back().unwrap();
         // Configs begin with their defaults by member initialisers, which c_tests/cpp/cpp.cpp compares.
-        if name.starts_with("swiftprox_") && !name.ends_with("_init_sized") {
+        if name.starts_with("swiftprox_") {
             let is_used = wrapper
                 .match_indices(name)
                 .any(|(at, _)| !wrapper[at + name.len()..].starts_with(|c: char| c.is_alphanumeric() || c == '_'));
@@ -44,10 +44,9 @@ fn each_member_of_a_config_is_set() {
     let wrapper = wrapper();
     let code = code();
     let mut count = 0;
-    for config in
-        code.iter().filter_map(|line| line.strip_prefix("#define ")?.split_once("_init(pointer)")).map(|(name, _)| name)
-    {
-        let first = code.iter().position(|line| *line == format!("typedef struct {config} {{")).expect(config);
+    let is_default = |line: &String| Some(line.strip_prefix("#define ")?.split_once("_DEFAULT ")?.0.to_lowercase());
+    for config in code.iter().filter_map(is_default) {
+        let first = code.iter().position(|line| *line == format!("typedef struct {config} {{")).expect(&config);
         let to_c =
             wrapper.split_once(&format!("{config} to_c(")).unwrap_or_else(|| panic!("{config} has no counterpart")).1;
         let to_c = to_c.split_once("return c;").unwrap().0;

@@ -6,6 +6,7 @@ use std::fmt::Write;
 use std::fs;
 use std::mem::{align_of, offset_of, size_of};
 use std::path::Path;
+use std::process::Command;
 
 use swiftprox::ffi::decomposition::CDecomposition;
 use swiftprox::ffi::depth::{CDepthCache, CDepthConfig, CManifoldCache, CManifoldConfig};
@@ -252,4 +253,112 @@ fn rust_lays_structs_out_as_the_table_says() {
         table == committed,
         "the layout is not that of {TABLE} (first difference: {different:?}); BLESS=1 cargo test --test project layout"
     );
+}
+
+/// The name of a struct, and its members' bytes.
+macro_rules! defaults {
+    ($name:ident = $value:expr, { $($member:ident),* }) => {{
+        let value = $value;
+        (stringify!($name), vec![$((stringify!($member), value.$member.bytes())),*])
+    }};
+}
+
+/// What C begins a struct with is what the library takes for null. Only members are compared: between them is nothing.
+#[test]
+#[cfg_attr(not(target_pointer_width = "64"), ignore = "the table is that of 64 bits")]
+fn constants_of_c_are_the_defaults_of_rust() {
+    let defaults = [
+        defaults!(swiftprox_shape_options = CShapeOptions::DEFAULT, { struct_size, input, rotation, translation, scale, convexity_tolerance, progress, progress_user, tuning, face_noise, swept_radius }),
+        defaults!(swiftprox_pair_config = CPairConfig::DEFAULT, { struct_size, distance_tolerance, rotation_limit, absolute_error, relative_error, step_budget, tuning }),
+        defaults!(swiftprox_depth_config = CDepthConfig::DEFAULT, { struct_size, rotation_limit, absolute_error, relative_error, step_budget }),
+        defaults!(swiftprox_manifold_config = CManifoldConfig::DEFAULT, { struct_size, rotation_limit, margin, reduces }),
+        defaults!(swiftprox_scene_options = CSceneOptions::DEFAULT, { struct_size, rotation_limit, worker_count, enqueue_task, finish_task, task_user }),
+        defaults!(swiftprox_object_options = CObjectOptions::DEFAULT, { struct_size, user_data, pose, fixed, groups, mask }),
+        defaults!(swiftprox_scene_query = CSceneQuery::DEFAULT, { struct_size, distance_tolerance, absolute_error, relative_error, error_budget, step_budget, early_exit, tuning, margin, detail }),
+        defaults!(swiftprox_cast_config = CCastConfig::defaults(), { struct_size, t_begin, t_end, time_tolerance, margin, step_budget }),
+        defaults!(swiftprox_clearance_config = CClearanceConfig::defaults(), { struct_size, t_begin, t_end, absolute_error, relative_error, step_budget }),
+        defaults!(swiftprox_shape_tuning = CShapeTuning::DEFAULT, { struct_size, hierarchy, lookup, decimation, minimum_triangles, most_levels, lookup_radius_factor, lookup_resolution }),
+        defaults!(swiftprox_pair_tuning = CPairTuning::DEFAULT, { struct_size, start, levels, refinement }),
+    ];
+    let constants =
+        headers().concat().lines().filter(|line| line.starts_with("#define ") && line.contains("_DEFAULT ")).count();
+    assert_eq!(constants, defaults.len(), "each constant is compared");
+    let printed = constants_of_c(&defaults.iter().map(|(name, _)| *name).collect::<Vec<_>>());
+    let layouts = layouts();
+    for ((name, ours), theirs) in defaults.iter().zip(printed.lines()) {
+        let theirs: Vec<u8> = theirs.split_whitespace().map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect();
+        let layout = layouts.iter().find(|layout| layout.name == *name).expect("each struct is listed");
+        assert_eq!((layout.size, layout.members.len()), (theirs.len(), ours.len()), "{name}");
+        for ((member, offset, size), (_, ours)) in layout.members.iter().zip(ours) {
+            assert_eq!(ours[..], theirs[*offset..offset + size], "{name}.{member}");
+        }
+    }
+}
+
+/// What is in memory of a member.
+trait Bytes {
+    fn bytes(&self) -> Vec<u8>;
+}
+
+macro_rules! bytes_of_numbers {
+    ($($number:ty),*) => {$(
+        impl Bytes for $number {
+            fn bytes(&self) -> Vec<u8> {
+                self.to_ne_bytes().to_vec()
+            }
+        }
+    )*};
+}
+
+bytes_of_numbers!(usize, u64, u32, i32, f64);
+
+impl<T: Bytes, const N: usize> Bytes for [T; N] {
+    fn bytes(&self) -> Vec<u8> {
+        self.iter().flat_map(Bytes::bytes).collect()
+    }
+}
+
+impl<T> Bytes for *const T {
+    fn bytes(&self) -> Vec<u8> {
+        self.addr().bytes()
+    }
+}
+
+impl<T> Bytes for *mut T {
+    fn bytes(&self) -> Vec<u8> {
+        self.addr().bytes()
+    }
+}
+
+/// A callback, of which there is none by default.
+impl<T> Bytes for Option<T> {
+    fn bytes(&self) -> Vec<u8> {
+        assert!(self.is_none());
+        0_usize.bytes()
+    }
+}
+
+/// What a C program prints of its constants, a line for each.
+fn constants_of_c(names: &[&str]) -> String {
+    let mut source = "#include <stdio.h>\n#include <string.h>\n".to_string();
+    for header in ["motion", "tuning"] {
+        writeln!(source, "#include \"swiftprox/{header}.h\"").unwrap();
+    }
+    source += "int main(void)\n{\n    unsigned char bytes[4096];\n    size_t i;\n";
+    for name in names {
+        let constant = format!("{}_DEFAULT", name.to_uppercase());
+        writeln!(source, "    {{\n        {name} value = {constant};\n        memcpy(bytes, &value, sizeof value);")
+            .unwrap();
+        source +=
+            "        for (i = 0; i < sizeof value; ++i) printf(\"%02x \", bytes[i]);\n        puts(\"\");\n    }\n";
+    }
+    source += "    return 0;\n}\n";
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let (unit, program) = (folder.join("constants.c"), folder.join("constants"));
+    fs::write(&unit, source).unwrap();
+    let include = Path::new(env!("CARGO_MANIFEST_DIR")).join("include");
+    let compiled = Command::new("cc").arg("-I").arg(include).arg(&unit).arg("-o").arg(&program).output();
+    let compiled = compiled.expect("a C compiler is installed");
+    assert!(compiled.status.success(), "{}", String::from_utf8_lossy(&compiled.stderr));
+    String::from_utf8(Command::new(program).output().unwrap().stdout).unwrap()
 }

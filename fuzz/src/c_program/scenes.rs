@@ -17,7 +17,7 @@ use swiftprox::pair::Outcome;
 use swiftprox::scene::{PairResult, SceneStatistics};
 use swiftprox::shape::Shape;
 
-use super::arguments::{Block, any_pose, array, initialised, options, or_null, start};
+use super::arguments::{Block, any_pose, array, options, or_null, start};
 use super::model::{Object, Scene, refuses};
 use super::{MOST_OBJECTS, MOST_SCENES, MOST_SHAPES, Program, check_verified, last_message};
 use crate::geometry::{any_number, inside};
@@ -32,7 +32,7 @@ impl Program {
         }
         let mut last = 1e-2;
         let limit = any_number(u, &mut last)?.to_ne_bytes();
-        let value: CSceneOptions = initialised(swiftprox_scene_options_init_sized);
+        let value: CSceneOptions = CSceneOptions::DEFAULT;
         let options = options(u, &value, &[(std::mem::offset_of!(CSceneOptions, rotation_limit), &limit)])?;
         let mut handle = null_mut();
         // SAFETY: as large as it says or null, and room for the scene.
@@ -81,7 +81,7 @@ impl Program {
         let place = self.scene(u)?;
         let (handle, user_data) = (self.scenes[place].handle, u.arbitrary::<u64>()?);
         let fixed = u.ratio(1, 4)?;
-        let mut value: CObjectOptions = initialised(swiftprox_object_options_init_sized);
+        let mut value: CObjectOptions = CObjectOptions::DEFAULT;
         (value.user_data, value.fixed) = (user_data, i32::from(fixed));
         (value.groups, value.mask) = (u.int_in_range(0..=3)?, u.int_in_range(0..=3)?);
         // SAFETY: twelve doubles.
@@ -295,11 +295,11 @@ impl Program {
     pub fn scene_query(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
         let place = self.scene(u)?;
         let scene = &self.scenes[place];
-        let mut value: CSceneQuery = initialised(swiftprox_scene_query_init_sized);
+        let mut value: CSceneQuery = CSceneQuery::DEFAULT;
         let mut last = 1.0;
         let tolerance = any_number(u, &mut last)?.to_ne_bytes();
         let levels = u.int_in_range(-1..=2_i32)?;
-        let tuning = CPairTuning { levels, ..initialised(swiftprox_pair_tuning_init_sized) };
+        let tuning = CPairTuning { levels, ..CPairTuning::DEFAULT };
         if levels != 0 {
             value.tuning = &tuning;
         }
@@ -433,7 +433,7 @@ impl Program {
         let place = self.scene(u)?;
         let (id, shape) = (self.id(u, place)?, self.shape(u)?);
         let scene = &self.scenes[place];
-        let mut value: CSceneQuery = initialised(swiftprox_scene_query_init_sized);
+        let mut value: CSceneQuery = CSceneQuery::DEFAULT;
         let mut last = 1.0;
         value.distance_tolerance = any_number(u, &mut last)?;
         let given = options(u, &value, &[])?;

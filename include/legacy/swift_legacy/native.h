@@ -73,16 +73,14 @@ inline void find_tolerance(Mesh& mesh)
 /* A shape, or null after a failure, which swiftprox_library_last_error_message explains. levels[0] is the body. */
 inline const swiftprox_shape* make_shape(const std::vector<Mesh>& levels, const LevelOptions& level_options)
 {
-    swiftprox_shape_options options;
-    swiftprox_shape_options_init(&options);
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
 #ifdef SWIFT_LEGACY_STRICT
     options.input = SWIFTPROX_INPUT_FLAT;
 #else
     options.input = SWIFTPROX_INPUT_NEARLY_CONVEX;
 #endif
     options.convexity_tolerance = levels[0].tolerance;
-    swiftprox_shape_tuning tuning;
-    swiftprox_shape_tuning_init(&tuning);
+    swiftprox_shape_tuning tuning = SWIFTPROX_SHAPE_TUNING_DEFAULT;
     const swiftprox_shape* shape = NULL;
     swiftprox_status status;
     if (levels.size() > 1) {
@@ -112,8 +110,7 @@ inline const swiftprox_shape* make_shape(const std::vector<Mesh>& levels, const 
 /* The hull of a piece of a decomposition; null after a failure. */
 inline const swiftprox_shape* make_hull_of_patch(const Mesh& mesh)
 {
-    swiftprox_shape_options options;
-    swiftprox_shape_options_init(&options);
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     options.input = SWIFTPROX_INPUT_PATCH;
     const swiftprox_shape* shape = NULL;
     const swiftprox_mesh body = native_mesh(mesh);
@@ -125,8 +122,7 @@ inline const swiftprox_shape* make_hull_of_patch(const Mesh& mesh)
 /* The convex hull of a mesh's vertices, which may be flat; null after a failure. */
 inline const swiftprox_shape* make_hull(const Mesh& mesh)
 {
-    swiftprox_shape_options options;
-    swiftprox_shape_options_init(&options);
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     options.input = SWIFTPROX_INPUT_HULL;
     const swiftprox_shape* shape = NULL;
     const swiftprox_status status =
