@@ -116,8 +116,9 @@ static bool fly(struct flight *flight)
         for (int row = 0; row < ROWS; row++) {
             const double start = nanoseconds_now();
             for (int i = row * POSES_A_ROW; i < (row + 1) * POSES_A_ROW; i++) {
-                if (swiftprox_pair_distance(flight->shapes[0], flight->poses[i][0], flight->shapes[1], flight->poses[i][1],
-                                        &cache, NULL, &flight->answers[i]) != SWIFTPROX_OK) {
+                if (swiftprox_pair_distance((swiftprox_placed){flight->shapes[0], flight->poses[i][0]},
+                                            (swiftprox_placed){flight->shapes[1], flight->poses[i][1]}, &cache, NULL,
+                                            &flight->answers[i]) != SWIFTPROX_OK) {
                     return failed("a query failed");
                 }
             }
@@ -134,8 +135,9 @@ static bool fly(struct flight *flight)
 static bool verify(const struct flight *flight)
 {
     for (int i = 0; i < POSES; i++) {
-        if (swiftprox_pair_verify(flight->shapes[0], flight->poses[i][0], flight->shapes[1], flight->poses[i][1],
-                              &flight->answers[i]) != SWIFTPROX_OK) {
+        if (swiftprox_pair_verify((swiftprox_placed){flight->shapes[0], flight->poses[i][0]},
+                                  (swiftprox_placed){flight->shapes[1], flight->poses[i][1]},
+                                  &flight->answers[i]) != SWIFTPROX_OK) {
             return failed("an answer does not hold");
         }
     }

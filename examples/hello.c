@@ -11,7 +11,8 @@ int main(void)
     swiftprox_pair_cache cache = {{0}}; /* all zero is cold; keep one for each pair */
     swiftprox_pair_answer answer;
     if (swiftprox_shape_create_from_mesh(corners, 4, faces, NULL, 4, NULL, &tetrahedron) != SWIFTPROX_OK ||
-        swiftprox_pair_distance(tetrahedron, pose1, tetrahedron, pose2, &cache, NULL, &answer) != SWIFTPROX_OK) {
+        swiftprox_pair_distance((swiftprox_placed){tetrahedron, pose1}, (swiftprox_placed){tetrahedron, pose2}, &cache, NULL,
+                                &answer) != SWIFTPROX_OK) {
         fprintf(stderr, "%s\n", swiftprox_library_last_error_message());
         return 1;
     }

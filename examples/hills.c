@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include <swiftprox.h>
-#include <swiftprox/sets.h>
 #include <swiftprox/ground.h>
+#include <swiftprox/sets.h>
 
 #include "program.h"
 

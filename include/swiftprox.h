@@ -628,6 +628,14 @@ typedef struct swiftprox_pair_answer {
   struct swiftprox_statistics statistics;
 } swiftprox_pair_answer;
 
+/** A shape where it is: an argument of pair queries, by value. Both pointers are only read during the call. */
+typedef struct swiftprox_placed {
+  /** The shape. */
+  const struct swiftprox_shape *shape;
+  /** Where it is: 12 doubles, the row-major 3x4 matrix [R|T]. */
+  const double *pose;
+} swiftprox_placed;
+
 /**
  * What a pair remembers from its last query, for the caller to keep: all zero is cold, any bytes are safe. It changes how fast
  * an answer comes, never the verdict. What the words mean is the library's own.
@@ -683,10 +691,8 @@ typedef struct swiftprox_pair_config {
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_distance(const struct swiftprox_shape *shape1,
-                                         const double *pose1,
-                                         const struct swiftprox_shape *shape2,
-                                         const double *pose2,
+swiftprox_status swiftprox_pair_distance(struct swiftprox_placed object1,
+                                         struct swiftprox_placed object2,
                                          struct swiftprox_pair_cache *cache,
                                          const struct swiftprox_pair_config *config,
                                          struct swiftprox_pair_answer *answer);
@@ -699,10 +705,8 @@ swiftprox_status swiftprox_pair_distance(const struct swiftprox_shape *shape1,
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_contact(const struct swiftprox_shape *shape1,
-                                        const double *pose1,
-                                        const struct swiftprox_shape *shape2,
-                                        const double *pose2,
+swiftprox_status swiftprox_pair_contact(struct swiftprox_placed object1,
+                                        struct swiftprox_placed object2,
                                         struct swiftprox_pair_cache *cache,
                                         const struct swiftprox_pair_config *config,
                                         struct swiftprox_pair_answer *answer);
@@ -715,10 +719,8 @@ swiftprox_status swiftprox_pair_contact(const struct swiftprox_shape *shape1,
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_intersection(const struct swiftprox_shape *shape1,
-                                             const double *pose1,
-                                             const struct swiftprox_shape *shape2,
-                                             const double *pose2,
+swiftprox_status swiftprox_pair_intersection(struct swiftprox_placed object1,
+                                             struct swiftprox_placed object2,
                                              struct swiftprox_pair_cache *cache,
                                              const struct swiftprox_pair_config *config,
                                              struct swiftprox_pair_answer *answer);
@@ -734,10 +736,8 @@ swiftprox_status swiftprox_pair_intersection(const struct swiftprox_shape *shape
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_approximate(const struct swiftprox_shape *shape1,
-                                            const double *pose1,
-                                            const struct swiftprox_shape *shape2,
-                                            const double *pose2,
+swiftprox_status swiftprox_pair_approximate(struct swiftprox_placed object1,
+                                            struct swiftprox_placed object2,
                                             struct swiftprox_pair_cache *cache,
                                             const struct swiftprox_pair_config *config,
                                             struct swiftprox_pair_answer *answer);
@@ -856,10 +856,8 @@ typedef struct swiftprox_depth_config {
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_depth(const struct swiftprox_shape *shape1,
-                                      const double *pose1,
-                                      const struct swiftprox_shape *shape2,
-                                      const double *pose2,
+swiftprox_status swiftprox_pair_depth(struct swiftprox_placed object1,
+                                      struct swiftprox_placed object2,
                                       struct swiftprox_depth_cache *cache,
                                       const struct swiftprox_depth_config *config,
                                       struct swiftprox_depth_answer *answer);
@@ -919,10 +917,8 @@ typedef struct swiftprox_signed_distance {
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_signed_distance(const struct swiftprox_shape *shape1,
-                                                const double *pose1,
-                                                const struct swiftprox_shape *shape2,
-                                                const double *pose2,
+swiftprox_status swiftprox_pair_signed_distance(struct swiftprox_placed object1,
+                                                struct swiftprox_placed object2,
                                                 struct swiftprox_manifold_cache *cache,
                                                 const struct swiftprox_pair_config *config,
                                                 struct swiftprox_signed_distance *answer);
@@ -980,6 +976,16 @@ typedef struct swiftprox_manifold {
   uint32_t found_count;
 } swiftprox_manifold;
 
+/** Where swiftprox_pair_manifold writes points, by value. `{points, capacity, NULL}` asks for points alone. */
+typedef struct swiftprox_manifold_room {
+  /** Room for `capacity` points; null if that is 0. */
+  struct swiftprox_manifold_point *points;
+  /** How many points there is room for. What is beyond is left out, and swiftprox_manifold.found_count counts it. */
+  size_t capacity;
+  /** Receives what swiftprox_pair_signed_distance says of the pair, at no further search; or null. */
+  struct swiftprox_signed_distance *distance;
+} swiftprox_manifold_room;
+
 /** What a manifold query is asked for. Begin with SWIFTPROX_MANIFOLD_CONFIG_DEFAULT, then change what should differ. */
 typedef struct swiftprox_manifold_config {
   /** Set by SWIFTPROX_MANIFOLD_CONFIG_DEFAULT. */
@@ -1005,8 +1011,8 @@ typedef struct swiftprox_manifold_config {
 
 /**
  * Where two objects meet, or are up to config->margin apart: pairs of points along the normal of least overlap or of the shortest
- * connection, each with its gap. `points` has room for `capacity` of them; what is beyond is left out, and manifold->found_count
- * says how many there are. Objects farther apart have none, and their outcome is SWIFTPROX_OUTCOME_BEYOND.
+ * connection, each with its gap. They are written to room.points, as many as there is room for; manifold->found_count says how
+ * many there are. room.distance, if not null, receives what swiftprox_pair_signed_distance says of the pair. Objects farther apart have none, and their outcome is SWIFTPROX_OUTCOME_BEYOND.
  *
  * Manifolds are made over faces as they were meant: what could lie in one plane up to the shape's face_noise
  * (swiftprox_shape_options). Gap intervals hold for the exact objects: they contain by how much such a face is not flat. Points
@@ -1014,39 +1020,18 @@ typedef struct swiftprox_manifold_config {
  * to each other than 3e-8 of it, or four times what such faces are thick, are one. One of the points is as deep as the objects
  * are. It is not certified that a face is complete.
  *
- * Arguments and errors as of swiftprox_pair_distance; the cache is one for manifolds alone. points may be null if capacity is 0.
- * On failure the manifold is reset, and points are as they were.
+ * Arguments and errors as of swiftprox_pair_distance; the cache is one for manifolds alone. On failure
+ * the manifold is reset, and points are as they were.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_manifold(const struct swiftprox_shape *shape1,
-                                         const double *pose1,
-                                         const struct swiftprox_shape *shape2,
-                                         const double *pose2,
+swiftprox_status swiftprox_pair_manifold(struct swiftprox_placed object1,
+                                         struct swiftprox_placed object2,
                                          struct swiftprox_manifold_cache *cache,
                                          const struct swiftprox_manifold_config *config,
-                                         struct swiftprox_manifold_point *points,
-                                         size_t capacity,
+                                         struct swiftprox_manifold_room room,
                                          struct swiftprox_manifold *manifold);
-
-/**
- * As swiftprox_pair_manifold, with what swiftprox_pair_signed_distance says of the pair, at no further search: the distance or
- * minus the depth, and the witness points. `distance` is reset on failure, too.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_manifold_with_distance(const struct swiftprox_shape *shape1,
-                                                       const double *pose1,
-                                                       const struct swiftprox_shape *shape2,
-                                                       const double *pose2,
-                                                       struct swiftprox_manifold_cache *cache,
-                                                       const struct swiftprox_manifold_config *config,
-                                                       struct swiftprox_manifold_point *points,
-                                                       size_t capacity,
-                                                       struct swiftprox_manifold *manifold,
-                                                       struct swiftprox_signed_distance *distance);
 
 /** @} */
 

@@ -555,6 +555,7 @@ swiftprox_status unit(swiftprox_scene *scene, const double *points)
     swiftprox_pair_config config = SWIFTPROX_PAIR_CONFIG_DEFAULT;
     swiftprox_pair_answer answer;
     const swiftprox_shape *shape;
+    swiftprox_placed object;
     swiftprox_status status;
     options.tuning = &tuning;
     status = swiftprox_shape_create_from_points(points, 4, &options, &shape);
@@ -567,8 +568,10 @@ swiftprox_status unit(swiftprox_scene *scene, const double *points)
     if (status == SWIFTPROX_OK) {
         status = swiftprox_scene_get_piece(scene, id, 0, &shape);
     }
+    object.shape = shape;
+    object.pose = points;
     if (status == SWIFTPROX_OK) {
-        status = swiftprox_pair_distance(shape, points, swiftprox_shape_retain(shape), points, &cache, &config, &answer);
+        status = swiftprox_pair_distance(object, object, &cache, &config, &answer);
     }
     swiftprox_shape_release(shape);
     return status;

@@ -3,8 +3,8 @@
 #include <stdlib.h>
 
 #include <swiftprox.h>
-#include <swiftprox/scene.h>
 #include <swiftprox/replay.h>
+#include <swiftprox/scene.h>
 
 static void demand(swiftprox_status status)
 {

@@ -1,7 +1,7 @@
 #include "sweep_scene.h"
 #include <swiftprox/geometry.h>
-#include <swiftprox/scene.h>
 #include <swiftprox/motion.h>
+#include <swiftprox/scene.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -193,9 +193,9 @@ static size_t ask_pose(struct sweep_scene *scene, const double *pose, char *text
         const struct sweep_obstacle *const obstacle = &scene->obstacles[pair % scene->obstacle_count];
         swiftprox_pair_answer answer;
         config.distance_tolerance = upper;
-        if (swiftprox_pair_distance(scene->pieces[pair / scene->obstacle_count], pose, obstacle->shape, obstacle->place.start,
-                                    &scene->caches[pair], &config, &answer)
-            != SWIFTPROX_OK) {
+        if (swiftprox_pair_distance((swiftprox_placed){scene->pieces[pair / scene->obstacle_count], pose},
+                                    (swiftprox_placed){obstacle->shape, obstacle->place.start}, &scene->caches[pair], &config,
+                                    &answer) != SWIFTPROX_OK) {
             player_failed();
             return 0;
         }

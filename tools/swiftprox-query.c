@@ -101,8 +101,8 @@ static const struct program PROGRAM = {"swiftprox-query", USAGE, HELP};
 
 /* ---- the command line ---- */
 
-typedef swiftprox_status pair_query(const swiftprox_shape *, const double *, const swiftprox_shape *, const double *,
-                                    swiftprox_pair_cache *, const swiftprox_pair_config *, swiftprox_pair_answer *);
+typedef swiftprox_status pair_query(swiftprox_placed, swiftprox_placed, swiftprox_pair_cache *, const swiftprox_pair_config *,
+                                    swiftprox_pair_answer *);
 
 struct arguments {
     const char *files[3]; /* A, B, POSES */
@@ -235,7 +235,8 @@ static swiftprox_status answer_cast(const struct job *job, size_t index, struct 
 static swiftprox_status answer_depth(const struct job *job, size_t index, struct caches *caches, struct answer *answer)
 {
     const struct pose_pair *pair = &job->poses.pairs[index];
-    return swiftprox_pair_depth(job->shapes[0], pair->first, job->shapes[1], pair->second, &caches->depth, &job->depth_config,
+    return swiftprox_pair_depth((swiftprox_placed){job->shapes[0], pair->first},
+                                (swiftprox_placed){job->shapes[1], pair->second}, &caches->depth, &job->depth_config,
                                 &answer->depth);
 }
 
@@ -248,7 +249,8 @@ static swiftprox_status answer_query(const struct job *job, size_t index, struct
     if (!job->query) {
         return answer_depth(job, index, caches, answer);
     }
-    return job->query(job->shapes[0], pair->first, job->shapes[1], pair->second, &caches->pair, &job->config, &answer->pair);
+    return job->query((swiftprox_placed){job->shapes[0], pair->first}, (swiftprox_placed){job->shapes[1], pair->second},
+                      &caches->pair, &job->config, &answer->pair);
 }
 
 /* What the library refused, with the line of the pose file; the exit status. */

@@ -16,8 +16,8 @@
 #include "program.h"
 #include "progress.h"
 #include "text.h"
-#include <swiftprox/verify.h>
 #include <swiftprox/scene.h>
+#include <swiftprox/verify.h>
 
 static const char USAGE[] = "usage: swiftprox-replay FILE [--query intersection|distance|contact|approximate] [--tolerance T]\n"
                             "                        [--error E] [--budget B] [--input POLICY] [--workers K] [--verify]\n"
@@ -220,9 +220,11 @@ static int verify_pair(const struct player *player, const swiftprox_pair_result 
         }
     }
     const bool has_depth = contact && pair->answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING;
-    if (swiftprox_pair_verify(shapes[0], poses[0], shapes[1], poses[1], &pair->answer) != SWIFTPROX_OK ||
-        (has_depth && swiftprox_pair_depth_verify(shapes[0], poses[0], shapes[1], poses[1], &cold, &contact->depth) !=
-                          SWIFTPROX_OK)) {
+    if (swiftprox_pair_verify((swiftprox_placed){shapes[0], poses[0]}, (swiftprox_placed){shapes[1], poses[1]},
+                              &pair->answer) != SWIFTPROX_OK ||
+        (has_depth &&
+         swiftprox_pair_depth_verify((swiftprox_placed){shapes[0], poses[0]}, (swiftprox_placed){shapes[1], poses[1]}, &cold,
+                                     &contact->depth) != SWIFTPROX_OK)) {
         print_pair(player, pair, contact);
         fflush(stdout);
         fprintf(stderr, "%s: step %zu, the pair above: %s\n", player->options->path, player->step - 1,

@@ -27,8 +27,9 @@ static swiftprox_status answer_pose(const struct run *run, size_t i, swiftprox_p
     for (int k = 0; k < REPETITIONS; ++k) {
         *cache = before;
         const double start = seconds();
-        const swiftprox_status status = swiftprox_pair_distance(run->bodies[0].shape, pose->first, run->bodies[1].shape,
-                                                        pose->second, cache, NULL, answer);
+        const swiftprox_status status =
+            swiftprox_pair_distance((swiftprox_placed){run->bodies[0].shape, pose->first},
+                                    (swiftprox_placed){run->bodies[1].shape, pose->second}, cache, NULL, answer);
         const double time = seconds() - start;
         if (status != SWIFTPROX_OK)
             return status;

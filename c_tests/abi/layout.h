@@ -62,6 +62,10 @@ MEMBER(swiftprox_pair_answer, proof, 176, 32)
 MEMBER(swiftprox_pair_answer, proof_count, 208, 4)
 MEMBER(swiftprox_pair_answer, statistics, 212, 16)
 
+STRUCT(swiftprox_placed, 16, 8)
+MEMBER(swiftprox_placed, shape, 0, 8)
+MEMBER(swiftprox_placed, pose, 8, 8)
+
 STRUCT(swiftprox_pair_cache, 96, 4)
 MEMBER(swiftprox_pair_cache, words, 0, 96)
 
@@ -140,6 +144,11 @@ MEMBER(swiftprox_manifold, upper, 16, 8)
 MEMBER(swiftprox_manifold, normal, 24, 24)
 MEMBER(swiftprox_manifold, point_count, 48, 4)
 MEMBER(swiftprox_manifold, found_count, 52, 4)
+
+STRUCT(swiftprox_manifold_room, 24, 8)
+MEMBER(swiftprox_manifold_room, points, 0, 8)
+MEMBER(swiftprox_manifold_room, capacity, 8, 8)
+MEMBER(swiftprox_manifold_room, distance, 16, 8)
 
 STRUCT(swiftprox_manifold_config, 32, 8)
 MEMBER(swiftprox_manifold_config, struct_size, 0, 8)

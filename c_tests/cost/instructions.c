@@ -243,7 +243,8 @@ void measured(const swiftprox_shape *shape, const swiftprox_pair_config *config)
     swiftprox_pair_answer answer;
     int i, failed = 0;
     for (i = 0; i < POSES; ++i) {
-        failed += swiftprox_pair_distance(shape, origin, shape, poses[i], &cache, config, &answer) != SWIFTPROX_OK;
+        failed += swiftprox_pair_distance((swiftprox_placed){shape, origin}, (swiftprox_placed){shape, poses[i]}, &cache,
+                                          config, &answer) != SWIFTPROX_OK;
         failed += answer.outcome == SWIFTPROX_OUTCOME_NONE;
     }
     CHECK(failed == 0);

@@ -94,7 +94,8 @@ void measured(enum work work, const swiftprox_shape *shape)
     for (step = 0; step < STEPS; ++step) {
         if (work == BY_PAIR) {
             place(work, 1, step, pose);
-            failed += swiftprox_pair_distance(shape, origin, shape, pose, &cache, NULL, &answer) != SWIFTPROX_OK;
+            failed += swiftprox_pair_distance((swiftprox_placed){shape, origin}, (swiftprox_placed){shape, pose}, &cache, NULL,
+                                              &answer) != SWIFTPROX_OK;
             continue;
         }
         for (i = 1; i < moving; ++i) {

@@ -36,10 +36,10 @@ template <class C> static void check_defaults(const C &given, const C &expected,
     }
     CHECK(count > 1);
 }
-#define CHECK_DEFAULTS(config, type, constant) \
-    do { \
-        const type expected = constant; \
-        check_defaults<type>(config, expected, #type); \
+#define CHECK_DEFAULTS(config, type, constant)                                                                                 \
+    do {                                                                                                                       \
+        const type expected = constant;                                                                                        \
+        check_defaults<type>(config, expected, #type);                                                                         \
     } while (false)
 
 static void defaults()
@@ -336,7 +336,7 @@ static void sets()
     std::array<swiftprox::PairCache, 2> caches;
     const Pose origin, beside = Pose::at(3, 0, 0);
     const std::array<swiftprox::Question, 2> questions{swiftprox::Question({box, origin}, {box, beside}, caches[0]),
-                                                        swiftprox::Question({box, origin}, {box, origin}, caches[1])};
+                                                       swiftprox::Question({box, origin}, {box, origin}, caches[1])};
     std::vector<swiftprox_pair_answer> answers;
     CHECK(swiftprox::try_batch(SWIFTPROX_QUERY_KIND_DISTANCE, questions, answers, {}, &scene));
     CHECK(answers.size() == 2 && answers[0].lower <= 2 && answers[0].upper >= 2);
@@ -363,7 +363,8 @@ using swiftprox::Moving;
 using swiftprox::PlacedGround;
 static_assert(std::is_constructible_v<Placed, const Shape &, Pose> && !std::is_constructible_v<Placed, Shape, Pose>);
 static_assert(!std::is_constructible_v<Placed, const Shape, Pose>);
-static_assert(std::is_constructible_v<PlacedGround, const Ground &, Pose> && !std::is_constructible_v<PlacedGround, Ground, Pose>);
+static_assert(std::is_constructible_v<PlacedGround, const Ground &, Pose> &&
+              !std::is_constructible_v<PlacedGround, Ground, Pose>);
 static_assert(std::is_constructible_v<Moving, const Shape &, swiftprox_motion>);
 static_assert(!std::is_constructible_v<Moving, Shape, swiftprox_motion>);
 static_assert(std::is_constructible_v<swiftprox::Question, Placed, Placed, swiftprox::PairCache &>);

@@ -8,8 +8,8 @@
 
 #include "legacy_test.h"
 
-#include <swiftprox/tuning.h>
 #include <swiftprox/scene.h>
+#include <swiftprox/tuning.h>
 
 namespace {
 

@@ -40,7 +40,8 @@ int main(void)
             pairs[i].shape2 = shapes[1];
             pairs[i].pose2 = poses[1][i];
             pairs[i].cache = &caches[i];
-            CHECK_OK(swiftprox_pair_distance(shapes[0], poses[0][i], shapes[1], poses[1][i], &single[i], NULL, &expected[i]));
+            CHECK_OK(swiftprox_pair_distance((swiftprox_placed){shapes[0], poses[0][i]},
+                                             (swiftprox_placed){shapes[1], poses[1][i]}, &single[i], NULL, &expected[i]));
         }
         CHECK_OK(swiftprox_pair_batch(SWIFTPROX_QUERY_KIND_DISTANCE, pairs, COUNT, NULL, round % 2 ? scene : NULL, answers));
         CHECK(memcmp(caches, single, sizeof caches) == 0);

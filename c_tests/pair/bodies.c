@@ -7,8 +7,8 @@
 
 #include "check.h"
 #include "swiftprox/geometry.h"
-#include "swiftprox/scene.h"
 #include "swiftprox/ground.h"
+#include "swiftprox/scene.h"
 #include "swiftprox/verify.h"
 
 static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
@@ -35,17 +35,19 @@ static void spheres(void)
     swiftprox_depth_cache depths = {0};
     swiftprox_depth_answer depth;
     swiftprox_shape_info info;
-    CHECK_OK(swiftprox_pair_distance(two, identity, three, there, &cache, NULL, &answer));
+    CHECK_OK(
+        swiftprox_pair_distance((swiftprox_placed){two, identity}, (swiftprox_placed){three, there}, &cache, NULL, &answer));
     CHECK(answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING && answer.proof_count == 0);
-    CHECK_OK(swiftprox_pair_verify(two, identity, three, there, &answer));
-    CHECK_OK(swiftprox_pair_depth(two, identity, three, there, &depths, NULL, &depth));
+    CHECK_OK(swiftprox_pair_verify((swiftprox_placed){two, identity}, (swiftprox_placed){three, there}, &answer));
+    CHECK_OK(swiftprox_pair_depth((swiftprox_placed){two, identity}, (swiftprox_placed){three, there}, &depths, NULL, &depth));
     CHECK(depth.outcome == SWIFTPROX_OUTCOME_INTERSECTING && depth.lower == 0 && depth.upper == 0);
-    CHECK_OK(swiftprox_pair_depth_verify(two, identity, three, there, &depths, &depth));
-    CHECK_OK(swiftprox_pair_distance(two, identity, one, there, &cache, NULL, &answer));
+    CHECK_OK(swiftprox_pair_depth_verify((swiftprox_placed){two, identity}, (swiftprox_placed){three, there}, &depths, &depth));
+    CHECK_OK(swiftprox_pair_distance((swiftprox_placed){two, identity}, (swiftprox_placed){one, there}, &cache, NULL, &answer));
     CHECK(answer.outcome == SWIFTPROX_OUTCOME_SEPARATED && answer.lower <= 2 && 2 <= answer.upper);
-    CHECK_OK(swiftprox_pair_verify(two, identity, one, there, &answer));
+    CHECK_OK(swiftprox_pair_verify((swiftprox_placed){two, identity}, (swiftprox_placed){one, there}, &answer));
     answer.lower = answer.upper = answer.distance = 2.5;
-    CHECK(swiftprox_pair_verify(two, identity, one, there, &answer) == SWIFTPROX_ERROR_UNVERIFIED);
+    CHECK(swiftprox_pair_verify((swiftprox_placed){two, identity}, (swiftprox_placed){one, there}, &answer) ==
+          SWIFTPROX_ERROR_UNVERIFIED);
     memset(&info, 0, sizeof info);
     info.struct_size = sizeof info;
     CHECK_OK(swiftprox_shape_get_info(three, &info));
@@ -66,10 +68,11 @@ static void a_capsule_on_the_ground(void)
     swiftprox_manifold manifold;
     swiftprox_manifold_point points[4];
     size_t i;
-    CHECK_OK(swiftprox_pair_half_space_distance(capsule, lying, &ground, &answer));
+    CHECK_OK(swiftprox_pair_half_space_distance((swiftprox_placed){capsule, lying}, &ground, &answer));
     CHECK(answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING && answer.lower <= -0.25 && -0.25 <= answer.upper);
     CHECK(answer.normal[2] == 1 && answer.world1[2] == 0.75 && answer.world2[2] == 1);
-    CHECK_OK(swiftprox_pair_half_space_manifold(capsule, lying, &ground, NULL, points, 4, &manifold));
+    CHECK_OK(swiftprox_pair_half_space_manifold((swiftprox_placed){capsule, lying}, &ground, NULL,
+                                                (swiftprox_manifold_room){points, 4, NULL}, &manifold));
     CHECK(manifold.point_count == 2 && manifold.found_count == 2 && manifold.reference == 1);
     for (i = 0; i < 2; ++i) {
         CHECK(points[i].gap_lower <= -0.25 && -0.25 <= points[i].gap_upper && points[i].world1[2] == 0.75);
@@ -91,18 +94,25 @@ static void what_is_wrong_is_said(void)
     options.swept_radius = -1;
     CHECK(swiftprox_shape_create_from_points(origin, 1, &options, &none) == SWIFTPROX_ERROR_INVALID_ARGUMENT && none == NULL);
     CHECK(strstr(swiftprox_library_last_error_message(), "swept_radius") != NULL);
-    CHECK(swiftprox_pair_half_space_distance(sphere, identity, &ground, &answer) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    CHECK(swiftprox_pair_half_space_distance((swiftprox_placed){sphere, identity}, &ground, &answer) ==
+          SWIFTPROX_ERROR_INVALID_ARGUMENT);
     CHECK(answer.outcome == SWIFTPROX_OUTCOME_NONE && isnan(answer.distance));
     ground.normal[1] = 1;
     ground.offset = INFINITY;
-    CHECK(swiftprox_pair_half_space_distance(sphere, identity, &ground, &answer) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    CHECK(swiftprox_pair_half_space_distance((swiftprox_placed){sphere, identity}, &ground, &answer) ==
+          SWIFTPROX_ERROR_INVALID_ARGUMENT);
     ground.offset = 0;
-    CHECK(swiftprox_pair_half_space_distance(sphere, mirror, &ground, &answer) == SWIFTPROX_ERROR_POSE);
-    CHECK(swiftprox_pair_half_space_distance(sphere, identity, NULL, &answer) == SWIFTPROX_ERROR_NULL_POINTER);
-    CHECK(swiftprox_pair_half_space_distance(sphere, identity, &ground, NULL) == SWIFTPROX_ERROR_NULL_POINTER);
-    CHECK(swiftprox_pair_half_space_manifold(sphere, identity, &ground, NULL, NULL, 1, &manifold) == SWIFTPROX_ERROR_NULL_POINTER);
+    CHECK(swiftprox_pair_half_space_distance((swiftprox_placed){sphere, mirror}, &ground, &answer) == SWIFTPROX_ERROR_POSE);
+    CHECK(swiftprox_pair_half_space_distance((swiftprox_placed){sphere, identity}, NULL, &answer) ==
+          SWIFTPROX_ERROR_NULL_POINTER);
+    CHECK(swiftprox_pair_half_space_distance((swiftprox_placed){sphere, identity}, &ground, NULL) ==
+          SWIFTPROX_ERROR_NULL_POINTER);
+    CHECK(swiftprox_pair_half_space_manifold((swiftprox_placed){sphere, identity}, &ground, NULL,
+                                             (swiftprox_manifold_room){NULL, 1, NULL},
+                                             &manifold) == SWIFTPROX_ERROR_NULL_POINTER);
     CHECK(manifold.outcome == SWIFTPROX_OUTCOME_NONE);
-    CHECK_OK(swiftprox_pair_half_space_manifold(sphere, identity, &ground, NULL, NULL, 0, &manifold));
+    CHECK_OK(swiftprox_pair_half_space_manifold((swiftprox_placed){sphere, identity}, &ground, NULL,
+                                                (swiftprox_manifold_room){NULL, 0, NULL}, &manifold));
     CHECK(manifold.point_count == 0 && manifold.found_count == 1);
     swiftprox_shape_release(sphere);
 }

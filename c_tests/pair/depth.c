@@ -7,9 +7,9 @@
 #include <string.h>
 
 #include "bodies.h"
-#include "swiftprox/verify.h"
 #include "swiftprox/process.h"
 #include "swiftprox/scene.h"
+#include "swiftprox/verify.h"
 
 /* One box sinks into another from above, touches it, and is lifted off. */
 static void known_depths(const swiftprox_shape *a, const swiftprox_shape *b)
@@ -22,8 +22,8 @@ static void known_depths(const swiftprox_shape *a, const swiftprox_shape *b)
         swiftprox_depth_answer answer;
         const double depth = step < 0 ? -0.0625 * step : 0;
         place(here, 0.125, 0.25, 1 + 0.0625 * step);
-        CHECK_OK(swiftprox_pair_depth(a, here, b, there, &cache, NULL, &answer));
-        CHECK_OK(swiftprox_pair_depth_verify(a, here, b, there, &cache, &answer));
+        CHECK_OK(swiftprox_pair_depth((swiftprox_placed){a, here}, (swiftprox_placed){b, there}, &cache, NULL, &answer));
+        CHECK_OK(swiftprox_pair_depth_verify((swiftprox_placed){a, here}, (swiftprox_placed){b, there}, &cache, &answer));
         CHECK(answer.outcome == (step > 0 ? SWIFTPROX_OUTCOME_SEPARATED : SWIFTPROX_OUTCOME_INTERSECTING));
         CHECK(answer.lower <= depth && depth <= answer.upper && answer.upper - answer.lower <= 1e-13);
         CHECK((answer.upper == 0) == (step >= 0));
@@ -37,8 +37,9 @@ static void known_depths(const swiftprox_shape *a, const swiftprox_shape *b)
         if (step < 0) {
             answer.upper = 0.5 * answer.lower;
             answer.lower = answer.depth = answer.upper;
-            CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "overlap",
-                        swiftprox_pair_depth_verify(a, here, b, there, &cache, &answer));
+            CHECK_FAILS(
+                SWIFTPROX_ERROR_UNVERIFIED, "overlap",
+                swiftprox_pair_depth_verify((swiftprox_placed){a, here}, (swiftprox_placed){b, there}, &cache, &answer));
         }
     }
 }
@@ -55,20 +56,26 @@ static void manifolds(const swiftprox_shape *a, const swiftprox_shape *b)
     config.margin = 0.01;
     place(there, 0, 0, 0);
     place(here, 0.125, 0.25, 0.995);
-    CHECK_OK(swiftprox_pair_manifold(a, here, b, there, &cache, &config, points, 8, &manifold));
+    CHECK_OK(swiftprox_pair_manifold((swiftprox_placed){a, here}, (swiftprox_placed){b, there}, &cache, &config,
+                                     (swiftprox_manifold_room){points, 8, NULL}, &manifold));
     CHECK(manifold.outcome == SWIFTPROX_OUTCOME_INTERSECTING && manifold.point_count == 4 && manifold.found_count == 4);
-    CHECK_OK(swiftprox_pair_manifold_verify(a, here, b, there, &cache, &config, points, 8, &manifold));
+    CHECK_OK(swiftprox_pair_manifold_verify((swiftprox_placed){a, here}, (swiftprox_placed){b, there}, &cache, &config, points,
+                                            &manifold));
     manifold.lower = manifold.upper = -0.004;
     CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "overlap",
-                swiftprox_pair_manifold_verify(a, here, b, there, &cache, &config, points, 4, &manifold));
-    CHECK_OK(swiftprox_pair_manifold_with_distance(a, here, b, there, &cache, &config, points, 8, &manifold, &distance));
+                swiftprox_pair_manifold_verify((swiftprox_placed){a, here}, (swiftprox_placed){b, there}, &cache, &config,
+                                               points, &manifold));
+    CHECK_OK(swiftprox_pair_manifold((swiftprox_placed){a, here}, (swiftprox_placed){b, there}, &cache, &config,
+                                     (swiftprox_manifold_room){points, 8, &distance}, &manifold));
     CHECK(distance.outcome == SWIFTPROX_OUTCOME_INTERSECTING && fabs(distance.distance + 0.005) < 1e-12);
     CHECK(distance.lower == manifold.lower && distance.upper == manifold.upper && manifold.point_count == 4);
     CHECK(fabs(distance.world2[2] - distance.world1[2] - 0.005) < 1e-12);
     points[2].gap_lower = NAN;
     CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "point 2",
-                swiftprox_pair_manifold_verify(a, here, b, there, &cache, &config, points, 4, &manifold));
-    CHECK_OK(swiftprox_pair_manifold(a, here, b, there, &cache, &config, points, 8, &manifold));
+                swiftprox_pair_manifold_verify((swiftprox_placed){a, here}, (swiftprox_placed){b, there}, &cache, &config,
+                                               points, &manifold));
+    CHECK_OK(swiftprox_pair_manifold((swiftprox_placed){a, here}, (swiftprox_placed){b, there}, &cache, &config,
+                                     (swiftprox_manifold_room){points, 8, NULL}, &manifold));
     for (i = 0; i < 4; ++i) {
         CHECK(points[i].gap_lower <= -0.005 + 1e-12 && points[i].gap_upper >= -0.005 - 1e-12);
         CHECK(fabs((points[i].gap_lower + points[i].gap_upper) / 2 + 0.005) < 1e-12);
@@ -77,10 +84,12 @@ static void manifolds(const swiftprox_shape *a, const swiftprox_shape *b)
         }
     }
     place(here, 0.125, 0.25, 1.005);
-    CHECK_OK(swiftprox_pair_manifold(a, here, b, there, &cache, &config, points, 2, &manifold));
+    CHECK_OK(swiftprox_pair_manifold((swiftprox_placed){a, here}, (swiftprox_placed){b, there}, &cache, &config,
+                                     (swiftprox_manifold_room){points, 2, NULL}, &manifold));
     CHECK(manifold.outcome == SWIFTPROX_OUTCOME_SEPARATED && manifold.point_count == 2 && manifold.found_count == 4);
     place(here, 0.125, 0.25, 1.02);
-    CHECK_OK(swiftprox_pair_manifold(a, here, b, there, &cache, &config, NULL, 0, &manifold));
+    CHECK_OK(swiftprox_pair_manifold((swiftprox_placed){a, here}, (swiftprox_placed){b, there}, &cache, &config,
+                                     (swiftprox_manifold_room){NULL, 0, NULL}, &manifold));
     CHECK(manifold.outcome == SWIFTPROX_OUTCOME_BEYOND && manifold.point_count == 0);
 }
 
@@ -97,48 +106,62 @@ static void mistakes(const swiftprox_shape *a)
     const int32_t unknown = 77;
     place(here, 0, 0, 0);
     place(bent, 0, 0, NAN);
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape1", swiftprox_pair_depth(NULL, here, a, here, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pose2", swiftprox_pair_depth(a, here, a, NULL, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "cache", swiftprox_pair_depth(a, here, a, here, NULL, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_pair_depth(a, here, a, here, &cache, NULL, NULL));
-    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "finite", swiftprox_pair_depth(a, here, a, bent, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "object1.shape",
+                swiftprox_pair_depth((swiftprox_placed){NULL, here}, (swiftprox_placed){a, here}, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "object2.pose",
+                swiftprox_pair_depth((swiftprox_placed){a, here}, (swiftprox_placed){a, NULL}, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "cache",
+                swiftprox_pair_depth((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, NULL, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer",
+                swiftprox_pair_depth((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, &cache, NULL, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "finite",
+                swiftprox_pair_depth((swiftprox_placed){a, here}, (swiftprox_placed){a, bent}, &cache, NULL, &answer));
     CHECK(answer.outcome == SWIFTPROX_OUTCOME_NONE && isnan(answer.depth));
     config.step_budget = 0;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "step_budget",
-                swiftprox_pair_depth(a, here, a, here, &cache, &config, &answer));
+                swiftprox_pair_depth((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, &cache, &config, &answer));
     config.step_budget = 1;
     config.absolute_error = NAN;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "absolute_error",
-                swiftprox_pair_depth(a, here, a, here, &cache, &config, &answer));
+                swiftprox_pair_depth((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, &cache, &config, &answer));
     config.struct_size = 3;
     CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_depth_config",
-                swiftprox_pair_depth(a, here, a, here, &cache, &config, &answer));
-    CHECK_OK(swiftprox_pair_depth(a, here, a, here, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "cache", swiftprox_pair_depth_verify(a, here, a, here, NULL, &answer));
+                swiftprox_pair_depth((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, &cache, &config, &answer));
+    CHECK_OK(swiftprox_pair_depth((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "cache",
+                swiftprox_pair_depth_verify((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, NULL, &answer));
     memcpy(&answer.ending, &unknown, sizeof unknown);
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "ending", swiftprox_pair_depth_verify(a, here, a, here, &cache, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "ending",
+                swiftprox_pair_depth_verify((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, &cache, &answer));
     manifold_config.margin = -1;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin",
-                swiftprox_pair_manifold(a, here, a, here, &manifold_cache, &manifold_config, NULL, 0, &manifold));
+                swiftprox_pair_manifold((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, &manifold_cache,
+                                        &manifold_config, (swiftprox_manifold_room){NULL, 0, NULL}, &manifold));
     CHECK(manifold.outcome == SWIFTPROX_OUTCOME_NONE && isnan(manifold.lower));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "points",
-                swiftprox_pair_manifold(a, here, a, here, &manifold_cache, NULL, NULL, 4, &manifold));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "distance",
-                swiftprox_pair_manifold_with_distance(a, here, a, here, &manifold_cache, NULL, NULL, 0, &manifold, NULL));
-    CHECK_OK(swiftprox_pair_manifold(a, here, a, here, &manifold_cache, NULL, &point, 1, &manifold));
-    CHECK_OK(swiftprox_pair_manifold_verify(a, here, a, here, &manifold_cache, NULL, &point, 1, &manifold));
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "0 points of 1",
-                swiftprox_pair_manifold_verify(a, here, a, here, &manifold_cache, NULL, NULL, 0, &manifold));
+                swiftprox_pair_manifold((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, &manifold_cache, NULL,
+                                        (swiftprox_manifold_room){NULL, 4, NULL}, &manifold));
+    CHECK_OK(swiftprox_pair_manifold((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, &manifold_cache, NULL,
+                                     (swiftprox_manifold_room){&point, 1, NULL}, &manifold));
+    CHECK_OK(swiftprox_pair_manifold_verify((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, &manifold_cache, NULL,
+                                            &point, &manifold));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "points",
+                swiftprox_pair_manifold_verify((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, &manifold_cache, NULL,
+                                               NULL, &manifold));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "cache",
-                swiftprox_pair_manifold_verify(a, here, a, here, NULL, NULL, &point, 1, &manifold));
+                swiftprox_pair_manifold_verify((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, NULL, NULL, &point,
+                                               &manifold));
     memcpy(&point.feature2.kind, &unknown, sizeof unknown);
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "points[0].feature2.kind",
-                swiftprox_pair_manifold_verify(a, here, a, here, &manifold_cache, NULL, &point, 1, &manifold));
+                swiftprox_pair_manifold_verify((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, &manifold_cache, NULL,
+                                               &point, &manifold));
     memcpy(&manifold.outcome, &unknown, sizeof unknown);
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "outcome",
-                swiftprox_pair_manifold_verify(a, here, a, here, &manifold_cache, NULL, &point, 0, &manifold));
+                swiftprox_pair_manifold_verify((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, &manifold_cache, NULL,
+                                               &point, &manifold));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "manifold",
-                swiftprox_pair_manifold(a, here, a, here, &manifold_cache, NULL, NULL, 0, NULL));
+                swiftprox_pair_manifold((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, &manifold_cache, NULL,
+                                        (swiftprox_manifold_room){NULL, 0, NULL}, NULL));
     CHECK(strcmp(swiftprox_library_depth_ending_string(SWIFTPROX_DEPTH_ENDING_NARROW), "narrow") == 0);
     CHECK(swiftprox_library_depth_ending_string((swiftprox_depth_ending)unknown) != NULL);
 }
@@ -158,8 +181,8 @@ static void caches_and_roundings(const swiftprox_shape *a, const swiftprox_shape
         swiftprox_depth_cache cache = {{0}};
         memset(&answer, 0, sizeof answer);
         fesetround(roundings[i]);
-        CHECK_OK(swiftprox_pair_depth(a, here, b, there, &cache, NULL, &answer));
-        CHECK_OK(swiftprox_pair_depth_verify(a, here, b, there, &cache, &answer));
+        CHECK_OK(swiftprox_pair_depth((swiftprox_placed){a, here}, (swiftprox_placed){b, there}, &cache, NULL, &answer));
+        CHECK_OK(swiftprox_pair_depth_verify((swiftprox_placed){a, here}, (swiftprox_placed){b, there}, &cache, &answer));
         CHECK(fegetround() == roundings[i]);
         fesetround(FE_TONEAREST);
         if (i == 0) {
@@ -170,7 +193,7 @@ static void caches_and_roundings(const swiftprox_shape *a, const swiftprox_shape
     for (k = 0; k < 256; ++k) {
         swiftprox_depth_cache cache;
         memset(&cache, (int)k, sizeof cache);
-        CHECK_OK(swiftprox_pair_depth(a, here, b, there, &cache, NULL, &answer));
+        CHECK_OK(swiftprox_pair_depth((swiftprox_placed){a, here}, (swiftprox_placed){b, there}, &cache, NULL, &answer));
         CHECK(answer.lower <= first.upper && first.lower <= answer.upper);
     }
 }
@@ -225,7 +248,7 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     info2.struct_size = sizeof info2;
     CHECK_OK(swiftprox_scene_get_object_info(scene, ground, &info1));
     CHECK_OK(swiftprox_scene_get_object_info(scene, sunk, &info2));
-    CHECK_OK(swiftprox_pair_depth_verify(b, info1.pose, a, info2.pose, &cold, &depth));
+    CHECK_OK(swiftprox_pair_depth_verify((swiftprox_placed){b, info1.pose}, (swiftprox_placed){a, info2.pose}, &cold, &depth));
 
     /* The manifold of the near pair, too, and a margin that leaves it out. */
     query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;

@@ -69,15 +69,18 @@ static void answer_all(const struct scene *scene, swiftprox_pair_answer *answers
     for (size_t i = 0; i < scene->pose_count; ++i) {
         const double *pose1 = scene->poses[i], *pose2 = pose1 + 12;
         swiftprox_pair_answer other, *answer = &answers[i];
-        if (!CHECK_OK(swiftprox_pair_distance(shape1, pose1, shape2, pose2, &cache, NULL, answer)))
+        if (!CHECK_OK(swiftprox_pair_distance((swiftprox_placed){shape1, pose1}, (swiftprox_placed){shape2, pose2}, &cache,
+                                              NULL, answer)))
             continue;
-        CHECK_OK(swiftprox_pair_verify(shape1, pose1, shape2, pose2, answer));
-        CHECK_OK(swiftprox_pair_intersection(shape1, pose1, shape2, pose2, &verdict_cache, NULL, &other));
+        CHECK_OK(swiftprox_pair_verify((swiftprox_placed){shape1, pose1}, (swiftprox_placed){shape2, pose2}, answer));
+        CHECK_OK(swiftprox_pair_intersection((swiftprox_placed){shape1, pose1}, (swiftprox_placed){shape2, pose2},
+                                             &verdict_cache, NULL, &other));
         CHECK(other.outcome == answer->outcome);
         if (answer->outcome == SWIFTPROX_OUTCOME_SEPARATED) {
             check_separated(answer);
         } else {
-            CHECK_OK(swiftprox_pair_contact(shape1, pose1, shape2, pose2, &contact_cache, NULL, &other));
+            CHECK_OK(swiftprox_pair_contact((swiftprox_placed){shape1, pose1}, (swiftprox_placed){shape2, pose2},
+                                            &contact_cache, NULL, &other));
             check_contact(&other);
         }
     }

@@ -198,8 +198,9 @@ static void near_contact(const struct scene *scene, size_t count, uint64_t *rand
         for (int k = 0; k < 3; ++k)
             pose[4 * k + 3] = 3 * direction[k];
         double gap = pow(10, -3 - 13 * uniform(random)) * (next_random(random) & 1 ? 1 : -1);
-        swiftprox_status status = swiftprox_pair_distance(scene->bodies[0].shape, poses[i], scene->bodies[1].shape, pose,
-                                                  &cache, NULL, &answer);
+        swiftprox_status status =
+            swiftprox_pair_distance((swiftprox_placed){scene->bodies[0].shape, poses[i]},
+                                    (swiftprox_placed){scene->bodies[1].shape, pose}, &cache, NULL, &answer);
         if (status == SWIFTPROX_OK && answer.outcome == SWIFTPROX_OUTCOME_SEPARATED)
             for (int k = 0; k < 3; ++k)
                 pose[4 * k + 3] += (answer.distance - gap) * answer.normal[k];

@@ -76,7 +76,7 @@ static double distance_of(const swiftprox_shape *shape, double apart)
     swiftprox_pair_cache cache;
     swiftprox_pair_answer answer;
     memset(&cache, 0, sizeof cache);
-    CHECK_OK(swiftprox_pair_distance(shape, here, shape, there, &cache, NULL, &answer));
+    CHECK_OK(swiftprox_pair_distance((swiftprox_placed){shape, here}, (swiftprox_placed){shape, there}, &cache, NULL, &answer));
     CHECK(answer.outcome == SWIFTPROX_OUTCOME_SEPARATED && answer.lower <= apart - 1.9 && answer.upper >= apart - 2.0);
     return answer.distance;
 }

@@ -12,11 +12,11 @@
 #include <string.h>
 
 #include "check.h"
-#include "swiftprox/tuning.h"
-#include "swiftprox/process.h"
-#include "swiftprox/scene.h"
 #include "swiftprox/geometry.h"
 #include "swiftprox/ground.h"
+#include "swiftprox/process.h"
+#include "swiftprox/scene.h"
+#include "swiftprox/tuning.h"
 #include "swiftprox/verify.h"
 
 static const double CORNERS[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
@@ -42,7 +42,8 @@ static swiftprox_status mesh(const double *vertices, size_t vertex_count, const 
     return status;
 }
 
-static swiftprox_status add_tetrahedron(swiftprox_scene *scene, const swiftprox_object_options *options, swiftprox_object_id *id)
+static swiftprox_status add_tetrahedron(swiftprox_scene *scene, const swiftprox_object_options *options,
+                                        swiftprox_object_id *id)
 {
     const swiftprox_shape *shape = NULL;
     CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
@@ -165,6 +166,7 @@ static void shape_options(void)
     memset(&options, 0xff, sizeof options);
     CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_shape_options", mesh(CORNERS, 4, FACES, NULL, 4, &options));
 
+    options = (swiftprox_shape_options)SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     any_number(&options.input, INT32_MIN);
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "input", mesh(CORNERS, 4, FACES, NULL, 4, &options));
     options = (swiftprox_shape_options)SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
@@ -257,23 +259,32 @@ static void pairs(void)
     int entry;
 
     CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape1",
-                swiftprox_pair_distance(NULL, HERE, shape, THERE, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pose1",
-                swiftprox_pair_contact(shape, NULL, shape, THERE, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape2",
-                swiftprox_pair_intersection(shape, HERE, NULL, THERE, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pose2",
-                swiftprox_pair_distance(shape, HERE, shape, NULL, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "cache", swiftprox_pair_distance(shape, HERE, shape, THERE, NULL, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, NULL, NULL));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_pair_verify(shape, HERE, shape, THERE, NULL));
+    CHECK_FAILS(
+        SWIFTPROX_ERROR_NULL_POINTER, "object1.shape",
+        swiftprox_pair_distance((swiftprox_placed){NULL, HERE}, (swiftprox_placed){shape, THERE}, &cache, NULL, &answer));
+    CHECK_FAILS(
+        SWIFTPROX_ERROR_NULL_POINTER, "object1.pose",
+        swiftprox_pair_contact((swiftprox_placed){shape, NULL}, (swiftprox_placed){shape, THERE}, &cache, NULL, &answer));
+    CHECK_FAILS(
+        SWIFTPROX_ERROR_NULL_POINTER, "object2.shape",
+        swiftprox_pair_intersection((swiftprox_placed){shape, HERE}, (swiftprox_placed){NULL, THERE}, &cache, NULL, &answer));
+    CHECK_FAILS(
+        SWIFTPROX_ERROR_NULL_POINTER, "object2.pose",
+        swiftprox_pair_distance((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, NULL}, &cache, NULL, &answer));
+    CHECK_FAILS(
+        SWIFTPROX_ERROR_NULL_POINTER, "cache",
+        swiftprox_pair_distance((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, NULL, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer",
+                swiftprox_pair_distance((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, &cache, NULL, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer",
+                swiftprox_pair_verify((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, NULL));
 
     for (entry = 0; entry < 12; ++entry) {
         for (i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
             const double *pose = with(entry, bad[i]);
             const int far_away = entry % 4 == 3 && isfinite(bad[i]);
-            const swiftprox_status status = swiftprox_pair_distance(shape, HERE, shape, pose, &cache, NULL, &answer);
+            const swiftprox_status status = swiftprox_pair_distance((swiftprox_placed){shape, HERE},
+                                                                    (swiftprox_placed){shape, pose}, &cache, NULL, &answer);
             CHECK(status == (far_away ? SWIFTPROX_OK : SWIFTPROX_ERROR_POSE));
             CHECK(answer.outcome == (far_away ? SWIFTPROX_OUTCOME_SEPARATED : SWIFTPROX_OUTCOME_NONE));
             if (far_away) {
@@ -281,59 +292,75 @@ static void pairs(void)
             }
         }
     }
+    CHECK_FAILS(
+        SWIFTPROX_ERROR_POSE, "orthonormal",
+        swiftprox_pair_distance((swiftprox_placed){shape, with(5, 0)}, (swiftprox_placed){shape, HERE}, &cache, NULL, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal",
-                swiftprox_pair_distance(shape, with(5, 0), shape, HERE, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal",
-                swiftprox_pair_distance(shape, with(1, 0.02), shape, HERE, &cache, NULL, &answer));
+                swiftprox_pair_distance((swiftprox_placed){shape, with(1, 0.02)}, (swiftprox_placed){shape, HERE}, &cache, NULL,
+                                        &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "reflection",
-                swiftprox_pair_distance(shape, with(0, -1), shape, HERE, &cache, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "entry 0", swiftprox_pair_verify(shape, with(0, NAN), shape, HERE, &answer));
+                swiftprox_pair_distance((swiftprox_placed){shape, with(0, -1)}, (swiftprox_placed){shape, HERE}, &cache, NULL,
+                                        &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "entry 0",
+                swiftprox_pair_verify((swiftprox_placed){shape, with(0, NAN)}, (swiftprox_placed){shape, HERE}, &answer));
     /* A shear within the limit is the caller's to use, unless a config says otherwise. */
-    CHECK_OK(swiftprox_pair_distance(shape, with(1, 0.009), shape, THERE, &cache, NULL, &answer));
-    CHECK_OK(swiftprox_pair_verify(shape, with(1, 0.009), shape, THERE, &answer));
+    CHECK_OK(swiftprox_pair_distance((swiftprox_placed){shape, with(1, 0.009)}, (swiftprox_placed){shape, THERE}, &cache, NULL,
+                                     &answer));
+    CHECK_OK(swiftprox_pair_verify((swiftprox_placed){shape, with(1, 0.009)}, (swiftprox_placed){shape, THERE}, &answer));
     config.rotation_limit = 1e-9;
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal",
-                swiftprox_pair_distance(shape, with(1, 0.009), shape, THERE, &cache, &config, &answer));
+                swiftprox_pair_distance((swiftprox_placed){shape, with(1, 0.009)}, (swiftprox_placed){shape, THERE}, &cache,
+                                        &config, &answer));
     for (i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
         config.rotation_limit = bad[i];
         CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "rotation_limit",
-                    swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
+                    swiftprox_pair_distance((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, &cache, &config,
+                                            &answer));
     }
     config.rotation_limit = 0.5;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "rotation_limit is 0.5, it must be from 0 to 0.01",
-                swiftprox_pair_intersection(shape, HERE, shape, THERE, &cache, &config, &answer));
+                swiftprox_pair_intersection((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, &cache, &config,
+                                            &answer));
     config = (swiftprox_pair_config)SWIFTPROX_PAIR_CONFIG_DEFAULT;
     config.distance_tolerance = -1;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "distance_tolerance",
-                swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
+    CHECK_FAILS(
+        SWIFTPROX_ERROR_INVALID_ARGUMENT, "distance_tolerance",
+        swiftprox_pair_distance((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, &cache, &config, &answer));
     config = (swiftprox_pair_config)SWIFTPROX_PAIR_CONFIG_DEFAULT;
     any_number(&tuning.levels, 17);
     config.tuning = &tuning;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tuning->levels is 17",
-                swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
+    CHECK_FAILS(
+        SWIFTPROX_ERROR_INVALID_ARGUMENT, "tuning->levels is 17",
+        swiftprox_pair_distance((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, &cache, &config, &answer));
     memset(&tuning, 0, sizeof tuning);
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_PAIR_TUNING_DEFAULT",
-                swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
+    CHECK_FAILS(
+        SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_PAIR_TUNING_DEFAULT",
+        swiftprox_pair_distance((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, &cache, &config, &answer));
     memset(&config, 0, sizeof config);
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_PAIR_CONFIG_DEFAULT",
-                swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
+    CHECK_FAILS(
+        SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_PAIR_CONFIG_DEFAULT",
+        swiftprox_pair_distance((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, &cache, &config, &answer));
 
     /* After all that the pair is answered as ever. */
-    CHECK_OK(swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, NULL, &answer));
+    CHECK_OK(swiftprox_pair_distance((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, &cache, NULL, &answer));
     CHECK(answer.outcome == SWIFTPROX_OUTCOME_SEPARATED && answer.lower <= 2 && 2 <= answer.upper);
-    CHECK_OK(swiftprox_pair_verify(shape, HERE, shape, THERE, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "apart", swiftprox_pair_verify(shape, HERE, shape, HERE, &answer));
+    CHECK_OK(swiftprox_pair_verify((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "apart",
+                swiftprox_pair_verify((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, HERE}, &answer));
     memset(&answer, 0x7f, sizeof answer);
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "outcome", swiftprox_pair_verify(shape, HERE, shape, THERE, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "outcome",
+                swiftprox_pair_verify((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, &answer));
     memset(&answer, 0, sizeof answer);
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "outcome", swiftprox_pair_verify(shape, HERE, shape, THERE, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "outcome",
+                swiftprox_pair_verify((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, &answer));
     answer.outcome = SWIFTPROX_OUTCOME_INTERSECTING;
     answer.proof_count = UINT32_MAX;
     CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "4294967295 vertex pairs",
-                swiftprox_pair_verify(shape, HERE, shape, THERE, &answer));
+                swiftprox_pair_verify((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, &answer));
     answer.proof_count = 4;
     answer.proof[3][1] = UINT32_MAX;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "vertex", swiftprox_pair_verify(shape, HERE, shape, THERE, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "vertex",
+                swiftprox_pair_verify((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, &answer));
 
     /* Tiny and vast bodies: whatever is accepted is answered. */
     for (i = 0; i < 2; ++i) {
@@ -341,9 +368,11 @@ static void pairs(void)
         const swiftprox_shape *extreme = NULL;
         options.scale = i == 0 ? 1e-300 : 1e300;
         CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, &options, &extreme));
-        CHECK_OK(swiftprox_pair_distance(extreme, HERE, shape, THERE, &cache, NULL, &answer));
-        CHECK_OK(swiftprox_pair_verify(extreme, HERE, shape, THERE, &answer));
-        CHECK_OK(swiftprox_pair_contact(extreme, HERE, extreme, HERE, &cache, NULL, &answer));
+        CHECK_OK(swiftprox_pair_distance((swiftprox_placed){extreme, HERE}, (swiftprox_placed){shape, THERE}, &cache, NULL,
+                                         &answer));
+        CHECK_OK(swiftprox_pair_verify((swiftprox_placed){extreme, HERE}, (swiftprox_placed){shape, THERE}, &answer));
+        CHECK_OK(swiftprox_pair_contact((swiftprox_placed){extreme, HERE}, (swiftprox_placed){extreme, HERE}, &cache, NULL,
+                                        &answer));
         CHECK(answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING);
         swiftprox_shape_release(extreme);
     }
@@ -391,39 +420,51 @@ static void half_spaces(void)
     options.input = SWIFTPROX_INPUT_HULL;
     options.swept_radius = 0.5;
     CHECK_OK(swiftprox_shape_create_from_points(origin, 1, &options, &shape));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape", swiftprox_pair_half_space_distance(NULL, HERE, &ground, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pose", swiftprox_pair_half_space_distance(shape, NULL, &ground, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "half_space", swiftprox_pair_half_space_distance(shape, HERE, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_pair_half_space_distance(shape, HERE, &ground, NULL));
-    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "entry 5", swiftprox_pair_half_space_distance(shape, with(5, NAN), &ground, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape",
+                swiftprox_pair_half_space_distance((swiftprox_placed){NULL, HERE}, &ground, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pose",
+                swiftprox_pair_half_space_distance((swiftprox_placed){shape, NULL}, &ground, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "half_space",
+                swiftprox_pair_half_space_distance((swiftprox_placed){shape, HERE}, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer",
+                swiftprox_pair_half_space_distance((swiftprox_placed){shape, HERE}, &ground, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "entry 5",
+                swiftprox_pair_half_space_distance((swiftprox_placed){shape, with(5, NAN)}, &ground, &answer));
     CHECK(answer.outcome == SWIFTPROX_OUTCOME_NONE && isnan(answer.lower) && isnan(answer.world1[0]));
     for (i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
         other = ground;
         other.normal[i] = bad[i];
         CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "normal of the half-space",
-                    swiftprox_pair_half_space_distance(shape, HERE, &other, &answer));
+                    swiftprox_pair_half_space_distance((swiftprox_placed){shape, HERE}, &other, &answer));
         other = ground;
         other.offset = bad[i];
         CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "offset of the half-space",
-                    swiftprox_pair_half_space_manifold(shape, HERE, &other, NULL, &point, 1, &manifold));
+                    swiftprox_pair_half_space_manifold((swiftprox_placed){shape, HERE}, &other, NULL,
+                                                       (swiftprox_manifold_room){&point, 1, NULL}, &manifold));
         CHECK(manifold.outcome == SWIFTPROX_OUTCOME_NONE && manifold.point_count == 0);
     }
     config.margin = NAN;
     memset(&point, 0x5a, sizeof point);
     memset(&untouched, 0x5a, sizeof untouched);
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin",
-                swiftprox_pair_half_space_manifold(shape, HERE, &ground, &config, &point, 1, &manifold));
+                swiftprox_pair_half_space_manifold((swiftprox_placed){shape, HERE}, &ground, &config,
+                                                   (swiftprox_manifold_room){&point, 1, NULL}, &manifold));
     memset(&config, 0, sizeof config);
     CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_MANIFOLD_CONFIG_DEFAULT",
-                swiftprox_pair_half_space_manifold(shape, HERE, &ground, &config, &point, 1, &manifold));
+                swiftprox_pair_half_space_manifold((swiftprox_placed){shape, HERE}, &ground, &config,
+                                                   (swiftprox_manifold_room){&point, 1, NULL}, &manifold));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "points",
-                swiftprox_pair_half_space_manifold(shape, HERE, &ground, NULL, NULL, 1, &manifold));
+                swiftprox_pair_half_space_manifold((swiftprox_placed){shape, HERE}, &ground, NULL,
+                                                   (swiftprox_manifold_room){NULL, 1, NULL}, &manifold));
     CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "points",
-                swiftprox_pair_half_space_manifold(shape, HERE, &ground, NULL, &point, SIZE_MAX, &manifold));
+                swiftprox_pair_half_space_manifold((swiftprox_placed){shape, HERE}, &ground, NULL,
+                                                   (swiftprox_manifold_room){&point, SIZE_MAX, NULL}, &manifold));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "manifold",
-                swiftprox_pair_half_space_manifold(shape, HERE, &ground, NULL, &point, 1, NULL));
+                swiftprox_pair_half_space_manifold((swiftprox_placed){shape, HERE}, &ground, NULL,
+                                                   (swiftprox_manifold_room){&point, 1, NULL}, NULL));
     CHECK(memcmp(&point, &untouched, sizeof point) == 0);
-    CHECK_OK(swiftprox_pair_half_space_manifold(shape, HERE, &ground, NULL, &point, 1, &manifold));
+    CHECK_OK(swiftprox_pair_half_space_manifold((swiftprox_placed){shape, HERE}, &ground, NULL,
+                                                (swiftprox_manifold_room){&point, 1, NULL}, &manifold));
     CHECK(manifold.point_count == 1 && point.gap_lower <= -4.5 && -4.5 <= point.gap_upper);
     swiftprox_shape_release(shape);
 }
@@ -585,7 +626,7 @@ static void scenes(void)
             CHECK(valid == 0);
             CHECK(swiftprox_scene_set_pair_active(scene, &wrong[i], NULL, 1) == SWIFTPROX_ERROR_HANDLE);
             CHECK(swiftprox_scene_set_pair_active(scene, &here, &wrong[i], 0) == SWIFTPROX_ERROR_HANDLE);
-                        CHECK(swiftprox_scene_get_pair_active(scene, wrong[i], there, &active) == SWIFTPROX_ERROR_HANDLE && active == 0);
+            CHECK(swiftprox_scene_get_pair_active(scene, wrong[i], there, &active) == SWIFTPROX_ERROR_HANDLE && active == 0);
             info.struct_size = sizeof info;
             CHECK(swiftprox_scene_get_object_info(scene, wrong[i], &info) == SWIFTPROX_ERROR_HANDLE);
             CHECK(swiftprox_scene_set_object_info(scene, wrong[i], &info) == SWIFTPROX_ERROR_HANDLE);

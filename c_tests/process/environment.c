@@ -11,11 +11,11 @@
 #include <stdlib.h>
 
 #include "check.h"
-#include "swiftprox/tuning.h"
-#include "swiftprox/scene.h"
 #include "swiftprox/geometry.h"
 #include "swiftprox/ground.h"
 #include "swiftprox/process.h"
+#include "swiftprox/scene.h"
+#include "swiftprox/tuning.h"
 #include "swiftprox/verify.h"
 
 /* ---- environments ---- */
@@ -252,8 +252,8 @@ static void prepare(const char *folder)
 
 /* ---- what is asked ---- */
 
-typedef swiftprox_status pair_query(const swiftprox_shape *, const double *, const swiftprox_shape *, const double *,
-                                    swiftprox_pair_cache *, const swiftprox_pair_config *, swiftprox_pair_answer *);
+typedef swiftprox_status pair_query(swiftprox_placed, swiftprox_placed, swiftprox_pair_cache *, const swiftprox_pair_config *,
+                                    swiftprox_pair_answer *);
 
 static pair_query *const QUERIES[] = {swiftprox_pair_distance, swiftprox_pair_intersection, swiftprox_pair_contact,
                                       swiftprox_pair_approximate};
@@ -266,10 +266,10 @@ static void ask(const swiftprox_shape *shape1, const double *pose1, const swiftp
     for (int i = 0; i < QUERY_COUNT; ++i) {
         swiftprox_pair_answer answer;
         memset(&answer, 0, sizeof answer);
-        CALL_OK(QUERIES[i](shape1, pose1, shape2, pose2, &caches[i], config, &answer));
+        CALL_OK(QUERIES[i]((swiftprox_placed){shape1, pose1}, (swiftprox_placed){shape2, pose2}, &caches[i], config, &answer));
         tell_answer(&answer);
         tell(&caches[i], sizeof caches[i]);
-        CALL(swiftprox_pair_verify(shape1, pose1, shape2, pose2, &answer));
+        CALL(swiftprox_pair_verify((swiftprox_placed){shape1, pose1}, (swiftprox_placed){shape2, pose2}, &answer));
     }
 }
 
@@ -289,11 +289,14 @@ static void ask_contact(const swiftprox_shape *shape1, const double *pose1, cons
     swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
     swiftprox_manifold manifold;
     swiftprox_manifold_point points[MOST_POINTS];
-    CALL_OK(swiftprox_pair_depth(shape1, pose1, shape2, pose2, &caches->depth, NULL, &depth));
+    CALL_OK(swiftprox_pair_depth((swiftprox_placed){shape1, pose1}, (swiftprox_placed){shape2, pose2}, &caches->depth, NULL,
+                                 &depth));
     tell(&depth, sizeof depth);
-    CALL(swiftprox_pair_depth_verify(shape1, pose1, shape2, pose2, &caches->depth, &depth));
+    CALL(swiftprox_pair_depth_verify((swiftprox_placed){shape1, pose1}, (swiftprox_placed){shape2, pose2}, &caches->depth,
+                                     &depth));
     config.margin = 0.25;
-    CALL_OK(swiftprox_pair_manifold(shape1, pose1, shape2, pose2, &caches->manifold, &config, points, MOST_POINTS, &manifold));
+    CALL_OK(swiftprox_pair_manifold((swiftprox_placed){shape1, pose1}, (swiftprox_placed){shape2, pose2}, &caches->manifold,
+                                    &config, (swiftprox_manifold_room){points, MOST_POINTS, NULL}, &manifold));
     tell(&manifold, sizeof manifold);
     tell(points, manifold.point_count * sizeof points[0]);
     tell(caches, sizeof *caches);
@@ -315,7 +318,8 @@ static int are_apart(const swiftprox_shape *shape1, const swiftprox_shape *shape
     const double here[12] = {1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, 0}, there[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     swiftprox_pair_cache cache = {{0}};
     swiftprox_pair_answer answer;
-    CALL_OK(swiftprox_pair_distance(shape1, here, shape2, there, &cache, NULL, &answer));
+    CALL_OK(
+        swiftprox_pair_distance((swiftprox_placed){shape1, here}, (swiftprox_placed){shape2, there}, &cache, NULL, &answer));
     return answer.outcome == SWIFTPROX_OUTCOME_SEPARATED;
 }
 
@@ -421,7 +425,8 @@ static void ask_hard_questions(void)
     }
     ask_once(huge, huge, 1e300);
     ask_once(huge, huge, 2e300);
-    CHECK(CALL(swiftprox_pair_distance(unit, not_a_number, low, poses[0], &cache, NULL, &answer)) == SWIFTPROX_ERROR_POSE);
+    CHECK(CALL(swiftprox_pair_distance((swiftprox_placed){unit, not_a_number}, (swiftprox_placed){low, poses[0]}, &cache, NULL,
+                                       &answer)) == SWIFTPROX_ERROR_POSE);
     options.convexity_tolerance = NAN;
     CHECK(CALL(swiftprox_shape_create_from_points(cube, CORNERS, &options, &none)) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
     CHECK(CALL(swiftprox_shape_create_from_file("no such file", NULL, &none)) == SWIFTPROX_ERROR_FILE);
@@ -556,9 +561,10 @@ static void ask_round_bodies(void)
         memset(caches, 0, sizeof caches);
         ask(round, poses[0], round, poses[i], caches, NULL);
         ask_contact(round, poses[0], round, poses[i], &contact);
-        CALL_OK(swiftprox_pair_half_space_distance(round, poses[i], &half_space, &distance));
+        CALL_OK(swiftprox_pair_half_space_distance((swiftprox_placed){round, poses[i]}, &half_space, &distance));
         tell_signed_distance(&distance);
-        CALL_OK(swiftprox_pair_half_space_manifold(round, poses[i], &half_space, NULL, points, MOST_POINTS, &manifold));
+        CALL_OK(swiftprox_pair_half_space_manifold((swiftprox_placed){round, poses[i]}, &half_space, NULL,
+                                                   (swiftprox_manifold_room){points, MOST_POINTS, NULL}, &manifold));
         tell(&manifold, sizeof manifold);
         tell(points, manifold.point_count * sizeof points[0]);
         for (size_t k = 0; k < 2; ++k)

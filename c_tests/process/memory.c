@@ -11,10 +11,10 @@
 #include <string.h>
 
 #include "check.h"
-#include "swiftprox/tuning.h"
-#include "swiftprox/scene.h"
 #include "swiftprox/geometry.h"
 #include "swiftprox/process.h"
+#include "swiftprox/scene.h"
+#include "swiftprox/tuning.h"
 #include "swiftprox/verify.h"
 
 /* No block that must not be refused is as large, one pointer behind its end included. */
@@ -215,10 +215,11 @@ static void test_first_queries(void)
         for_good = 0;
         asked = 0;
         refused = number;
-        CHECK_OK(swiftprox_pair_distance(shape, here, shape, there, &cache, NULL, &answer));
+        CHECK_OK(
+            swiftprox_pair_distance((swiftprox_placed){shape, here}, (swiftprox_placed){shape, there}, &cache, NULL, &answer));
         refused = 0;
         CHECK(answer.outcome == SWIFTPROX_OUTCOME_SEPARATED && answer.upper - answer.lower < 1e-12);
-        CHECK_OK(swiftprox_pair_verify(shape, here, shape, there, &answer));
+        CHECK_OK(swiftprox_pair_verify((swiftprox_placed){shape, here}, (swiftprox_placed){shape, there}, &answer));
         if (asked < number) {
             swiftprox_shape_release(shape);
             break;
@@ -228,7 +229,8 @@ static void test_first_queries(void)
         CHECK_FAILS(SWIFTPROX_ERROR_MEMORY, "memory", swiftprox_shape_prepare(shape, NULL, NULL));
         refused = 0;
         CHECK_OK(swiftprox_shape_prepare(shape, NULL, NULL));
-        CHECK_OK(swiftprox_pair_distance(shape, here, shape, there, &cache, NULL, &answer));
+        CHECK_OK(
+            swiftprox_pair_distance((swiftprox_placed){shape, here}, (swiftprox_placed){shape, there}, &cache, NULL, &answer));
         swiftprox_shape_release(shape);
     }
     CHECK(number > 3);

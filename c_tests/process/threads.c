@@ -14,9 +14,9 @@
 
 #include "bodies.h"
 #include "swiftprox/geometry.h"
+#include "swiftprox/motion.h"
 #include "swiftprox/scene.h"
 #include "swiftprox/sets.h"
-#include "swiftprox/motion.h"
 #include "swiftprox/verify.h"
 
 enum { THREADS = 4, SHAPES = 3, STEPS = 16, SAID = 8, ROUND = 200 };
@@ -73,8 +73,9 @@ static void query_pairs(worker *worker)
         if (i % 4 == 3)
             memset(&cache, 0, sizeof cache);
         REQUIRE(swiftprox_shape_retain(a) == a);
-        REQUIRE(swiftprox_pair_contact(a, pose1, b, pose2, &cache, NULL, &answer) == SWIFTPROX_OK);
-        REQUIRE(swiftprox_pair_verify(a, pose1, b, pose2, &answer) == SWIFTPROX_OK);
+        REQUIRE(swiftprox_pair_contact((swiftprox_placed){a, pose1}, (swiftprox_placed){b, pose2}, &cache, NULL, &answer) ==
+                SWIFTPROX_OK);
+        REQUIRE(swiftprox_pair_verify((swiftprox_placed){a, pose1}, (swiftprox_placed){b, pose2}, &answer) == SWIFTPROX_OK);
         swiftprox_shape_release(a);
         worker->distances[i] = answer.distance;
     }

@@ -11,8 +11,8 @@
 
 #include "bodies.h"
 #include "swiftprox/process.h"
-#include "swiftprox/scene.h"
 #include "swiftprox/replay.h"
+#include "swiftprox/scene.h"
 
 enum { CUBES = 12, STEPS = 30 };
 

@@ -193,14 +193,16 @@ static void caches_go_back(const swiftprox_shape *shape)
     memset(second, 0, sizeof second);
     place(here, 0, 0, 0);
     place(there, 2, 0, 0);
-    CHECK_OK(swiftprox_pair_distance(shape, here, shape, there, &cache, NULL, &first[0]));
+    CHECK_OK(
+        swiftprox_pair_distance((swiftprox_placed){shape, here}, (swiftprox_placed){shape, there}, &cache, NULL, &first[0]));
     kept = cache;
     for (int round = 0; round < 2; ++round) {
         swiftprox_pair_answer *const answers = round == 0 ? first : second;
         for (int i = 0; i < 8; ++i) {
             place(there, 2 - 0.2 * i, 0, 0);
             there[7] = 0.3 * i;
-            CHECK_OK(swiftprox_pair_contact(shape, here, shape, there, &cache, NULL, &answers[i]));
+            CHECK_OK(swiftprox_pair_contact((swiftprox_placed){shape, here}, (swiftprox_placed){shape, there}, &cache, NULL,
+                                            &answers[i]));
         }
         cache = kept;
     }

@@ -5,8 +5,8 @@
 #include <string.h>
 
 #include "bodies.h"
-#include "swiftprox/tuning.h"
 #include "swiftprox/scene.h"
+#include "swiftprox/tuning.h"
 
 static const double CORNERS[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
 static const uint32_t FACES[24] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};

@@ -6,8 +6,8 @@
 
 #include "bodies.h"
 #include "swiftprox/geometry.h"
-#include "swiftprox/sets.h"
 #include "swiftprox/motion.h"
+#include "swiftprox/sets.h"
 
 static swiftprox_scene *scene;
 static swiftprox_object_id arm[2], posts[20];

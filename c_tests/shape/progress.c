@@ -8,8 +8,8 @@
 #include <stddef.h>
 
 #include "check.h"
-#include "swiftprox/tuning.h"
 #include "swiftprox/geometry.h"
+#include "swiftprox/tuning.h"
 #include "swiftprox/verify.h"
 
 enum { COUNT = 30001 };
@@ -50,9 +50,9 @@ static void check_distance(const swiftprox_shape *shape)
     static const double here[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, there[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 4};
     swiftprox_pair_cache cache = {{0}};
     swiftprox_pair_answer answer;
-    CHECK_OK(swiftprox_pair_distance(shape, here, shape, there, &cache, NULL, &answer));
+    CHECK_OK(swiftprox_pair_distance((swiftprox_placed){shape, here}, (swiftprox_placed){shape, there}, &cache, NULL, &answer));
     CHECK(fabs(answer.distance - 2) < 1e-3);
-    CHECK_OK(swiftprox_pair_verify(shape, here, shape, there, &answer));
+    CHECK_OK(swiftprox_pair_verify((swiftprox_placed){shape, here}, (swiftprox_placed){shape, there}, &answer));
 }
 
 /* Saved and loaded again; the load tells how far it is, and cancelled anywhere there is no shape. */

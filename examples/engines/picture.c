@@ -89,7 +89,8 @@ static bool is_before(const struct drawn *a, const struct drawn *b)
     }
     static swiftprox_manifold_cache cache;
     swiftprox_signed_distance between;
-    demand(swiftprox_pair_signed_distance(a->shape, a->pose, b->shape, b->pose, &cache, NULL, &between));
+    demand(swiftprox_pair_signed_distance((swiftprox_placed){a->shape, a->pose}, (swiftprox_placed){b->shape, b->pose}, &cache,
+                                          NULL, &between));
     return dot(NEARER, between.normal) > 0;
 }
 

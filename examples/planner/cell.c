@@ -75,8 +75,8 @@ static double distance(struct cell *cell, struct cell_pair *pair, const double *
     swiftprox_pair_config config = SWIFTPROX_PAIR_CONFIG_DEFAULT;
     config.distance_tolerance = enough;
     swiftprox_pair_answer answer;
-    cell_demand(swiftprox_pair_distance(cell->bodies[pair->first], poses + 12 * pair->first, second_shape(cell, pair), second,
-                                        &pair->cache, &config, &answer));
+    cell_demand(swiftprox_pair_distance((swiftprox_placed){cell->bodies[pair->first], poses + 12 * pair->first},
+                                        (swiftprox_placed){second_shape(cell, pair), second}, &pair->cache, &config, &answer));
     return answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING ? 0 : answer.lower;
 }
 

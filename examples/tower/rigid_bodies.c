@@ -171,8 +171,9 @@ static void find_contacts(struct world *world, struct pair *pair)
     swiftprox_manifold manifold;
     swiftprox_manifold_point points[4];
     struct body *const *const bodies = pair->bodies;
-    demand(swiftprox_pair_manifold(bodies[0]->shape, bodies[0]->pose, bodies[1]->shape, bodies[1]->pose, &pair->cache, &config,
-                                   points, 4, &manifold));
+    demand(swiftprox_pair_manifold((swiftprox_placed){bodies[0]->shape, bodies[0]->pose},
+                                   (swiftprox_placed){bodies[1]->shape, bodies[1]->pose}, &pair->cache, &config,
+                                   (swiftprox_manifold_room){points, 4, NULL}, &manifold));
     const struct pair before = *pair;
     pair->count = manifold.point_count;
     if (pair->count == 0) {

@@ -37,8 +37,7 @@ typedef struct swiftprox_half_space {
  * Experimental.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_half_space_distance(const struct swiftprox_shape *shape,
-                                                    const double *pose,
+swiftprox_status swiftprox_pair_half_space_distance(struct swiftprox_placed object,
                                                     const struct swiftprox_half_space *half_space,
                                                     struct swiftprox_signed_distance *answer);
 
@@ -53,12 +52,10 @@ swiftprox_status swiftprox_pair_half_space_distance(const struct swiftprox_shape
  * Experimental.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_half_space_manifold(const struct swiftprox_shape *shape,
-                                                    const double *pose,
+swiftprox_status swiftprox_pair_half_space_manifold(struct swiftprox_placed object,
                                                     const struct swiftprox_half_space *half_space,
                                                     const struct swiftprox_manifold_config *config,
-                                                    struct swiftprox_manifold_point *points,
-                                                    size_t capacity,
+                                                    struct swiftprox_manifold_room room,
                                                     struct swiftprox_manifold *manifold);
 
 /** @} */

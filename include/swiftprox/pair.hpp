@@ -29,6 +29,9 @@ class Placed
     const swiftprox_shape *shape() const noexcept { return shape_; }
     const double *pose() const & noexcept { return pose_.data(); }
     const double *pose() const && = delete;
+    /** Good while this is. */
+    swiftprox_placed to_c() const & noexcept { return {shape_, pose_.data()}; }
+    swiftprox_placed to_c() const && = delete;
 
   private:
     const swiftprox_shape *shape_;
@@ -37,13 +40,13 @@ class Placed
 
 namespace detail
 {
-using PairCall = swiftprox_status (*)(const swiftprox_shape *, const double *, const swiftprox_shape *, const double *,
-                                      swiftprox_pair_cache *, const swiftprox_pair_config *, swiftprox_pair_answer *);
+using PairCall = swiftprox_status (*)(swiftprox_placed, swiftprox_placed, swiftprox_pair_cache *, const swiftprox_pair_config *,
+                                      swiftprox_pair_answer *);
 inline Result<swiftprox_pair_answer> pair(PairCall call, Placed a, Placed b, PairCache &cache, const PairConfig &config) noexcept
 {
     const swiftprox_pair_config c = config.to_c();
     Result<swiftprox_pair_answer> result;
-    result.status = call(a.shape(), a.pose(), b.shape(), b.pose(), &cache, &c, &result.value);
+    result.status = call(a.to_c(), b.to_c(), &cache, &c, &result.value);
     return result;
 }
 } // namespace detail
@@ -77,7 +80,7 @@ inline Result<swiftprox_depth_answer> try_depth(Placed a, Placed b, DepthCache &
 {
     const swiftprox_depth_config c = config.to_c();
     Result<swiftprox_depth_answer> result;
-    result.status = swiftprox_pair_depth(a.shape(), a.pose(), b.shape(), b.pose(), &cache, &c, &result.value);
+    result.status = swiftprox_pair_depth(a.to_c(), b.to_c(), &cache, &c, &result.value);
     return result;
 }
 /** The distance, or minus the depth; the cache is that of the pair's manifolds. */
@@ -86,8 +89,7 @@ inline Result<swiftprox_signed_distance> try_signed_distance(Placed a, Placed b,
 {
     const swiftprox_pair_config c = config.to_c();
     Result<swiftprox_signed_distance> result;
-    result.status =
-        swiftprox_pair_signed_distance(a.shape(), a.pose(), b.shape(), b.pose(), &cache, &c, &result.value);
+    result.status = swiftprox_pair_signed_distance(a.to_c(), b.to_c(), &cache, &c, &result.value);
     return result;
 }
 /** Writes the points into `points`, as many as there is room for. */
@@ -96,8 +98,8 @@ inline Result<swiftprox_manifold> try_manifold(Placed a, Placed b, ManifoldCache
 {
     const swiftprox_manifold_config c = config.to_c();
     Result<swiftprox_manifold> result;
-    result.status = swiftprox_pair_manifold(a.shape(), a.pose(), b.shape(), b.pose(), &cache, &c, points.data(),
-                                            points.size(), &result.value);
+    result.status =
+        swiftprox_pair_manifold(a.to_c(), b.to_c(), &cache, &c, {points.data(), points.size(), nullptr}, &result.value);
     return result;
 }
 /** A manifold with the signed distance that it is made from. */
@@ -111,9 +113,8 @@ inline Result<ManifoldWithDistance> try_manifold_with_distance(Placed a, Placed 
 {
     const swiftprox_manifold_config c = config.to_c();
     Result<ManifoldWithDistance> result;
-    result.status = swiftprox_pair_manifold_with_distance(a.shape(), a.pose(), b.shape(), b.pose(), &cache, &c,
-                                                          points.data(), points.size(), &result.value.manifold,
-                                                          &result.value.distance);
+    result.status = swiftprox_pair_manifold(a.to_c(), b.to_c(), &cache, &c,
+                                            {points.data(), points.size(), &result.value.distance}, &result.value.manifold);
     return result;
 }
 /** The best estimate of a point's gap. */
@@ -124,7 +125,7 @@ inline double gap(const swiftprox_manifold_point &point) noexcept
 inline Result<swiftprox_signed_distance> try_half_space_distance(Placed body, const swiftprox_half_space &half_space) noexcept
 {
     Result<swiftprox_signed_distance> result;
-    result.status = swiftprox_pair_half_space_distance(body.shape(), body.pose(), &half_space, &result.value);
+    result.status = swiftprox_pair_half_space_distance(body.to_c(), &half_space, &result.value);
     return result;
 }
 /** Writes the points into `points`, as many as there is room for. */
@@ -134,27 +135,24 @@ inline Result<swiftprox_manifold> try_half_space_manifold(Placed body, const swi
 {
     const swiftprox_manifold_config c = config.to_c();
     Result<swiftprox_manifold> result;
-    result.status = swiftprox_pair_half_space_manifold(body.shape(), body.pose(), &half_space, &c, points.data(),
-                                                       points.size(), &result.value);
+    result.status = swiftprox_pair_half_space_manifold(body.to_c(), &half_space, &c, {points.data(), points.size(), nullptr},
+                                                       &result.value);
     return result;
 }
 /** SWIFTPROX_ERROR_UNVERIFIED where the answer does not hold. */
 inline Result<void> try_verify(Placed a, Placed b, const swiftprox_pair_answer &answer) noexcept
 {
-    return detail::status(
-        swiftprox_pair_verify(a.shape(), a.pose(), b.shape(), b.pose(), &answer));
+    return detail::status(swiftprox_pair_verify(a.to_c(), b.to_c(), &answer));
 }
 inline Result<void> try_depth_verify(Placed a, Placed b, const DepthCache &cache, const swiftprox_depth_answer &answer) noexcept
 {
-    return detail::status(
-        swiftprox_pair_depth_verify(a.shape(), a.pose(), b.shape(), b.pose(), &cache, &answer));
+    return detail::status(swiftprox_pair_depth_verify(a.to_c(), b.to_c(), &cache, &answer));
 }
 inline Result<void> try_manifold_verify(Placed a, Placed b, const ManifoldCache &cache, const swiftprox_manifold &manifold,
                                         Range<const swiftprox_manifold_point> points, const ManifoldConfig &config = {}) noexcept
 {
     const swiftprox_manifold_config c = config.to_c();
-    return detail::status(swiftprox_pair_manifold_verify(a.shape(), a.pose(), b.shape(), b.pose(), &cache, &c,
-                                                         points.data(), points.size(), &manifold));
+    return detail::status(swiftprox_pair_manifold_verify(a.to_c(), b.to_c(), &cache, &c, points.data(), &manifold));
 }
 
 #if SWIFTPROX_HAS_EXCEPTIONS

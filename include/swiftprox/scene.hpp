@@ -131,7 +131,7 @@ class SceneView
         }
         result.value.resize(shapes.size());
         result.status = swiftprox_scene_add_objects(scene_, pointers.data(), c.empty() ? nullptr : c.data(), shapes.size(),
-                                                   result.value.data());
+                                                    result.value.data());
         return result;
     }
     /** All or none. */
@@ -357,9 +357,7 @@ class SceneView
     }
     Result<bool> try_pair_active(swiftprox_object_id id1, swiftprox_object_id id2) const
     {
-        return detail::flag([&](std::int32_t *flag) {
-            return swiftprox_scene_get_pair_active(scene_, id1, id2, flag);
-        });
+        return detail::flag([&](std::int32_t *flag) { return swiftprox_scene_get_pair_active(scene_, id1, id2, flag); });
     }
     Result<void> try_set_pairs(Range<const std::array<swiftprox_object_id, 2>> pairs)
     {
@@ -373,8 +371,7 @@ class SceneView
     {
         const swiftprox_scene_query c = query.to_c();
         Result<Heard> result;
-        result.status =
-            swiftprox_scene_listen(scene_, listener.get(), kind, &c, &result.value.answer, &result.value.events);
+        result.status = swiftprox_scene_listen(scene_, listener.get(), kind, &c, &result.value.answer, &result.value.events);
         return result;
     }
     /** Makes the questions below fast after changes. */
@@ -394,9 +391,9 @@ class SceneView
         });
     }
     /** `poses`: those of all objects at the first time, then at the second, and so on. */
-    Result<swiftprox_first_hit> try_first_hit(const ObjectSet &set, Range<const Pose> poses,
-                                              SetScratch &scratch,
-                                              swiftprox_pose_order order = SWIFTPROX_POSE_ORDER_BISECTION, double margin = 0) const
+    Result<swiftprox_first_hit> try_first_hit(const ObjectSet &set, Range<const Pose> poses, SetScratch &scratch,
+                                              swiftprox_pose_order order = SWIFTPROX_POSE_ORDER_BISECTION,
+                                              double margin = 0) const
     {
         if (set.ids.empty() || poses.size() % set.ids.size() != 0) {
             return detail::refused<swiftprox_first_hit>("poses: there is not one for each object at each time");
@@ -417,9 +414,8 @@ class SceneView
         });
     }
     /** One motion for all objects together, or one for each. */
-    Result<swiftprox_scene_cast_answer> try_cast(const ObjectSet &set,
-                                                 Range<const swiftprox_motion> motions, SetScratch &scratch,
-                                                 const CastConfig &config = {}) const
+    Result<swiftprox_scene_cast_answer> try_cast(const ObjectSet &set, Range<const swiftprox_motion> motions,
+                                                 SetScratch &scratch, const CastConfig &config = {}) const
     {
         const swiftprox_object_set c = set.to_c();
         const swiftprox_cast_config of_cast = config.to_c();
@@ -428,8 +424,7 @@ class SceneView
         });
     }
     /** One motion for each edge, or one for each object at each edge. */
-    Result<std::vector<swiftprox_scene_cast_answer>> try_cast_batch(const ObjectSet &set,
-                                                                    Range<const swiftprox_motion> motions,
+    Result<std::vector<swiftprox_scene_cast_answer>> try_cast_batch(const ObjectSet &set, Range<const swiftprox_motion> motions,
                                                                     std::size_t edge_count, SetScratch &scratch,
                                                                     const CastConfig &config = {}) const
     {
@@ -443,26 +438,27 @@ class SceneView
     }
     /** Without a set: of all objects. The scratch owns contacts and points, until its next use. */
     Result<swiftprox_scene_ground_answer> try_ground_contacts(PlacedGround ground, SetScratch &scratch,
-                                                              const ManifoldConfig &config = {},
-                                                              const ObjectSet *set = nullptr,
+                                                              const ManifoldConfig &config = {}, const ObjectSet *set = nullptr,
                                                               const swiftprox_group_filter *filter = nullptr) const
     {
-        return detail::floor_contacts(set, config, [&](const swiftprox_object_set *of, const swiftprox_manifold_config *c,
-                                                       swiftprox_scene_ground_answer *answer) {
-            return swiftprox_scene_ground_contacts(scene_, of, ground.ground(), ground.pose(), c, filter,
-                                                   scratch.get(), answer);
-        });
+        return detail::floor_contacts(
+            set, config,
+            [&](const swiftprox_object_set *of, const swiftprox_manifold_config *c, swiftprox_scene_ground_answer *answer) {
+                return swiftprox_scene_ground_contacts(scene_, of, ground.ground(), ground.pose(), c, filter, scratch.get(),
+                                                       answer);
+            });
     }
     /** A contact for each piece. */
-    Result<swiftprox_scene_ground_answer> try_half_space_contacts(const swiftprox_half_space &half_space,
-                                                                  SetScratch &scratch, const ManifoldConfig &config = {},
+    Result<swiftprox_scene_ground_answer> try_half_space_contacts(const swiftprox_half_space &half_space, SetScratch &scratch,
+                                                                  const ManifoldConfig &config = {},
                                                                   const ObjectSet *set = nullptr,
                                                                   const swiftprox_group_filter *filter = nullptr) const
     {
-        return detail::floor_contacts(set, config, [&](const swiftprox_object_set *of, const swiftprox_manifold_config *c,
-                                                       swiftprox_scene_ground_answer *answer) {
-            return swiftprox_scene_half_space_contacts(scene_, of, &half_space, c, filter, scratch.get(), answer);
-        });
+        return detail::floor_contacts(
+            set, config,
+            [&](const swiftprox_object_set *of, const swiftprox_manifold_config *c, swiftprox_scene_ground_answer *answer) {
+                return swiftprox_scene_half_space_contacts(scene_, of, &half_space, c, filter, scratch.get(), answer);
+            });
     }
     Result<void> try_record(const std::string &path) { return detail::status(swiftprox_scene_record(scene_, path.c_str())); }
     Result<void> try_end_recording() { return detail::status(swiftprox_scene_record(scene_, nullptr)); }
@@ -556,8 +552,7 @@ class SceneView
         return take(try_listen(listener, kind, query));
     }
     void prepare() { take(try_prepare()); }
-    swiftprox_least_distance least_distance(const ObjectSet &set, SetScratch &scratch,
-                                            const ObjectSet *against = nullptr,
+    swiftprox_least_distance least_distance(const ObjectSet &set, SetScratch &scratch, const ObjectSet *against = nullptr,
                                             double cut_off = std::numeric_limits<double>::infinity()) const
     {
         return take(try_least_distance(set, scratch, against, cut_off));
@@ -568,30 +563,30 @@ class SceneView
         return take(try_first_hit(set, poses, scratch, order, margin));
     }
     swiftprox_scene_ray_answer cast_ray(const swiftprox_ray &ray, SetScratch &scratch,
-                                        swiftprox_ray_hits hits = SWIFTPROX_RAY_HITS_FIRST, std::uint32_t mask = UINT32_MAX) const
+                                        swiftprox_ray_hits hits = SWIFTPROX_RAY_HITS_FIRST,
+                                        std::uint32_t mask = UINT32_MAX) const
     {
         return take(try_cast_ray(ray, scratch, hits, mask));
     }
-    swiftprox_scene_cast_answer cast(const ObjectSet &set, Range<const swiftprox_motion> motions,
-                                     SetScratch &scratch, const CastConfig &config = {}) const
+    swiftprox_scene_cast_answer cast(const ObjectSet &set, Range<const swiftprox_motion> motions, SetScratch &scratch,
+                                     const CastConfig &config = {}) const
     {
         return take(try_cast(set, motions, scratch, config));
     }
-    std::vector<swiftprox_scene_cast_answer> cast_batch(const ObjectSet &set,
-                                                        Range<const swiftprox_motion> motions, std::size_t edge_count,
-                                                        SetScratch &scratch, const CastConfig &config = {}) const
+    std::vector<swiftprox_scene_cast_answer> cast_batch(const ObjectSet &set, Range<const swiftprox_motion> motions,
+                                                        std::size_t edge_count, SetScratch &scratch,
+                                                        const CastConfig &config = {}) const
     {
         return take(try_cast_batch(set, motions, edge_count, scratch, config));
     }
-    swiftprox_scene_ground_answer ground_contacts(PlacedGround ground, SetScratch &scratch,
-                                                  const ManifoldConfig &config = {}, const ObjectSet *set = nullptr,
+    swiftprox_scene_ground_answer ground_contacts(PlacedGround ground, SetScratch &scratch, const ManifoldConfig &config = {},
+                                                  const ObjectSet *set = nullptr,
                                                   const swiftprox_group_filter *filter = nullptr) const
     {
         return take(try_ground_contacts(ground, scratch, config, set, filter));
     }
-    swiftprox_scene_ground_answer half_space_contacts(const swiftprox_half_space &half_space,
-                                                      SetScratch &scratch, const ManifoldConfig &config = {},
-                                                      const ObjectSet *set = nullptr,
+    swiftprox_scene_ground_answer half_space_contacts(const swiftprox_half_space &half_space, SetScratch &scratch,
+                                                      const ManifoldConfig &config = {}, const ObjectSet *set = nullptr,
                                                       const swiftprox_group_filter *filter = nullptr) const
     {
         return take(try_half_space_contacts(half_space, scratch, config, set, filter));

@@ -42,10 +42,8 @@ extern "C" {
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_verify(const struct swiftprox_shape *shape1,
-                                       const double *pose1,
-                                       const struct swiftprox_shape *shape2,
-                                       const double *pose2,
+swiftprox_status swiftprox_pair_verify(struct swiftprox_placed object1,
+                                       struct swiftprox_placed object2,
                                        const struct swiftprox_pair_answer *answer);
 
 /**
@@ -64,16 +62,14 @@ swiftprox_status swiftprox_pair_verify(const struct swiftprox_shape *shape1,
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_depth_verify(const struct swiftprox_shape *shape1,
-                                             const double *pose1,
-                                             const struct swiftprox_shape *shape2,
-                                             const double *pose2,
+swiftprox_status swiftprox_pair_depth_verify(struct swiftprox_placed object1,
+                                             struct swiftprox_placed object2,
                                              const struct swiftprox_depth_cache *cache,
                                              const struct swiftprox_depth_answer *answer);
 
 /**
  * Re-checks a manifold, trusting nothing of the search that found it; config is that of the query, and `cache` too, or any other:
- * then a proof of the depth is searched for. `points` holds `count` points, those of the manifold first. SWIFTPROX_OK: it holds
+ * then a proof of the depth is searched for. `points` holds the manifold's, manifold->point_count of them. SWIFTPROX_OK: it holds
  * for these shapes and poses.
  *
  * Verdict and interval are proved for the exact objects R*v + T, with no tolerance, as by swiftprox_pair_verify and
@@ -87,20 +83,16 @@ swiftprox_status swiftprox_pair_depth_verify(const struct swiftprox_shape *shape
  * b is that allowance, 2^-25 of the pair's size (both radii and the distance of the centres) and eight times what contact faces
  * are thick at most. That a face is complete is not checked.
  *
- * SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT also for fewer points than
- * the manifold has. Others as of swiftprox_pair_verify and swiftprox_pair_manifold.
+ * SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. Others as of swiftprox_pair_verify and swiftprox_pair_manifold.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_manifold_verify(const struct swiftprox_shape *shape1,
-                                                const double *pose1,
-                                                const struct swiftprox_shape *shape2,
-                                                const double *pose2,
+swiftprox_status swiftprox_pair_manifold_verify(struct swiftprox_placed object1,
+                                                struct swiftprox_placed object2,
                                                 const struct swiftprox_manifold_cache *cache,
                                                 const struct swiftprox_manifold_config *config,
                                                 const struct swiftprox_manifold_point *points,
-                                                size_t count,
                                                 const struct swiftprox_manifold *manifold);
 
 /** @} */

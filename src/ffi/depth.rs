@@ -3,16 +3,15 @@
 use super::enumerators::{DepthEndingNumber, read_enumerator};
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::guard;
-use super::pair::{CPairConfig, read_config};
+use super::pair::{CPairConfig, CPlaced, bodies, read_config};
 use super::pointers::{array, exclusive, input, output};
 use super::structs::{Versioned, read_struct};
-use crate::base::math::{Pose, ROTATION_LIMIT};
+use crate::base::math::ROTATION_LIMIT;
 use crate::pair::verify::{verify_depth, verify_manifold};
 use crate::pair::{
     self, DepthAnswer, DepthCache, DepthConfig, DepthEnding, FeatureKind, Fill, Manifold, ManifoldCache,
     ManifoldConfig, ManifoldPoint, Outcome, SignedDistance, Sink, manifold_into,
 };
-use crate::shape::Shape;
 use std::ffi::c_char;
 
 // --- Depth ---------------------------------------------------------------------------------------------------------------
@@ -72,10 +71,8 @@ const _: () = {
 /// Arguments and errors as of swiftprox_pair_distance; the cache is one for depths alone, and config may be null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_depth(
-    shape1: *const Shape,
-    pose1: *const f64,
-    shape2: *const Shape,
-    pose2: *const f64,
+    object1: CPlaced,
+    object2: CPlaced,
     cache: *mut CDepthCache,
     config: *const CDepthConfig,
     answer: *mut DepthAnswer,
@@ -87,12 +84,9 @@ pub unsafe extern "C" fn swiftprox_pair_depth(
         // SAFETY: not null, writable by the caller; what was there before is not looked at.
         unsafe { answer.write(DepthAnswer::default()) };
         // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
-        let (shape1, pose1, shape2, pose2, cache, config, answer) = unsafe {
+        let (bodies, cache, config, answer) = unsafe {
             (
-                input(shape1, "shape1")?,
-                input(pose1.cast::<Pose>(), "pose1")?,
-                input(shape2, "shape2")?,
-                input(pose2.cast::<Pose>(), "pose2")?,
+                bodies(object1, object2)?,
                 exclusive(cache.cast::<DepthCache>(), "cache")?,
                 read_struct(config, CDepthConfig::DEFAULT)?,
                 exclusive(answer, "answer")?,
@@ -104,7 +98,7 @@ pub unsafe extern "C" fn swiftprox_pair_depth(
             relative_error: config.relative_error,
             step_budget: config.step_budget,
         };
-        Ok(pair::depth([shape1.at(pose1), shape2.at(pose2)], cache, &config, answer)?)
+        Ok(pair::depth(bodies, cache, &config, answer)?)
     });
     if status == StatusCode::ErrorBug {
         // SAFETY: null or writable by the caller.
@@ -126,26 +120,16 @@ pub unsafe extern "C" fn swiftprox_pair_depth(
 /// Errors as of swiftprox_pair_verify.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_depth_verify(
-    shape1: *const Shape,
-    pose1: *const f64,
-    shape2: *const Shape,
-    pose2: *const f64,
+    object1: CPlaced,
+    object2: CPlaced,
     cache: *const CDepthCache,
     answer: *const DepthAnswer,
 ) -> StatusCode {
     guard(|| {
         // SAFETY: the header's pointer rules.
-        let (shape1, pose1, shape2, pose2, cache, answer) = unsafe {
-            (
-                input(shape1, "shape1")?,
-                input(pose1.cast::<Pose>(), "pose1")?,
-                input(shape2, "shape2")?,
-                input(pose2.cast::<Pose>(), "pose2")?,
-                input(cache.cast::<DepthCache>(), "cache")?,
-                read_depth(answer)?,
-            )
-        };
-        Ok(verify_depth([shape1.at(pose1), shape2.at(pose2)], cache, answer)?)
+        let (bodies, cache, answer) =
+            unsafe { (bodies(object1, object2)?, input(cache.cast::<DepthCache>(), "cache")?, read_depth(answer)?) };
+        Ok(verify_depth(bodies, cache, answer)?)
     })
 }
 
@@ -208,6 +192,18 @@ unsafe fn read_depth<'a>(answer: *const DepthAnswer) -> Checked<&'a DepthAnswer>
 
 // --- Manifolds -----------------------------------------------------------------------------------------------------------
 
+/// Where swiftprox_pair_manifold writes points, by value. `{points, capacity, NULL}` asks for points alone.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CManifoldRoom {
+    /// Room for `capacity` points; null if that is 0.
+    pub points: *mut ManifoldPoint,
+    /// How many points there is room for. What is beyond is left out, and swiftprox_manifold.found_count counts it.
+    pub capacity: usize,
+    /// Receives what swiftprox_pair_signed_distance says of the pair, at no further search; or null.
+    pub distance: *mut SignedDistance,
+}
+
 /// What a manifold query is asked for. Begin with SWIFTPROX_MANIFOLD_CONFIG_DEFAULT, then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
@@ -262,10 +258,8 @@ const _: () = {
 /// budgets are not looked at. Arguments and errors as of swiftprox_pair_distance; the cache is that of the pair's manifolds.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_signed_distance(
-    shape1: *const Shape,
-    pose1: *const f64,
-    shape2: *const Shape,
-    pose2: *const f64,
+    object1: CPlaced,
+    object2: CPlaced,
     cache: *mut CManifoldCache,
     config: *const CPairConfig,
     answer: *mut SignedDistance,
@@ -277,18 +271,14 @@ pub unsafe extern "C" fn swiftprox_pair_signed_distance(
         // SAFETY: not null, writable by the caller; what was there before is not looked at.
         unsafe { answer.write(SignedDistance::default()) };
         // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
-        let (shape1, pose1, shape2, pose2, cache, config, answer) = unsafe {
+        let (bodies, cache, config, answer) = unsafe {
             (
-                input(shape1, "shape1")?,
-                input(pose1.cast::<Pose>(), "pose1")?,
-                input(shape2, "shape2")?,
-                input(pose2.cast::<Pose>(), "pose2")?,
+                bodies(object1, object2)?,
                 exclusive(cache.cast::<ManifoldCache>(), "cache")?,
                 read_config(config)?,
                 exclusive(answer, "answer")?,
             )
         };
-        let bodies = [shape1.at(pose1), shape2.at(pose2)];
         Ok(pair::signed_distance(bodies, &mut cache.signed_distance, &config, answer)?)
     });
     if status == StatusCode::ErrorBug {
@@ -299,8 +289,8 @@ pub unsafe extern "C" fn swiftprox_pair_signed_distance(
 }
 
 /// Where two objects meet, or are up to config->margin apart: pairs of points along the normal of least overlap or of the shortest
-/// connection, each with its gap. `points` has room for `capacity` of them; what is beyond is left out, and manifold->found_count
-/// says how many there are. Objects farther apart have none, and their outcome is SWIFTPROX_OUTCOME_BEYOND.
+/// connection, each with its gap. They are written to room.points, as many as there is room for; manifold->found_count says how
+/// many there are. room.distance, if not null, receives what swiftprox_pair_signed_distance says of the pair. Objects farther apart have none, and their outcome is SWIFTPROX_OUTCOME_BEYOND.
 ///
 /// Manifolds are made over faces as they were meant: what could lie in one plane up to the shape's face_noise
 /// (swiftprox_shape_options). Gap intervals hold for the exact objects: they contain by how much such a face is not flat. Points
@@ -308,63 +298,27 @@ pub unsafe extern "C" fn swiftprox_pair_signed_distance(
 /// to each other than 3e-8 of it, or four times what such faces are thick, are one. One of the points is as deep as the objects
 /// are. It is not certified that a face is complete.
 ///
-/// Arguments and errors as of swiftprox_pair_distance; the cache is one for manifolds alone. points may be null if capacity is 0.
-/// On failure the manifold is reset, and points are as they were.
+/// Arguments and errors as of swiftprox_pair_distance; the cache is one for manifolds alone. On failure
+/// the manifold is reset, and points are as they were.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_manifold(
-    shape1: *const Shape,
-    pose1: *const f64,
-    shape2: *const Shape,
-    pose2: *const f64,
+    object1: CPlaced,
+    object2: CPlaced,
     cache: *mut CManifoldCache,
     config: *const CManifoldConfig,
-    points: *mut ManifoldPoint,
-    capacity: usize,
+    room: CManifoldRoom,
     manifold: *mut Manifold,
 ) -> StatusCode {
-    let mut distance = SignedDistance::default();
-    // SAFETY: the header's pointer rules.
-    unsafe {
-        swiftprox_pair_manifold_with_distance(
-            shape1,
-            pose1,
-            shape2,
-            pose2,
-            cache,
-            config,
-            points,
-            capacity,
-            manifold,
-            &raw mut distance,
-        )
-    }
-}
-
-/// As swiftprox_pair_manifold, with what swiftprox_pair_signed_distance says of the pair, at no further search: the distance or
-/// minus the depth, and the witness points. `distance` is reset on failure, too.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_pair_manifold_with_distance(
-    shape1: *const Shape,
-    pose1: *const f64,
-    shape2: *const Shape,
-    pose2: *const f64,
-    cache: *mut CManifoldCache,
-    config: *const CManifoldConfig,
-    points: *mut ManifoldPoint,
-    capacity: usize,
-    manifold: *mut Manifold,
-    distance: *mut SignedDistance,
-) -> StatusCode {
+    let CManifoldRoom { points, capacity, distance } = room;
+    let mut unasked = SignedDistance::default();
+    let distance = if distance.is_null() { &raw mut unasked } else { distance };
     let status = guard(|| {
         // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
-        let (shape1, pose1, shape2, pose2, cache, config, distance) = unsafe {
+        let (bodies, cache, config, distance) = unsafe {
             output(manifold, "manifold", Manifold::default())?;
             output(distance, "distance", SignedDistance::default())?;
             (
-                input(shape1, "shape1")?,
-                input(pose1.cast::<Pose>(), "pose1")?,
-                input(shape2, "shape2")?,
-                input(pose2.cast::<Pose>(), "pose2")?,
+                bodies(object1, object2)?,
                 exclusive(cache.cast::<ManifoldCache>(), "cache")?,
                 read_manifold_config(config)?,
                 exclusive(distance, "distance")?,
@@ -379,7 +333,6 @@ pub unsafe extern "C" fn swiftprox_pair_manifold_with_distance(
             });
         };
         let mut sink = Sink { capacity, written: 0, write: &mut write };
-        let bodies = [shape1.at(pose1), shape2.at(pose2)];
         let found = manifold_into(bodies, cache, &config, &mut sink, distance)?;
         // SAFETY: not null, writable by the caller.
         unsafe { manifold.write(found) };
@@ -396,7 +349,7 @@ pub unsafe extern "C" fn swiftprox_pair_manifold_with_distance(
 }
 
 /// Re-checks a manifold, trusting nothing of the search that found it; config is that of the query, and `cache` too, or any other:
-/// then a proof of the depth is searched for. `points` holds `count` points, those of the manifold first. SWIFTPROX_OK: it holds
+/// then a proof of the depth is searched for. `points` holds the manifold's, manifold->point_count of them. SWIFTPROX_OK: it holds
 /// for these shapes and poses.
 ///
 /// Verdict and interval are proved for the exact objects R*v + T, with no tolerance, as by swiftprox_pair_verify and
@@ -410,37 +363,30 @@ pub unsafe extern "C" fn swiftprox_pair_manifold_with_distance(
 /// b is that allowance, 2^-25 of the pair's size (both radii and the distance of the centres) and eight times what contact faces
 /// are thick at most. That a face is complete is not checked.
 ///
-/// SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT also for fewer points than
-/// the manifold has. Others as of swiftprox_pair_verify and swiftprox_pair_manifold.
+/// SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. Others as of swiftprox_pair_verify and swiftprox_pair_manifold.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_manifold_verify(
-    shape1: *const Shape,
-    pose1: *const f64,
-    shape2: *const Shape,
-    pose2: *const f64,
+    object1: CPlaced,
+    object2: CPlaced,
     cache: *const CManifoldCache,
     config: *const CManifoldConfig,
     points: *const ManifoldPoint,
-    count: usize,
     manifold: *const Manifold,
 ) -> StatusCode {
     guard(|| {
         // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
-        let (shape1, pose1, shape2, pose2, cache, config, points, manifold) = unsafe {
+        let (bodies, cache, config, points, manifold) = unsafe {
             let manifold = read_manifold(manifold)?;
-            check_room(points, "points", count)?;
+            check_room(points, "points", manifold.point_count as usize)?;
             (
-                input(shape1, "shape1")?,
-                input(pose1.cast::<Pose>(), "pose1")?,
-                input(shape2, "shape2")?,
-                input(pose2.cast::<Pose>(), "pose2")?,
+                bodies(object1, object2)?,
                 input(cache.cast::<ManifoldCache>(), "cache")?,
                 read_manifold_config(config)?,
-                read_points(points, count.min(manifold.point_count as usize))?,
+                read_points(points, manifold.point_count as usize)?,
                 manifold,
             )
         };
-        Ok(verify_manifold([shape1.at(pose1), shape2.at(pose2)], cache, &config, manifold, points)?)
+        Ok(verify_manifold(bodies, cache, &config, manifold, points)?)
     })
 }
 

@@ -1,14 +1,13 @@
 //! Bodies and half-spaces.
 
-use super::depth::{CManifoldConfig, check_room, read_manifold_config};
+use super::depth::{CManifoldConfig, CManifoldRoom, check_room, read_manifold_config};
 use super::failure::StatusCode;
 use super::guard::guard;
+use super::pair::{CPlaced, body};
 use super::pointers::{input, output};
-use crate::base::math::Pose;
 use crate::pair::{
     Fill, HalfSpace, Manifold, ManifoldPoint, SignedDistance, Sink, half_space_distance, half_space_manifold_into,
 };
-use crate::shape::Shape;
 
 /// The distance of a shape, which is object 1, from a half-space, or minus its depth, as of swiftprox_pair_signed_distance: the
 /// interval holds for the exact shape and plane, and touching is decided in integers. The normal of the answer is the
@@ -18,8 +17,7 @@ use crate::shape::Shape;
 /// SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_half_space_distance(
-    shape: *const Shape,
-    pose: *const f64,
+    object: CPlaced,
     half_space: *const HalfSpace,
     answer: *mut SignedDistance,
 ) -> StatusCode {
@@ -27,8 +25,8 @@ pub unsafe extern "C" fn swiftprox_pair_half_space_distance(
         // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
         unsafe {
             output(answer, "answer", SignedDistance::default())?;
-            let (shape, pose) = (input(shape, "shape")?, input(pose.cast::<Pose>(), "pose")?);
-            output(answer, "answer", half_space_distance(shape.at(pose), input(half_space, "half_space")?)?)
+            let object = body(object, ["object.shape", "object.pose"])?;
+            output(answer, "answer", half_space_distance(object, input(half_space, "half_space")?)?)
         }
     })
 }
@@ -41,21 +39,22 @@ pub unsafe extern "C" fn swiftprox_pair_half_space_distance(
 /// they were.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_half_space_manifold(
-    shape: *const Shape,
-    pose: *const f64,
+    object: CPlaced,
     half_space: *const HalfSpace,
     config: *const CManifoldConfig,
-    points: *mut ManifoldPoint,
-    capacity: usize,
+    room: CManifoldRoom,
     manifold: *mut Manifold,
 ) -> StatusCode {
+    let CManifoldRoom { points, capacity, distance } = room;
     guard(|| {
-        // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
-        let (shape, pose, half_space, config) = unsafe {
+        // SAFETY: the header's pointer rules.
+        let (object, half_space, config) = unsafe {
             output(manifold, "manifold", Manifold::default())?;
+            if !distance.is_null() {
+                distance.write(SignedDistance::default());
+            }
             (
-                input(shape, "shape")?,
-                input(pose.cast::<Pose>(), "pose")?,
+                body(object, ["object.shape", "object.pose"])?,
                 input(half_space, "half_space")?,
                 read_manifold_config(config)?,
             )
@@ -69,8 +68,13 @@ pub unsafe extern "C" fn swiftprox_pair_half_space_manifold(
             });
         };
         let mut sink = Sink { capacity, written: 0, write: &mut write };
-        let found = half_space_manifold_into(shape.at(pose), half_space, &config, &mut sink)?;
-        // SAFETY: not null, writable by the caller.
-        unsafe { output(manifold, "manifold", found) }
+        let found = half_space_manifold_into(object, half_space, &config, &mut sink)?;
+        // SAFETY: the header's pointer rules.
+        unsafe {
+            if !distance.is_null() {
+                distance.write(half_space_distance(object, half_space)?);
+            }
+            output(manifold, "manifold", found)
+        }
     })
 }

@@ -57,6 +57,16 @@ impl CPairConfig {
     };
 }
 
+/// A shape where it is: an argument of pair queries, by value. Both pointers are only read during the call.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CPlaced {
+    /// The shape.
+    pub shape: *const Shape,
+    /// Where it is: 12 doubles, the row-major 3x4 matrix [R|T].
+    pub pose: *const f64,
+}
+
 /// What a pair remembers from its last query, for the caller to keep: all zero is cold, any bytes are safe. It changes how fast
 /// an answer comes, never the verdict. What the words mean is the library's own.
 #[derive(Debug, Clone, Copy, Default)]
@@ -86,16 +96,14 @@ const _: () = {
 /// SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_BUG: the cache is reset, too.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_distance(
-    shape1: *const Shape,
-    pose1: *const f64,
-    shape2: *const Shape,
-    pose2: *const f64,
+    object1: CPlaced,
+    object2: CPlaced,
     cache: *mut CPairCache,
     config: *const CPairConfig,
     answer: *mut PairAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { query(pair::distance, [(shape1, pose1), (shape2, pose2)], cache, config, answer) }
+    unsafe { query(pair::distance, [object1, object2], cache, config, answer) }
 }
 
 /// The verdict alone: SWIFTPROX_OUTCOME_INTERSECTING, or SWIFTPROX_OUTCOME_SEPARATED with lower > 0 and an upper that holds but
@@ -103,16 +111,14 @@ pub unsafe extern "C" fn swiftprox_pair_distance(
 /// intersect or nearly do. Arguments and errors as of swiftprox_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_intersection(
-    shape1: *const Shape,
-    pose1: *const f64,
-    shape2: *const Shape,
-    pose2: *const f64,
+    object1: CPlaced,
+    object2: CPlaced,
     cache: *mut CPairCache,
     config: *const CPairConfig,
     answer: *mut PairAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { query(pair::intersection, [(shape1, pose1), (shape2, pose2)], cache, config, answer) }
+    unsafe { query(pair::intersection, [object1, object2], cache, config, answer) }
 }
 
 /// As swiftprox_pair_distance, and of an intersecting pair a common point (as witness point of both objects), the unit normal along
@@ -120,16 +126,14 @@ pub unsafe extern "C" fn swiftprox_pair_intersection(
 /// each other, and where. Arguments and errors as of swiftprox_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_contact(
-    shape1: *const Shape,
-    pose1: *const f64,
-    shape2: *const Shape,
-    pose2: *const f64,
+    object1: CPlaced,
+    object2: CPlaced,
     cache: *mut CPairCache,
     config: *const CPairConfig,
     answer: *mut PairAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { query(pair::contact, [(shape1, pose1), (shape2, pose2)], cache, config, answer) }
+    unsafe { query(pair::contact, [object1, object2], cache, config, answer) }
 }
 
 /// The distance as narrow as asked for, or as exact answers are: the query stops as soon as upper - lower is at most
@@ -140,16 +144,14 @@ pub unsafe extern "C" fn swiftprox_pair_contact(
 /// comes from maps of support functions or from levels of detail. Arguments and errors as of swiftprox_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_approximate(
-    shape1: *const Shape,
-    pose1: *const f64,
-    shape2: *const Shape,
-    pose2: *const f64,
+    object1: CPlaced,
+    object2: CPlaced,
     cache: *mut CPairCache,
     config: *const CPairConfig,
     answer: *mut PairAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { query(pair::approximate, [(shape1, pose1), (shape2, pose2)], cache, config, answer) }
+    unsafe { query(pair::approximate, [object1, object2], cache, config, answer) }
 }
 
 /// Re-checks an answer, trusting nothing of the search that found it. SWIFTPROX_OK: it holds for these shapes and poses.
@@ -172,25 +174,37 @@ pub unsafe extern "C" fn swiftprox_pair_approximate(
 /// apart that doubles cannot tell. SWIFTPROX_ERROR_POSE, SWIFTPROX_ERROR_NULL_POINTER: as of swiftprox_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_verify(
-    shape1: *const Shape,
-    pose1: *const f64,
-    shape2: *const Shape,
-    pose2: *const f64,
+    object1: CPlaced,
+    object2: CPlaced,
     answer: *const PairAnswer,
 ) -> StatusCode {
     guard(|| {
         // SAFETY: the header's pointer rules.
-        let (shape1, pose1, shape2, pose2, answer) = unsafe {
-            (
-                input(shape1, "shape1")?,
-                input(pose1.cast::<Pose>(), "pose1")?,
-                input(shape2, "shape2")?,
-                input(pose2.cast::<Pose>(), "pose2")?,
-                read_answer(answer)?,
-            )
-        };
-        Ok(verify([shape1.at(pose1), shape2.at(pose2)], answer)?)
+        let (bodies, answer) = unsafe { (bodies(object1, object2)?, read_answer(answer)?) };
+        Ok(verify(bodies, answer)?)
     })
+}
+
+/// A shape where it is, in Rust's terms.
+///
+/// # Safety
+/// The pointers meet the header's pointer rules for `'a`.
+#[inline(always)]
+pub(super) unsafe fn body<'a>(object: CPlaced, names: [&str; 2]) -> Checked<Placed<'a>> {
+    // SAFETY: by the caller; a pose is twelve doubles, row by row, as is `Pose`.
+    unsafe { Ok(input(object.shape, names[0])?.at(input(object.pose.cast::<Pose>(), names[1])?)) }
+}
+
+/// The two of a pair.
+///
+/// # Safety
+/// As of [`body`].
+#[inline(always)]
+pub(super) unsafe fn bodies<'a>(object1: CPlaced, object2: CPlaced) -> Checked<[Placed<'a>; 2]> {
+    // SAFETY: by the caller.
+    unsafe {
+        Ok([body(object1, ["object1.shape", "object1.pose"])?, body(object2, ["object2.shape", "object2.pose"])?])
+    }
 }
 
 /// Checks the arguments of a query and runs it. `run` is one of the functions of `pair`, as a type of its own rather than as a
@@ -201,7 +215,7 @@ pub unsafe extern "C" fn swiftprox_pair_verify(
 #[inline(always)]
 unsafe fn query(
     run: impl Fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>,
-    [(shape1, pose1), (shape2, pose2)]: [(*const Shape, *const f64); 2],
+    [object1, object2]: [CPlaced; 2],
     cache: *mut CPairCache,
     config: *const CPairConfig,
     answer: *mut PairAnswer,
@@ -209,13 +223,10 @@ unsafe fn query(
     // SAFETY: the caller's; a pose is twelve doubles, row by row, as is `Pose`.
     let status = caught(move || unsafe {
         let answer = write_answer(answer)?;
-        let shape1 = input(shape1, "shape1")?;
-        let pose1 = input(pose1.cast::<Pose>(), "pose1")?;
-        let shape2 = input(shape2, "shape2")?;
-        let pose2 = input(pose2.cast::<Pose>(), "pose2")?;
+        let bodies = bodies(object1, object2)?;
         let cache = exclusive(cache.cast::<PairCache>(), "cache")?;
         let config = read_config(config)?;
-        Ok(run([shape1.at(pose1), shape2.at(pose2)], cache, &config, answer)?)
+        Ok(run(bodies, cache, &config, answer)?)
     });
     if status != StatusCode::Ok {
         // SAFETY: the caller's.
@@ -326,19 +337,13 @@ mod tests {
         let shape = Shape::from_points(&corners, &ShapeOptions::default()).unwrap();
         let poses = [0.0, 3.0].map(|x| [1.0, 0.0, 0.0, x, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0]);
         let ask = |inject: bool, cache: &mut CPairCache, answer: &mut PairAnswer| {
-            let (pose1, pose2) = (poses[0].as_ptr(), poses[1].as_ptr());
+            let objects = poses.each_ref().map(|pose| CPlaced { shape: &shape, pose: pose.as_ptr() });
             // SAFETY: every pointer is valid, and cache and answer are this call's.
             unsafe {
                 if inject {
-                    query(
-                        |_, _, _, _| panic!("injected"),
-                        [(&raw const shape, pose1), (&raw const shape, pose2)],
-                        cache,
-                        null(),
-                        answer,
-                    )
+                    query(|_, _, _, _| panic!("injected"), objects, cache, null(), answer)
                 } else {
-                    swiftprox_pair_distance(&shape, pose1, &shape, pose2, cache, null(), answer)
+                    swiftprox_pair_distance(objects[0], objects[1], cache, null(), answer)
                 }
             }
         };

@@ -140,7 +140,15 @@ fn what_a_failed_call_does_not_say_is_nan() {
                 let mut cache = CPairCache::default();
                 let cache: *mut CPairCache = if has_cache { &mut cache } else { null_mut() };
                 // SAFETY: every pointer is valid or null.
-                let status = unsafe { query(shape1, pose1, shape2, pose2, cache, config, &mut answer) };
+                let status = unsafe {
+                    query(
+                        CPlaced { shape: shape1, pose: pose1 },
+                        CPlaced { shape: shape2, pose: pose2 },
+                        cache,
+                        config,
+                        &mut answer,
+                    )
+                };
                 assert_ne!(status, StatusCode::Ok, "{i}");
                 let PairAnswer { distance, lower, upper, local1, local2, world1, world2, normal, .. } = answer;
                 let vectors = [local1, local2, world1, world2, normal];

@@ -55,6 +55,11 @@ fn shape_tuning() -> CShapeTuning {
     CShapeTuning::DEFAULT
 }
 
+/// A shape where it is.
+fn placed(shape: *const Shape, pose: &[f64; 12]) -> CPlaced {
+    CPlaced { shape, pose: pose.as_ptr() }
+}
+
 fn release(shape: *const Shape) {
     // SAFETY: a living shape whose share is given up.
     unsafe { swiftprox_shape_release(shape) };
@@ -74,10 +79,8 @@ fn distance(shape: *const Shape, cache: &mut CPairCache, config: *const CPairCon
         answer.as_mut_ptr().cast::<u8>().write_bytes(0xa5, size_of::<PairAnswer>());
         let poses = [moved(0.0), moved(3.0)];
         let status = swiftprox_pair_distance(
-            shape,
-            poses[0].as_ptr(),
-            shape,
-            poses[1].as_ptr(),
+            placed(shape, &poses[0]),
+            placed(shape, &poses[1]),
             cache,
             config,
             answer.as_mut_ptr(),
@@ -190,7 +193,7 @@ fn unknown_enumerators_are_refused() {
     unsafe {
         let (_, answer) = distance(shape, &mut CPairCache::default(), null());
         let poses = [moved(0.0), moved(3.0)];
-        let verify = |answer| swiftprox_pair_verify(shape, poses[0].as_ptr(), shape, poses[1].as_ptr(), answer);
+        let verify = |answer| swiftprox_pair_verify(placed(shape, &poses[0]), placed(shape, &poses[1]), answer);
         assert_eq!(verify(&answer), StatusCode::Ok, "{}", last_message());
         for member in [std::mem::offset_of!(PairAnswer, outcome), std::mem::offset_of!(PairAnswer, decided_by)] {
             let mut changed = MaybeUninit::new(answer);
@@ -234,9 +237,9 @@ fn an_answer_beyond_the_tolerance_says_what_is_documented() {
                 let mut answer = PairAnswer::default();
                 // SAFETY: every pointer is valid.
                 unsafe {
-                    let status = query(shape, here.as_ptr(), shape, there.as_ptr(), &mut cache, &config, &mut answer);
+                    let status = query(placed(shape, &here), placed(shape, &there), &mut cache, &config, &mut answer);
                     assert_eq!((status, answer.outcome), (StatusCode::Ok, Outcome::Beyond), "{x}: {}", last_message());
-                    let status = swiftprox_pair_verify(shape, here.as_ptr(), shape, there.as_ptr(), &answer);
+                    let status = swiftprox_pair_verify(placed(shape, &here), placed(shape, &there), &answer);
                     assert_eq!(status, StatusCode::Ok, "{}", last_message());
                 }
                 assert!(answer.lower >= tolerance && answer.lower <= x - 1.0, "{answer:?}");

@@ -9,7 +9,7 @@ use std::path::Path;
 use std::process::Command;
 
 use swiftprox::ffi::decomposition::CDecomposition;
-use swiftprox::ffi::depth::{CDepthCache, CDepthConfig, CManifoldCache, CManifoldConfig};
+use swiftprox::ffi::depth::{CDepthCache, CDepthConfig, CManifoldCache, CManifoldConfig, CManifoldRoom};
 use swiftprox::ffi::ground::{GroundCount, GroundInfo};
 use swiftprox::ffi::level::{CMesh, LevelInfo};
 use swiftprox::ffi::listener::CListenerEvents;
@@ -17,7 +17,7 @@ use swiftprox::ffi::motion::{CCastConfig, CClearanceConfig, CMotion};
 use swiftprox::ffi::object::{CObjectOptions, ObjectInfo};
 use swiftprox::ffi::object_query::CSceneEvents;
 use swiftprox::ffi::object_set::{CObjectSet, CSceneRayAnswer};
-use swiftprox::ffi::pair::{CPairCache, CPairConfig};
+use swiftprox::ffi::pair::{CPairCache, CPairConfig, CPlaced};
 use swiftprox::ffi::pair_batch::CPairQuestion;
 use swiftprox::ffi::query::{CSceneAnswer, CSceneContacts, CSceneQuery};
 use swiftprox::ffi::record::CReplayStep;
@@ -97,6 +97,7 @@ fn layouts() -> Vec<Layout> {
             outcome, decided_by, distance, lower, upper, local1, local2, world1, world2, normal, feature1,
             feature2, proof, proof_count, statistics
         },
+        swiftprox_placed = CPlaced { shape, pose },
         swiftprox_pair_cache = CPairCache { words },
         swiftprox_pair_config = CPairConfig {
             struct_size, distance_tolerance, rotation_limit, absolute_error, relative_error, step_budget,
@@ -119,6 +120,7 @@ fn layouts() -> Vec<Layout> {
             local1, local2, world1, world2, gap_lower, gap_upper, feature1, feature2, id
         },
         swiftprox_manifold = Manifold { outcome, reference, lower, upper, normal, point_count, found_count },
+        swiftprox_manifold_room = CManifoldRoom { points, capacity, distance },
         swiftprox_manifold_config = CManifoldConfig { struct_size, rotation_limit, margin, reduces },
         swiftprox_scene_options = CSceneOptions {
             struct_size, rotation_limit, worker_count, enqueue_task, finish_task, task_user

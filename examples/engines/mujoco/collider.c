@@ -73,8 +73,9 @@ static int collide(const mjModel *model, mjData *data, mjPreContact *contacts, i
     pose_of(data, geom2, pose2);
     swiftprox_manifold manifold;
     swiftprox_manifold_point points[4];
-    if (swiftprox_pair_manifold(collider.shapes[geom1], pose1, collider.shapes[geom2], pose2, *cache, &config, points, 4,
-                                &manifold) != SWIFTPROX_OK) {
+    if (swiftprox_pair_manifold((swiftprox_placed){collider.shapes[geom1], pose1},
+                                (swiftprox_placed){collider.shapes[geom2], pose2}, *cache, &config,
+                                (swiftprox_manifold_room){points, 4, NULL}, &manifold) != SWIFTPROX_OK) {
         mju_warning("swiftprox: %s", swiftprox_library_last_error_message());
         return 0;
     }

@@ -84,7 +84,15 @@ impl Program {
         // SAFETY: living shapes or null, blocks of the sizes that the header names.
         unsafe {
             let cache = &raw mut self.caches[slot];
-            let ask = || query(shape1, pose1.at(), shape2, pose2.at(), cache, start(&config), answer.at());
+            let ask = || {
+                query(
+                    CPlaced { shape: shape1, pose: pose1.at() },
+                    CPlaced { shape: shape2, pose: pose2.at() },
+                    cache,
+                    start(&config),
+                    answer.at(),
+                )
+            };
             let status = ask_alike(self.environment, cache, answer.at(), ask);
             let said = answer.at::<PairAnswer>().read();
             assert_eq!(status == StatusCode::Ok, said.outcome != Outcome::None, "{}", last_message());

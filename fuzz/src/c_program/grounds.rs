@@ -7,6 +7,7 @@ use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::depth::*;
 use swiftprox::ffi::ground::*;
 use swiftprox::ffi::half_space::*;
+use swiftprox::ffi::pair::CPlaced;
 use swiftprox::ground::{Ground, GroundContact, GroundDistance};
 use swiftprox::pair::{HalfSpace, Manifold, ManifoldPoint, Outcome, SignedDistance};
 
@@ -105,8 +106,9 @@ impl Program {
             let target = or_null(u, answer.at::<SignedDistance>())?;
             // SAFETY: living handles or null, blocks of the sizes that the header names.
             return Ok(unsafe {
-                let status =
-                    inside(self.environment, || swiftprox_pair_half_space_distance(shape, pose, plane, target));
+                let status = inside(self.environment, || {
+                    swiftprox_pair_half_space_distance(CPlaced { shape, pose }, plane, target)
+                });
                 if !target.is_null() {
                     assert_eq!(status == StatusCode::Ok, target.read().outcome != Outcome::None, "{}", last_message());
                 }
@@ -122,7 +124,13 @@ impl Program {
         // SAFETY: as above.
         Ok(unsafe {
             let status = inside(self.environment, || {
-                swiftprox_pair_half_space_manifold(shape, pose, plane, start(&config), points, room, target)
+                swiftprox_pair_half_space_manifold(
+                    CPlaced { shape, pose },
+                    plane,
+                    start(&config),
+                    CManifoldRoom { points, capacity: room, distance: std::ptr::null_mut() },
+                    target,
+                )
             });
             if !target.is_null() {
                 let Manifold { outcome, point_count, .. } = target.read();

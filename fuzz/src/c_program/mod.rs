@@ -130,7 +130,11 @@ impl Program {
 unsafe fn check_verified(shapes: [*const Shape; 2], poses: [*const f64; 2], answer: &PairAnswer) {
     // SAFETY: as above.
     let (status, shapes, poses) = unsafe {
-        let status = swiftprox_pair_verify(shapes[0], poses[0], shapes[1], poses[1], answer);
+        let status = swiftprox_pair_verify(
+            CPlaced { shape: shapes[0], pose: poses[0] },
+            CPlaced { shape: shapes[1], pose: poses[1] },
+            answer,
+        );
         (status, shapes.map(|shape| &*shape), poses.map(|pose| &*pose.cast::<[f64; 12]>()))
     };
     let beyond = status == StatusCode::ErrorInvalidArgument && last_message().contains("too large or too far apart");

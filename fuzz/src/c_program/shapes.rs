@@ -216,7 +216,15 @@ impl Program {
         let target = or_null(u, answer.at::<PairAnswer>())?;
         // SAFETY: living shapes, blocks of the sizes that the header names, or null.
         unsafe {
-            let ask = || query(shape1, pointer1, shape2, pointer2, cache, start(&config), target);
+            let ask = || {
+                query(
+                    CPlaced { shape: shape1, pose: pointer1 },
+                    CPlaced { shape: shape2, pose: pointer2 },
+                    cache,
+                    start(&config),
+                    target,
+                )
+            };
             let status = ask_alike(self.environment, cache, target, ask);
             if target.is_null() {
                 assert_eq!(status, StatusCode::ErrorNullPointer);
@@ -248,7 +256,13 @@ impl Program {
         let answer = or_null(u, answer.at::<PairAnswer>())?;
         // SAFETY: living shapes, blocks of the sizes that the header names, or null.
         Ok(unsafe {
-            inside(self.environment, || swiftprox_pair_verify(shape1, pose1.at(), shape2, pose2.at(), answer))
+            inside(self.environment, || {
+                swiftprox_pair_verify(
+                    CPlaced { shape: shape1, pose: pose1.at() },
+                    CPlaced { shape: shape2, pose: pose2.at() },
+                    answer,
+                )
+            })
         })
     }
 }

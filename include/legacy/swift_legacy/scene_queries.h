@@ -228,10 +228,10 @@ inline bool SWIFT_Scene::Get_Depth(int k, swiftprox_depth_answer& depth) const
             return false;
         }
     }
+    const swiftprox_placed objects[2] = {{shapes[0], infos[0].pose}, {shapes[1], infos[1].pose}};
     swiftprox_depth_cache cold;
     std::memset(&cold, 0, sizeof cold);
-    const swiftprox_status status =
-        swiftprox_pair_depth(shapes[0], infos[0].pose, shapes[1], infos[1].pose, &cold, NULL, &depth);
+    const swiftprox_status status = swiftprox_pair_depth(objects[0], objects[1], &cold, NULL, &depth);
     check(status, "Get_Depth");
     return status == SWIFTPROX_OK;
 }
