@@ -1808,9 +1808,36 @@ swiftprox_status swiftprox_scene_listen(struct swiftprox_scene *scene,
 /** @} */
 
 /**
- * @defgroup swiftprox_batch Many pairs at once
+ * @defgroup swiftprox_batch Many pairs, or many poses, at once
  * @{
  */
+
+/** A shape at one pose or at many: an argument of swiftprox_pair_distances, by value. All is only read during the call. */
+typedef struct swiftprox_poses {
+  /** The shape. */
+  const struct swiftprox_shape *shape;
+  /** 12 doubles for each pose, the row-major 3x4 matrix [R|T]. */
+  const double *poses;
+  /** How many poses; 1 for an object that stays where it is. */
+  size_t count;
+} swiftprox_poses;
+
+/**
+ * The distances of one pair at many poses, one after the other: bit for bit what swiftprox_pair_distance says with the one cache,
+ * which it leaves as those calls would. Either object has as many poses as there are answers, or one. `answers` has room for the
+ * larger count. `config` may be null for the defaults.
+ *
+ * A pose that is refused gets an answer that says nothing, and all others are answered; the message names the first by its number.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the counts differ, and neither is 1. Other errors as of swiftprox_pair_distance.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pair_distances(struct swiftprox_poses object1,
+                                          struct swiftprox_poses object2,
+                                          struct swiftprox_pair_cache *cache,
+                                          const struct swiftprox_pair_config *config,
+                                          struct swiftprox_pair_answer *answers);
 
 /** A pair to be asked. */
 typedef struct swiftprox_pair_question {

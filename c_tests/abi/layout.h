@@ -248,6 +248,11 @@ MEMBER(swiftprox_listener_events, count, 8, 8)
 MEMBER(swiftprox_listener_events, points, 16, 8)
 MEMBER(swiftprox_listener_events, point_count, 24, 8)
 
+STRUCT(swiftprox_poses, 24, 8)
+MEMBER(swiftprox_poses, shape, 0, 8)
+MEMBER(swiftprox_poses, poses, 8, 8)
+MEMBER(swiftprox_poses, count, 16, 8)
+
 STRUCT(swiftprox_pair_question, 40, 8)
 MEMBER(swiftprox_pair_question, shape1, 0, 8)
 MEMBER(swiftprox_pair_question, pose1, 8, 8)

@@ -389,6 +389,12 @@ static void lifetimes()
     CHECK_OK(swiftprox::try_batch(SWIFTPROX_QUERY_KIND_DISTANCE, questions, answers).status);
     CHECK(answers[0].lower <= 1 && answers[0].upper >= 1 && answers[1].lower <= 2 && answers[1].upper >= 2);
 
+    const std::vector<Pose> path{Pose::at(2, 0, 0), Pose::at(3, 0, 0)};
+    swiftprox::PairCache shared;
+    std::vector<swiftprox_pair_answer> along;
+    CHECK_OK(swiftprox::try_distances(box, std::vector<Pose>{Pose()}, box, path, shared, along).status);
+    CHECK(along.size() == 2 && along[0].lower <= 1 && along[0].upper >= 1 && along[1].lower <= 2 && along[1].upper >= 2);
+
     std::vector<Placed> placed;
     for (int i = 0; i < 4; ++i) {
         placed.emplace_back(box, Pose::at(3 * i, 0, 0));

@@ -39,7 +39,26 @@ inline Result<void> try_batch(swiftprox_query_kind kind, Range<const Question> q
         swiftprox_pair_batch(kind, pairs.data(), pairs.size(), &c, scene ? scene->get() : nullptr, answers.data()));
 }
 
+/** One pair at many poses: bit for bit what try_distance says with the one cache. Either has as many poses as the other, or one. */
+inline Result<void> try_distances(const Shape &a, Range<const Pose> poses_of_a, const Shape &b, Range<const Pose> poses_of_b,
+                                  PairCache &cache, std::vector<swiftprox_pair_answer> &answers, const PairConfig &config = {})
+{
+    const swiftprox_pair_config c = config.to_c();
+    answers.resize(poses_of_a.size() == 1 ? poses_of_b.size() : poses_of_a.size());
+    return detail::status(swiftprox_pair_distances({a.get(), detail::rows_of(poses_of_a), poses_of_a.size()},
+                                                   {b.get(), detail::rows_of(poses_of_b), poses_of_b.size()}, &cache, &c,
+                                                   answers.data()));
+}
+
 #if SWIFTPROX_HAS_EXCEPTIONS
+inline std::vector<swiftprox_pair_answer> distances(const Shape &a, Range<const Pose> poses_of_a, const Shape &b,
+                                                    Range<const Pose> poses_of_b, PairCache &cache,
+                                                    const PairConfig &config = {})
+{
+    std::vector<swiftprox_pair_answer> answers;
+    take(try_distances(a, poses_of_a, b, poses_of_b, cache, answers, config));
+    return answers;
+}
 inline std::vector<swiftprox_pair_answer> batch(swiftprox_query_kind kind, Range<const Question> questions,
                                                 const PairConfig &config = {}, const SceneView *scene = nullptr)
 {

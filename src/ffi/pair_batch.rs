@@ -1,14 +1,15 @@
-//! Many pairs at once.
+//! Many pairs, or many poses of one, at once.
 
 use super::enumerators::{QueryNumber, read_enumerator};
 use super::failure::{Checked, Failure, StatusCode};
-use super::guard::guard;
+use super::guard::{caught, guard};
 use super::pair::{CPairCache, CPairConfig, read_config};
 use super::pointers::{array, exclusive, input};
 use super::scene::{SceneHandle, change_guarded};
+use crate::base::error::Error;
 use crate::base::math::Pose;
 use crate::base::memory::with_capacity;
-use crate::pair::{PairAnswer, PairCache, PairQuestion, Query, batch};
+use crate::pair::{PairAnswer, PairCache, PairQuestion, Query, batch, distance};
 use crate::shape::Shape;
 
 /// A pair to be asked.
@@ -70,6 +71,78 @@ pub unsafe extern "C" fn swiftprox_pair_batch(
         }
     }
     status
+}
+
+/// A shape at one pose or at many: an argument of swiftprox_pair_distances, by value. All is only read during the call.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CPoses {
+    /// The shape.
+    pub shape: *const Shape,
+    /// 12 doubles for each pose, the row-major 3x4 matrix [R|T].
+    pub poses: *const f64,
+    /// How many poses; 1 for an object that stays where it is.
+    pub count: usize,
+}
+
+/// The distances of one pair at many poses, one after the other: bit for bit what swiftprox_pair_distance says with the one cache,
+/// which it leaves as those calls would. Either object has as many poses as there are answers, or one. `answers` has room for the
+/// larger count. `config` may be null for the defaults.
+///
+/// A pose that is refused gets an answer that says nothing, and all others are answered; the message names the first by its number.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the counts differ, and neither is 1. Other errors as of swiftprox_pair_distance.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_pair_distances(
+    object1: CPoses,
+    object2: CPoses,
+    cache: *mut CPairCache,
+    config: *const CPairConfig,
+    answers: *mut PairAnswer,
+) -> StatusCode {
+    let count = if object1.count == 1 { object2.count } else { object1.count };
+    // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
+    let status = caught(|| unsafe {
+        array(answers.cast_const(), count, "answers")?;
+        (0..count).for_each(|k| answers.add(k).write(PairAnswer::default()));
+        if object2.count != 1 && object2.count != count {
+            let message = format!(
+                "object1.count is {} and object2.count {}: give as many poses of both, or one of either",
+                object1.count, object2.count
+            );
+            return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
+        }
+        let (shape1, shape2) = (input(object1.shape, "object1.shape")?, input(object2.shape, "object2.shape")?);
+        let poses1 = array(object1.poses.cast::<Pose>(), object1.count, "object1.poses")?;
+        let poses2 = array(object2.poses.cast::<Pose>(), object2.count, "object2.poses")?;
+        let cache = exclusive(cache.cast::<PairCache>(), "cache")?;
+        let config = read_config(config)?;
+        let mut first = Ok(());
+        for k in 0..count {
+            let pose1 = if poses1.len() == 1 { &poses1[0] } else { &poses1[k] };
+            let pose2 = if poses2.len() == 1 { &poses2[0] } else { &poses2[k] };
+            let answer = &mut *answers.add(k);
+            if let Err(error) = distance([shape1.at(pose1), shape2.at(pose2)], cache, &config, answer) {
+                *answer = PairAnswer::default();
+                first = first.and(Err(refused_pose(error, k)));
+            }
+        }
+        first
+    });
+    if status == StatusCode::ErrorBug {
+        // SAFETY: the header's pointer rules; the bug came after all pointers had been looked at.
+        unsafe {
+            (0..count).for_each(|k| answers.add(k).write(PairAnswer::default()));
+            cache.write(CPairCache::default());
+        }
+    }
+    status
+}
+
+/// What is said of a pose that is refused.
+#[cold]
+fn refused_pose(error: Error, place: usize) -> Failure {
+    let failure = Failure::from(error);
+    Failure::new(failure.status, format!("pose {place}: {}", failure.message))
 }
 
 /// A failure of one of the pairs.

@@ -18,7 +18,7 @@ use swiftprox::ffi::object::{CObjectOptions, ObjectInfo};
 use swiftprox::ffi::object_query::CSceneEvents;
 use swiftprox::ffi::object_set::{CObjectSet, CSceneRayAnswer};
 use swiftprox::ffi::pair::{CPairCache, CPairConfig, CPlaced};
-use swiftprox::ffi::pair_batch::CPairQuestion;
+use swiftprox::ffi::pair_batch::{CPairQuestion, CPoses};
 use swiftprox::ffi::query::{CSceneAnswer, CSceneContacts, CSceneQuery};
 use swiftprox::ffi::record::CReplayStep;
 use swiftprox::ffi::scene::CSceneOptions;
@@ -143,6 +143,7 @@ fn layouts() -> Vec<Layout> {
         },
         swiftprox_point_event = PointEvent { id, point, state },
         swiftprox_listener_events = CListenerEvents { pairs, count, points, point_count },
+        swiftprox_poses = CPoses { shape, poses, count },
         swiftprox_pair_question = CPairQuestion { shape1, pose1, shape2, pose2, cache },
         swiftprox_object_pair = ObjectPair { object1, object2, user_data1, user_data2 },
         swiftprox_scene_events = CSceneEvents { began, began_count, ended, ended_count },
