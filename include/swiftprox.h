@@ -9,7 +9,11 @@
  *
  * Failure. What can fail returns a swiftprox_status: SWIFTPROX_OK is 0, and compilers warn where one is ignored.
  * swiftprox_library_last_error_message says what was wrong and where, for each thread. A call that fails
- * changes nothing but the outputs it names. What initialises, shares and releases returns none: a mistake there, such as a null
+ * changes nothing but the outputs it names. Comments name the errors of a function that surprise. These they do not repeat:
+ * SWIFTPROX_ERROR_NULL_POINTER, a pointer is null that must not be; SWIFTPROX_ERROR_STRUCT_SIZE, a struct was not begun with its
+ * constant, or an info's size was not set; SWIFTPROX_ERROR_POSE, a pose is refused; SWIFTPROX_ERROR_HANDLE, an id names no object
+ * of the scene; SWIFTPROX_ERROR_LIMIT, a count does not fit 32 bits; SWIFTPROX_ERROR_CANCELLED, a progress callback said so;
+ * SWIFTPROX_ERROR_MEMORY; of scenes SWIFTPROX_ERROR_POISONED and SWIFTPROX_ERROR_BUSY. What initialises, shares and releases returns none: a mistake there, such as a null
  * pointer, is ignored and told by that message and the log. Nothing is printed, nothing unwinds into the caller. A bug of the
  * library, when it is caught, comes back as SWIFTPROX_ERROR_BUG; a scene that was being changed answers
  * SWIFTPROX_ERROR_POISONED from then on and can only be destroyed. What a shape holds never changes once made, so no bug can
@@ -316,9 +320,7 @@ typedef struct swiftprox_shape_options {
  *
  * On failure `*shape` is null. `options` may be null for the defaults.
  *
- * SWIFTPROX_ERROR_MESH: the mesh breaks the contract, or a coordinate is not finite. SWIFTPROX_ERROR_LIMIT: a count does not fit
- * 32 bits. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_NULL_POINTER,
- * SWIFTPROX_ERROR_INVALID_ARGUMENT, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
+ * SWIFTPROX_ERROR_MESH: the mesh breaks the contract, or a coordinate is not finite.
  *
  * Stable.
  */
@@ -340,9 +342,6 @@ swiftprox_status swiftprox_shape_create_from_mesh(const double *vertices,
  *
  * SWIFTPROX_ERROR_MESH: a coordinate is not finite, or the options do not admit a hull of that dimension.
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: no points, or an option out of range. SWIFTPROX_ERROR_LIMIT: too many points.
- * SWIFTPROX_ERROR_MEMORY.
- * SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message
- * names the argument.
  *
  * Stable.
  */
@@ -364,10 +363,7 @@ swiftprox_status swiftprox_shape_create_from_points(const double *points,
  *
  * SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file (a pipe and a device are refused, not waited for), is larger
  * than 4 GiB (4,294,967,296 bytes) or does not parse; the message names the line, or the registered reader and what it says.
- * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_MESH: its mesh breaks the contract (see swiftprox_shape_create_from_mesh). Both messages
- * name the file.
- * SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_INVALID_ARGUMENT,
- * SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
+ * SWIFTPROX_ERROR_MESH: its mesh breaks the contract (see swiftprox_shape_create_from_mesh). Both messages name the file.
  *
  * Stable.
  */
@@ -382,7 +378,6 @@ swiftprox_status swiftprox_shape_create_from_file(const char *path,
  * for y, bit 2 for z. The caller owns the shape and gives it back with swiftprox_shape_release. On failure `*shape` is null.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: a half extent is not positive, or a number is negative, larger than 2^1000 or NaN.
- * SWIFTPROX_ERROR_NULL_POINTER. SWIFTPROX_ERROR_MEMORY.
  *
  * Stable.
  */
@@ -394,8 +389,7 @@ swiftprox_status swiftprox_shape_create_box(const double *half_extents,
 /**
  * Makes the sphere of a radius about the local origin. Owned and given back as any shape. On failure `*shape` is null.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the radius is negative, larger than 2^1000 or NaN. SWIFTPROX_ERROR_NULL_POINTER.
- * SWIFTPROX_ERROR_MEMORY.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the radius is negative, larger than 2^1000 or NaN.
  *
  * Stable.
  */
@@ -407,8 +401,7 @@ swiftprox_status swiftprox_shape_create_sphere(double radius,
  * Makes the capsule of a radius about the segment from (0, 0, -half_length), vertex 0, to (0, 0, half_length), vertex 1: a
  * cylinder along z with half a sphere at either end. Owned and given back as any shape. On failure `*shape` is null.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: a number is negative, larger than 2^1000 or NaN. SWIFTPROX_ERROR_NULL_POINTER.
- * SWIFTPROX_ERROR_MEMORY.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: a number is negative, larger than 2^1000 or NaN.
  *
  * Stable.
  */
@@ -476,8 +469,6 @@ typedef struct swiftprox_shape_info {
  * Says what a shape is: set info->struct_size to sizeof(swiftprox_shape_info) first. On failure real numbers are NaN, all else 0.
  * The inertia takes time in proportion to the triangles.
  *
- * SWIFTPROX_ERROR_NULL_POINTER: shape or info is null. SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown.
- *
  * Stable.
  */
 SWIFTPROX_NODISCARD
@@ -494,7 +485,7 @@ swiftprox_status swiftprox_shape_get_info(const struct swiftprox_shape *shape,
  * meanwhile, or another swiftprox_shape_prepare, does not wait but makes them, too, and what comes second is dropped.
  *
  * SWIFTPROX_ERROR_CANCELLED: progress said so; SWIFTPROX_ERROR_MEMORY: in both cases no levels are made, a table that was made
- * stays, and the shape can be used as before. SWIFTPROX_ERROR_NULL_POINTER: shape is null.
+ * stays, and the shape can be used as before.
  *
  * Stable.
  */
@@ -685,8 +676,7 @@ typedef struct swiftprox_pair_config {
  * `config` may be null for the defaults. On failure the answer is reset: its outcome is SWIFTPROX_OUTCOME_NONE.
  *
  * SWIFTPROX_ERROR_POSE: a pose is refused; the message says why. SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of config is out of
- * range; those that are for swiftprox_pair_approximate alone only there. SWIFTPROX_ERROR_NULL_POINTER,
- * SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_BUG: the cache is reset, too.
+ * range; those that are for swiftprox_pair_approximate alone only there. SWIFTPROX_ERROR_BUG: the cache is reset, too.
  *
  * Stable.
  */
@@ -1095,8 +1085,7 @@ typedef struct swiftprox_scene_options {
  * may be null for the defaults.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range, or of enqueue_task and finish_task one is null and the
- * other is not. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE:
- * the message names the argument.
+ * other is not.
  *
  * Stable.
  */
@@ -1166,9 +1155,7 @@ typedef struct swiftprox_object_options {
  * shape: the caller's own may be released at once. On failure nothing is added and `*id` is null.
  * `options` may be null for the defaults.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces. SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_LIMIT: more objects or
- * pieces than a scene holds. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names
- * the argument. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces. SWIFTPROX_ERROR_LIMIT: more objects or pieces than a scene holds.
  *
  * Stable.
  */
@@ -1199,20 +1186,16 @@ swiftprox_status swiftprox_scene_add_objects(struct swiftprox_scene *scene,
 /**
  * Removes an object and its pairs. Its id is refused from now on; all other ids stay as they are.
  *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_remove_object(struct swiftprox_scene *scene,
-                                               struct swiftprox_object_id id);
+swiftprox_status swiftprox_scene_remove_object(struct swiftprox_scene *scene, struct swiftprox_object_id id);
 
 /**
  * Removes `count` objects and their pairs, as swiftprox_scene_remove_object does: all or none.
  *
  * On failure nothing is removed; the message names the first id that is refused. SWIFTPROX_ERROR_HANDLE: it names no object of
- * this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is given twice. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or
- * ids is null. SWIFTPROX_ERROR_POISONED.
+ * this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is given twice.
  *
  * Stable.
  */
@@ -1224,8 +1207,6 @@ swiftprox_status swiftprox_scene_remove_objects(struct swiftprox_scene *scene,
 /**
  * Sets `*valid` to 1 if an id names an object of this scene, else to 0 (also on failure): if it is null, of another scene, or of
  * an object that was removed. Two ids name the same object if their bits are equal.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: scene or valid is null. SWIFTPROX_ERROR_POISONED.
  *
  * Stable.
  */
@@ -1240,7 +1221,6 @@ swiftprox_status swiftprox_scene_is_object_valid(const struct swiftprox_scene *s
  * failure `*count` is 0.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is neither 0 nor as large as the number of objects.
- * SWIFTPROX_ERROR_NULL_POINTER: the message names the argument. SWIFTPROX_ERROR_POISONED.
  *
  * Stable.
  */
@@ -1252,9 +1232,6 @@ swiftprox_status swiftprox_scene_copy_object_ids(const struct swiftprox_scene *s
 
 /**
  * Moves an object, a fixed one too: `pose` is 12 doubles, row-major [R|T]. On failure it stays where it is.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_POSE: the pose is refused.
- * SWIFTPROX_ERROR_NULL_POINTER: scene or pose is null. SWIFTPROX_ERROR_POISONED.
  *
  * Stable.
  */
@@ -1279,9 +1256,7 @@ swiftprox_status swiftprox_scene_set_transform(struct swiftprox_scene *scene,
  * pose counts. Null `ids` are all objects that are not fixed, in order of creation. On failure all stay where they are; the
  * message says which pose or id is refused. Workers share the work where it is in order of creation.
  *
- * SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_POSE: a pose is refused.
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: ids is null, and count is not the number of objects that are not fixed.
- * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or poses is null. SWIFTPROX_ERROR_POISONED.
  *
  * Stable.
  */
@@ -1324,9 +1299,6 @@ typedef struct swiftprox_object_info {
 /**
  * Says what an object is: set info->struct_size to sizeof(swiftprox_object_info) first. On failure the pose is NaN, all else 0.
  *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene or info is null.
- * SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown. SWIFTPROX_ERROR_POISONED.
- *
  * Stable.
  */
 SWIFTPROX_NODISCARD
@@ -1338,9 +1310,7 @@ swiftprox_status swiftprox_scene_get_object_info(const struct swiftprox_scene *s
  * Makes an object what `info` says: its user data, pose, fixedness, groups and mask. Fill info by
  * swiftprox_scene_get_object_info and change members; a pose as it was moves nothing. What pairs remember stays.
  *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_POSE: the pose is refused.
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count is another one. SWIFTPROX_ERROR_NULL_POINTER: scene or info is null.
- * SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown. SWIFTPROX_ERROR_POISONED. Nothing has changed then.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count is another one. Nothing has changed then.
  *
  * Stable.
  */
@@ -1467,9 +1437,8 @@ typedef struct swiftprox_scene_answer {
  * statistics and distance, lower and upper, which are 0, are said. `query` may be null for the defaults.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of query is out of range, also where this query does without it.
- * SWIFTPROX_ERROR_MEMORY: none for a changed list of pairs; the next query tries again. SWIFTPROX_ERROR_NULL_POINTER,
- * SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_POISONED. The answer is empty then. What a scene
- * has accepted it answers: no pair makes a query fail.
+ * SWIFTPROX_ERROR_MEMORY: none for a changed list of pairs; the next query tries again. The answer is empty then. What a scene has
+ * accepted it answers: no pair makes a query fail.
  *
  * Stable.
  */
@@ -1550,8 +1519,6 @@ typedef struct swiftprox_scene_contacts {
  * Hands over what the last query of a scene said beside its answers: nothing unless it was one of contacts with a
  * swiftprox_scene_query.detail. On failure `*contacts` is empty.
  *
- * SWIFTPROX_ERROR_NULL_POINTER: scene or contacts is null. SWIFTPROX_ERROR_POISONED.
- *
  * Stable.
  */
 SWIFTPROX_NODISCARD
@@ -1575,8 +1542,7 @@ typedef enum swiftprox_query_kind SWIFTPROX_INT32 {
  * the tolerance of contacts is 0 and of others infinity unless query says otherwise. It takes as long as the pairs that are near,
  * if nothing else has moved.
  *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other
- * errors as of swiftprox_scene_query_intersection.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other errors as of swiftprox_scene_query_intersection.
  *
  * Stable.
  */
@@ -1591,8 +1557,7 @@ swiftprox_status swiftprox_scene_query_object(struct swiftprox_scene *scene,
  * As swiftprox_scene_query_object, of a shape that is not in the scene, put at `pose`, 12 doubles, for this question. Each object
  * of the scene is object 1 of its results; object 2 has the null id. All objects are asked, whatever activation and filters say.
  *
- * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other errors as of
- * swiftprox_scene_query_intersection.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other errors as of swiftprox_scene_query_intersection.
  *
  * Stable.
  */
@@ -1636,8 +1601,7 @@ swiftprox_status swiftprox_scene_query_placed_pieces(struct swiftprox_scene *sce
  * its pairs of pieces; with one null pointer all pairs that the other object is in now; with two all that there are now. Objects
  * added later begin with all their pairs active; two fixed objects are never tested.
  *
- * SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice.
- * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice.
  *
  * Stable.
  */
@@ -1673,8 +1637,6 @@ typedef int32_t (*swiftprox_pair_filter_callback)(struct swiftprox_object_id obj
  * Asks `filter` of each pair of objects whether it is to be tested, once for each of its pairs of pieces when that comes near, and
  * of many objects without a tolerance in each query. Null: none is asked, as before the first call. All pairs that are near are
  * asked anew: set the same filter again when it has changed its mind. The callback may be called from every thread that queries the scene.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
  *
  * Stable.
  */
@@ -1768,8 +1730,6 @@ typedef struct swiftprox_listener swiftprox_listener;
  * Makes a listener that remembers nothing yet; the caller owns it and gives it back with swiftprox_listener_destroy. On failure
  * `*listener` is null.
  *
- * SWIFTPROX_ERROR_NULL_POINTER.
- *
  * Experimental.
  */
 SWIFTPROX_NODISCARD
@@ -1860,10 +1820,9 @@ typedef struct swiftprox_pair_question {
  * does all. The scene is not changed, and no other call may use it meanwhile. `config` may be null for the defaults.
  *
  * A pair that is refused gets an answer that says nothing, and all others are answered: the message names the first by its number.
- * SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT: kind is unknown, or a member of config is out of
- * range. SWIFTPROX_ERROR_NULL_POINTER: an array or a member of a pair is null; then, and where memory is lacking, nothing is
- * answered. SWIFTPROX_ERROR_STRUCT_SIZE, SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_BUSY, SWIFTPROX_ERROR_POISONED.
- * SWIFTPROX_ERROR_BUG: all answers and caches are reset.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: kind is unknown, or a member of config is out of range. SWIFTPROX_ERROR_NULL_POINTER: an array
+ * or a member of a pair is null; then, and where memory is lacking, nothing is answered. SWIFTPROX_ERROR_BUG: all answers and
+ * caches are reset.
  *
  * Experimental.
  */

@@ -23,8 +23,7 @@ extern "C" {
  * Copies the vertices of the hull, in the local frame: `capacity` is how many `vertices` has room for (3 coordinates each),
  * at least swiftprox_shape_info.vertex_count. `labels` receives the caller's number of each vertex, or is null.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFTPROX_ERROR_NULL_POINTER: shape or vertices is
- * null.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written.
  *
  * Stable.
  */
@@ -40,8 +39,7 @@ swiftprox_status swiftprox_shape_copy_vertices(const struct swiftprox_shape *sha
  * swiftprox_shape_info.triangle_count. Faces of more than three sides come as several triangles; a body of dimension 1 or 0 has
  * none.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFTPROX_ERROR_NULL_POINTER: shape or corners is
- * null.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written.
  *
  * Stable.
  */
@@ -68,7 +66,7 @@ typedef struct swiftprox_face {
  * are merged in it, ascending, or the face's own number where the hull was made without polygons. Each gets as many as there is
  * room for, and may be null with no room. swiftprox_shape_find_face tells the place of a face of an answer.
  *
- * On failure `*face` is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the shape has no such face. SWIFTPROX_ERROR_NULL_POINTER.
+ * On failure `*face` is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the shape has no such face.
  *
  * Stable.
  */
@@ -85,7 +83,7 @@ swiftprox_status swiftprox_shape_get_face(const struct swiftprox_shape *shape,
  * The place of a face, for swiftprox_shape_get_face: of the one that the caller's polygon `label` is a part of, which is the id
  * of a face in an answer. Of several the first. Takes time in proportion to the faces. On failure `*index` is SIZE_MAX.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: no face has the label. SWIFTPROX_ERROR_NULL_POINTER.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: no face has the label.
  *
  * Stable.
  */
@@ -106,7 +104,6 @@ swiftprox_status swiftprox_shape_find_face(const struct swiftprox_shape *shape,
  * mirrored is made from other vertices. On failure `*shape` is null.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: scale is no positive power of two, or lengths would leave the range of doubles.
- * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED: progress said so. SWIFTPROX_ERROR_NULL_POINTER: source or shape is null.
  *
  * Stable.
  */
@@ -124,8 +121,7 @@ swiftprox_status swiftprox_shape_create_scaled(const struct swiftprox_shape *sou
  * file refuses it.
  *
  * SWIFTPROX_ERROR_FILE: the file cannot be written or is no regular one (nothing waits for the reader of a pipe); the message
- * names it and says why. SWIFTPROX_ERROR_MEMORY: the file is as it was. SWIFTPROX_ERROR_NULL_POINTER,
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the message names the argument.
+ * names it and says why. SWIFTPROX_ERROR_MEMORY: the file is as it was.
  *
  * Stable.
  */
@@ -143,8 +139,7 @@ swiftprox_status swiftprox_shape_save(const struct swiftprox_shape *shape,
  * On failure `*shape` is null.
  *
  * SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file, is larger than 4 GiB (4,294,967,296 bytes), is no shape file,
- * of another version or damaged; the message names it and says what is wrong. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED:
- * progress said so. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_INVALID_ARGUMENT: the message names the argument.
+ * of another version or damaged; the message names it and says what is wrong.
  *
  * Stable.
  */
@@ -167,8 +162,6 @@ swiftprox_status swiftprox_shape_load(const char *path,
  * `vertices` holds 3 * vertex_count coordinates as they were written down, before any transform. On failure it is NaN.
  *
  * SWIFTPROX_ERROR_MESH: a coordinate is not finite. SWIFTPROX_ERROR_INVALID_ARGUMENT: there are no vertices.
- * SWIFTPROX_ERROR_LIMIT: the count does not fit 32 bits. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: tolerance is null,
- * or vertices where there are some.
  *
  * Stable.
  */
@@ -219,11 +212,10 @@ typedef struct swiftprox_decomposition {
  * triangles at worst, one to two seconds for 10,000. `progress` learns how far it is and can cancel it, or is null;
  * `progress_user` is handed to it.
  *
- * SWIFTPROX_ERROR_MESH: a coordinate is not finite; an index is out of range; an edge belongs to more than two faces, or to two
- * in the same direction; a face crosses itself; no face has an area: the message names face, edge or vertex.
+ * SWIFTPROX_ERROR_MESH: a coordinate is not finite; an index is out of range; an edge belongs to more than two faces, or to two in
+ * the same direction; a face crosses itself; no face has an area: the message names face, edge or vertex.
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: tolerance is out of [0, 1], or capacity is too small: nothing is written to the arrays, and
- * the message says how many are needed. SWIFTPROX_ERROR_CANCELLED: progress said so. SWIFTPROX_ERROR_LIMIT: a count does not fit
- * 32 bits. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: decomposition, its corners or an array of the mesh is null.
+ * the message says how many are needed.
  *
  * Stable.
  */
@@ -299,8 +291,7 @@ typedef struct swiftprox_ray_answer {
  * that the ray and the body have wide, over that of the direction.
  *
  * On failure the answer is reset: its outcome is SWIFTPROX_RAY_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: origin or direction
- * is not finite, the direction is 0, or t_max is negative or NaN. SWIFTPROX_ERROR_POSE: the pose is refused.
- * SWIFTPROX_ERROR_NULL_POINTER.
+ * is not finite, the direction is 0, or t_max is negative or NaN.
  *
  * Experimental.
  */
@@ -363,7 +354,6 @@ typedef struct swiftprox_scene_ray_answer {
  *
  * On failure the answer is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT: the ray is refused as by swiftprox_shape_cast_ray, or hits is
  * unknown. SWIFTPROX_ERROR_BUSY: the scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER,
- * SWIFTPROX_ERROR_POISONED.
  *
  * Experimental.
  */
@@ -419,7 +409,7 @@ typedef struct swiftprox_point_answer {
  * that is nearest. Certain, whatever the magnitudes: integers decide where doubles cannot tell. It allocates.
  *
  * On failure the answer is reset: its location is SWIFTPROX_POINT_LOCATION_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: the point is
- * not finite. SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+ * not finite. SWIFTPROX_ERROR_MEMORY,
  *
  * Experimental.
  */
@@ -451,7 +441,7 @@ typedef struct swiftprox_support_vertex {
  * farther, whatever the magnitudes. Of a shape with a swept radius place and height are those of the ball about the vertex.
  *
  * On failure the answer's numbers are NaN and 0. SWIFTPROX_ERROR_INVALID_ARGUMENT: the direction is 0 or not finite.
- * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+ * SWIFTPROX_ERROR_MEMORY,
  *
  * Experimental.
  */

@@ -32,7 +32,6 @@ typedef struct swiftprox_half_space {
  * half-space's, of unit length; its witness point is on the plane, in the world in both members, and its feature is of no kind.
  *
  * On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the normal is 0, or a number of half_space is not finite.
- * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_NULL_POINTER.
  *
  * Experimental.
  */
@@ -81,7 +80,7 @@ typedef struct swiftprox_ground swiftprox_ground;
  *
  * On failure `*ground` is null. SWIFTPROX_ERROR_MESH: a coordinate is not finite or beyond 2^200, a triangle names a vertex that
  * is not there, or none has an area. SWIFTPROX_ERROR_LIMIT: more than 2^30 triangles, or a count that does not fit 32 bits.
- * SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+ * SWIFTPROX_ERROR_MEMORY,
  *
  * Experimental.
  */
@@ -103,7 +102,7 @@ swiftprox_status swiftprox_ground_create_from_triangles(const double *vertices,
  *
  * On failure `*ground` is null. SWIFTPROX_ERROR_INVALID_ARGUMENT: fewer than two rows or columns, or a spacing that is not
  * positive and finite. SWIFTPROX_ERROR_MESH: a coordinate is infinite or beyond 2^200, or all is holes. SWIFTPROX_ERROR_LIMIT:
- * more than 2^29 heights. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+ * more than 2^29 heights. SWIFTPROX_ERROR_MEMORY,
  *
  * Experimental.
  */
@@ -141,7 +140,7 @@ typedef struct swiftprox_ground_info {
 } swiftprox_ground_info;
 
 /**
- * Says what a ground is. On failure all is 0. SWIFTPROX_ERROR_NULL_POINTER.
+ * Says what a ground is. On failure all is 0.
  *
  * Experimental.
  */
@@ -169,8 +168,7 @@ typedef struct swiftprox_ground_distance {
  * swiftprox_pair_intersection, of the ground as a set of points; `config` is as there. There is no cache.
  *
  * On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: another kind, or a member of config is out of range.
- * SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_MEMORY: some 4 kB are asked for. SWIFTPROX_ERROR_NULL_POINTER,
- * SWIFTPROX_ERROR_STRUCT_SIZE.
+ * SWIFTPROX_ERROR_MEMORY: some 4 kB are asked for. SWIFTPROX_ERROR_NULL_POINTER,
  *
  * Experimental.
  */
@@ -214,8 +212,8 @@ typedef struct swiftprox_ground_count {
  * triangle's. So no flat or concave edge between triangles holds up a body that slides over it.
  *
  * On failure the counts are 0, and contacts and points are as they were. SWIFTPROX_ERROR_INVALID_ARGUMENT,
- * SWIFTPROX_ERROR_STRUCT_SIZE: as of swiftprox_pair_manifold. SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_LIMIT: a
- * capacity is larger than memory. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+ * SWIFTPROX_ERROR_STRUCT_SIZE: as of swiftprox_pair_manifold. SWIFTPROX_ERROR_LIMIT: a capacity is larger than memory.
+ * SWIFTPROX_ERROR_MEMORY,
  *
  * Experimental.
  */
@@ -286,8 +284,7 @@ typedef struct swiftprox_scene_ground_answer {
  * integer arithmetic asks for memory.
  *
  * On failure the answer is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT, SWIFTPROX_ERROR_STRUCT_SIZE: as of swiftprox_pair_manifold.
- * SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_BUSY: the
- * scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_BUSY: the scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER,
  *
  * Experimental.
  */

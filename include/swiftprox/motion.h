@@ -68,8 +68,7 @@ typedef struct swiftprox_motion {
  * comes to pose2 at time 1. `end_error` (may be null): no point within `reach` of the centre ends farther than that from where
  * pose2 has it, which is rounding and what one rotation is more distorted than the other.
  *
- * SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT: the centre is not finite, or the reach is not from 0
- * on. SWIFTPROX_ERROR_NULL_POINTER. Then nothing is written.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the centre is not finite, or the reach is not from 0 on. Then nothing is written.
  *
  * Experimental.
  */
@@ -150,9 +149,8 @@ typedef struct swiftprox_cast_config {
  * answer is reset: its outcome is SWIFTPROX_CAST_OUTCOME_NONE.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of config or of a motion is out of range or not finite, or a callback's poses show
- * that its bend is wrong. SWIFTPROX_ERROR_POSE: a pose of a motion is refused; the message says when.
- * SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_BUG: the cache is
- * reset, too.
+ * that its bend is wrong. SWIFTPROX_ERROR_POSE: a pose of a motion is refused; the message says when. SWIFTPROX_ERROR_BUG: the
+ * cache is reset, too.
  *
  * Experimental.
  */
@@ -250,9 +248,8 @@ typedef struct swiftprox_scene_cast_answer {
  * null for the defaults. Threads and scratch as of swiftprox_scene_least_distance.
  *
  * On failure the answer is reset: its outcome is SWIFTPROX_CAST_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is
- * neither 1 nor set->count, or as of swiftprox_pair_cast. SWIFTPROX_ERROR_HANDLE: an id names no
- * object of this scene. SWIFTPROX_ERROR_BUSY: the scene is being changed. Others as of swiftprox_pair_cast, and
- * SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_POISONED.
+ * neither 1 nor set->count, or as of swiftprox_pair_cast. SWIFTPROX_ERROR_BUSY: the scene is being changed. Others as of
+ * swiftprox_pair_cast, and SWIFTPROX_ERROR_MEMORY,
  *
  * Experimental.
  */

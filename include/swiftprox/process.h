@@ -105,8 +105,7 @@ typedef int32_t (*swiftprox_mesh_reader_callback)(void *user,
  * and no other thread is still reading a file by it.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: magic is empty or begins with white space or a byte order mark, which are skipped in files; or
- * it begins with the magic of another reader, or that one with it: a file could be for both. SWIFTPROX_ERROR_MEMORY.
- * SWIFTPROX_ERROR_NULL_POINTER: magic is null.
+ * it begins with the magic of another reader, or that one with it: a file could be for both.
  *
  * Stable.
  */
@@ -120,8 +119,7 @@ swiftprox_status swiftprox_library_register_mesh_reader(const char *magic,
  * which they are added. The array is copied.
  *
  * SWIFTPROX_ERROR_MESH: a coordinate is not finite; the message names the vertex. SWIFTPROX_ERROR_LIMIT: too many vertices.
- * SWIFTPROX_ERROR_MEMORY, which is then the status of what reads the file, too.
- * SWIFTPROX_ERROR_NULL_POINTER: sink is null, or vertices while vertex_count is not 0. Nothing is added, and the file is refused.
+ * SWIFTPROX_ERROR_MEMORY, which is then the status of what reads the file, too. Nothing is added, and the file is refused.
  *
  * Stable.
  */
@@ -135,8 +133,8 @@ swiftprox_status swiftprox_mesh_sink_add_vertices(struct swiftprox_mesh_sink *si
  * They are numbered from 0 in the order in which they are added. A face may name vertices that are added later: that they exist is
  * checked when the callback returns. The arrays are copied.
  *
- * SWIFTPROX_ERROR_LIMIT: too many faces or indices. SWIFTPROX_ERROR_MEMORY: as of swiftprox_mesh_sink_add_vertices.
- * SWIFTPROX_ERROR_NULL_POINTER: sink is null, or indices while there are any. Nothing is added, and the file is refused.
+ * SWIFTPROX_ERROR_LIMIT: too many faces or indices. SWIFTPROX_ERROR_MEMORY: as of swiftprox_mesh_sink_add_vertices. Nothing is
+ * added, and the file is refused.
  *
  * Stable.
  */
@@ -149,8 +147,6 @@ swiftprox_status swiftprox_mesh_sink_add_faces(struct swiftprox_mesh_sink *sink,
  * Says that the coordinates of the file went through single precision, as those of STL files have: how far a vertex may lie
  * outside a face is then 1e-6 of the bounding-box diagonal, not 1e-9, unless swiftprox_shape_options.convexity_tolerance says
  * otherwise.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: sink is null.
  *
  * Stable.
  */

@@ -32,8 +32,7 @@ extern "C" {
  * ends the recording.
  *
  * SWIFTPROX_ERROR_FILE: the file cannot be written, or is no regular file; or the recording before could not be written to its
- * end, and then no other is begun. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path.
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED. The scene is not recorded then.
+ * end, and then no other is begun. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path. The scene is not recorded then.
  *
  * Stable.
  */
@@ -71,8 +70,7 @@ typedef struct swiftprox_replay_step_info {
  * the rotation limit of the recorded scene. The caller gives both back with swiftprox_replay_close. On failure `*replay` is null.
  *
  * SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file, no recording, of another version, or damaged at its
- * beginning. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path, or of enqueue_task and finish_task one is
- * null and the other is not. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
+ * beginning. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path, or of enqueue_task and finish_task one is null and the other is not.
  *
  * Stable.
  */
@@ -104,8 +102,7 @@ struct swiftprox_scene *swiftprox_replay_scene(struct swiftprox_replay *replay);
  * `*step` says that there is no step.
  *
  * SWIFTPROX_ERROR_FILE: the recording is damaged here, the message says where; the steps before are good.
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the step before has not been done. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER,
- * SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the step before has not been done.
  *
  * Stable.
  */
@@ -117,7 +114,7 @@ swiftprox_status swiftprox_replay_read(struct swiftprox_replay *replay,
  * Does what was done in the step that was read, without its query.
  *
  * SWIFTPROX_ERROR_FILE: the scene refuses it, as the program has changed it or the recording is damaged; it cannot be gone on
- * with. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: replay is null. SWIFTPROX_ERROR_POISONED.
+ * with.
  *
  * Stable.
  */
@@ -138,7 +135,7 @@ swiftprox_status swiftprox_replay_change(struct swiftprox_replay *replay);
  * on other failures it is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such query, or the step has not been done; or the
  * query is out of range, as the last of a recording that is cut off may be. SWIFTPROX_ERROR_FILE: the recording is damaged, its
  * query is about an object or a shape that it has not told of. SWIFTPROX_ERROR_HANDLE: the query is about an object that has been
- * removed. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: replay or answer is null. SWIFTPROX_ERROR_POISONED.
+ * removed.
  *
  * Stable.
  */
@@ -150,9 +147,6 @@ swiftprox_status swiftprox_replay_ask(struct swiftprox_replay *replay,
 
 /**
  * Writes the number of an object of the replay's scene: how many there were before it in the recording. On failure it is 0.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of the scene. SWIFTPROX_ERROR_NULL_POINTER: replay or number is null.
- * SWIFTPROX_ERROR_POISONED.
  *
  * Stable.
  */

@@ -24,9 +24,7 @@ extern "C" {
  * data, as they are now. All its pairs are active, whatever those of its original are; what pairs remember is not copied. On
  * failure nothing is added and `*id` is null.
  *
- * SWIFTPROX_ERROR_HANDLE: original names no object of this scene. SWIFTPROX_ERROR_LIMIT: more objects than a scene holds.
- * SWIFTPROX_ERROR_MEMORY.
- * SWIFTPROX_ERROR_NULL_POINTER: the message names the argument. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_LIMIT: more objects than a scene holds.
  *
  * Stable.
  */
@@ -40,8 +38,7 @@ swiftprox_status swiftprox_scene_copy_object(struct swiftprox_scene *scene,
  * uint32_t, so that programs of before run on. The scene owns the share: take one more with swiftprox_shape_retain to keep
  * the shape longer than the object. On failure `*shape` is null.
  *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
- * SWIFTPROX_ERROR_NULL_POINTER: scene or shape is null. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
  *
  * Stable.
  */
@@ -56,9 +53,8 @@ swiftprox_status swiftprox_scene_get_piece(const struct swiftprox_scene *scene,
  * the object's pose times this one puts it, each of the twelve numbers rounded; its exact body is what these give. Points and
  * features of results are in the piece's own frame. On failure it stays where it is.
  *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
- * SWIFTPROX_ERROR_POSE: the pose is refused, alone or with the object's. SWIFTPROX_ERROR_MEMORY.
- * SWIFTPROX_ERROR_NULL_POINTER: scene or pose is null. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece. SWIFTPROX_ERROR_POSE: the pose is refused, alone or with the
+ * object's.
  *
  * Stable.
  */
@@ -72,8 +68,7 @@ swiftprox_status swiftprox_scene_set_piece_pose(struct swiftprox_scene *scene,
  * Writes where a piece of an object is in the world, 12 doubles, row-major [R|T]: the pose for which queries answer, as
  * swiftprox_pair_verify takes it. On failure they are NaN.
  *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
- * SWIFTPROX_ERROR_NULL_POINTER: scene or pose is null. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
  *
  * Stable.
  */
@@ -87,8 +82,7 @@ swiftprox_status swiftprox_scene_get_piece_pose(const struct swiftprox_scene *sc
  * Sets the number of a piece, which swiftprox_scene_get_piece_user_data gives, and the events of listeners; 0 before. Results name
  * the object and the piece.
  *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
- * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
  *
  * Stable.
  */
@@ -101,8 +95,7 @@ swiftprox_status swiftprox_scene_set_piece_user_data(struct swiftprox_scene *sce
 /**
  * Writes the caller's number of a piece, in a time that does not grow with the scene. On failure it is 0.
  *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
- * SWIFTPROX_ERROR_NULL_POINTER: scene or user_data is null. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
  *
  * Stable.
  */
@@ -117,8 +110,7 @@ swiftprox_status swiftprox_scene_get_piece_user_data(const struct swiftprox_scen
  * greatest, three numbers each. It is wider than the object by less than 1e-5 of the radius and the place of each piece; around a
  * piece of more than 512 vertices it is the box of that piece's own turned box. On failure all numbers are NaN.
  *
- * SWIFTPROX_ERROR_HANDLE: the id is null, stale or another scene's. SWIFTPROX_ERROR_NULL_POINTER.
- * SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_HANDLE: the id is null, stale or another scene's.
  *
  * Stable.
  */
@@ -141,8 +133,7 @@ swiftprox_status swiftprox_scene_get_object_box(const struct swiftprox_scene *sc
  * objects are heeded as ever; objects removed later are in no pair. Pairs that stay keep what they remember. On failure the pairs
  * of before stay.
  *
- * SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice in a pair. The
- * message says which. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or pairs is null. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice in a pair. The message says which.
  *
  * Stable.
  */
@@ -154,8 +145,6 @@ swiftprox_status swiftprox_scene_set_pairs(struct swiftprox_scene *scene,
 /**
  * Takes back what swiftprox_scene_set_pairs has set: from now on the scene finds the pairs that are near by itself, as it did
  * before.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
  *
  * Stable.
  */
@@ -175,7 +164,7 @@ swiftprox_status swiftprox_scene_reset_pairs(struct swiftprox_scene *scene);
  * further search. `number` is the pair's among swiftprox_scene_contacts.contacts. On failure the answer's numbers are NaN.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: there are not so many contacts, or the last query was none of contacts with a
- * swiftprox_scene_query.detail. SWIFTPROX_ERROR_NULL_POINTER: scene or answer is null. SWIFTPROX_ERROR_POISONED.
+ * swiftprox_scene_query.detail.
  *
  * Stable.
  */
@@ -220,8 +209,7 @@ typedef struct swiftprox_scene_events {
  * scene has one such memory; swiftprox_scene_listen has one for each listener, and tells of contact points. On failure `*events`
  * is empty, and what was near stays remembered.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene
- * or events is null. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN.
  *
  * Stable.
  */
@@ -285,8 +273,6 @@ typedef struct swiftprox_scene_statistics {
  * What the queries of a scene did since it was made or swiftprox_scene_reset_statistics was called. On failure error_spent is NaN,
  * all else 0.
  *
- * SWIFTPROX_ERROR_NULL_POINTER: scene or statistics is null. SWIFTPROX_ERROR_POISONED.
- *
  * Stable.
  */
 SWIFTPROX_NODISCARD
@@ -295,8 +281,6 @@ swiftprox_status swiftprox_scene_get_statistics(const struct swiftprox_scene *sc
 
 /**
  * Sets the statistics of a scene to zero.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
  *
  * Stable.
  */
@@ -309,8 +293,6 @@ swiftprox_status swiftprox_scene_reset_statistics(struct swiftprox_scene *scene)
  * near pairs remember theirs. Results and their order are the same. Default: 1048576 pairs, about 150 MB, which 1448
  * single pieces make. 0: none but near pairs.
  *
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
  * Stable.
  */
 SWIFTPROX_NODISCARD
@@ -322,7 +304,6 @@ swiftprox_status swiftprox_scene_set_kept_pair_limit(struct swiftprox_scene *sce
  * more. What the others remember stays. The next query takes anew what it needs.
  *
  * SWIFTPROX_ERROR_MEMORY: there is not enough for a smaller list of pairs; nothing has changed.
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
  *
  * Stable.
  */

@@ -47,8 +47,6 @@ typedef struct swiftprox_scratch swiftprox_scratch;
  * gives, never a verdict: where bits matter, take a new one. Rays, grounds and half-spaces remember nothing: whatever it has seen,
  * they are answered bit for bit as with a new one. On failure `*scratch` is null.
  *
- * SWIFTPROX_ERROR_NULL_POINTER.
- *
  * Experimental.
  */
 SWIFTPROX_NODISCARD
@@ -66,7 +64,7 @@ void swiftprox_scratch_destroy(struct swiftprox_scratch *scratch);
  * phase, which this brings up to date. It changes no answer. Without it they go through what has changed one by one, and through
  * all pieces if many have.
  *
- * SWIFTPROX_ERROR_MEMORY: questions take longer. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_MEMORY: questions take longer.
  *
  * Experimental.
  */
@@ -94,9 +92,8 @@ typedef struct swiftprox_least_distance {
  * the sets has poses. Any number of threads may ask a scene at once that nobody changes, each with its own scratch; a null scratch
  * is made for the call.
  *
- * On failure the answer's numbers are NaN. SWIFTPROX_ERROR_HANDLE: an id names no object of this scene.
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: cut_off is negative or NaN. SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_BUSY: the
- * scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_POISONED.
+ * On failure the answer's numbers are NaN. SWIFTPROX_ERROR_INVALID_ARGUMENT: cut_off is negative or NaN. SWIFTPROX_ERROR_BUSY: the
+ * scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER,
  *
  * Experimental.
  */

@@ -124,8 +124,6 @@ typedef struct swiftprox_shape_tuning_info {
  * Says which levels of detail and which look-up table a shape has: set info->struct_size to sizeof(swiftprox_shape_tuning_info)
  * first. On failure all is 0.
  *
- * SWIFTPROX_ERROR_NULL_POINTER: shape or info is null. SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown.
- *
  * Experimental.
  */
 SWIFTPROX_NODISCARD
@@ -157,9 +155,7 @@ typedef struct swiftprox_mesh {
  * On failure `*shape` is null. `options` may be null for the defaults.
  *
  * SWIFTPROX_ERROR_MESH: the body breaks the contract of swiftprox_shape_create_from_mesh, or a level has no interior; the message
- * names it. SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_LIMIT: a count does not fit 32 bits.
- * SWIFTPROX_ERROR_MEMORY.
- * SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_INVALID_ARGUMENT, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
+ * names it.
  *
  * Experimental.
  */
@@ -194,8 +190,7 @@ typedef struct swiftprox_level_info {
  * Says what a level of detail is: `level` is from 0, the body itself, to swiftprox_shape_tuning_info.level_count, the coarsest.
  * Set info->struct_size to sizeof(swiftprox_level_info) first. On failure the deviation is NaN, all else 0.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level. SWIFTPROX_ERROR_NULL_POINTER: shape or info is null.
- * SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level.
  *
  * Experimental.
  */
@@ -210,7 +205,6 @@ swiftprox_status swiftprox_shape_get_level_info(const struct swiftprox_shape *sh
  * swiftprox_level_info.vertex_count. For bodies far from their own origin the coordinates are rounded by a unit in the last place.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
- * SWIFTPROX_ERROR_NULL_POINTER: shape or vertices is null.
  *
  * Experimental.
  */
@@ -226,7 +220,6 @@ swiftprox_status swiftprox_shape_copy_level_vertices(const struct swiftprox_shap
  * swiftprox_level_info.triangle_count.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
- * SWIFTPROX_ERROR_NULL_POINTER: shape or corners is null.
  *
  * Experimental.
  */

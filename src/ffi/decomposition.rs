@@ -47,11 +47,10 @@ pub struct CDecomposition {
 /// triangles at worst, one to two seconds for 10,000. `progress` learns how far it is and can cancel it, or is null;
 /// `progress_user` is handed to it.
 ///
-/// SWIFTPROX_ERROR_MESH: a coordinate is not finite; an index is out of range; an edge belongs to more than two faces, or to two
-/// in the same direction; a face crosses itself; no face has an area: the message names face, edge or vertex.
+/// SWIFTPROX_ERROR_MESH: a coordinate is not finite; an index is out of range; an edge belongs to more than two faces, or to two in
+/// the same direction; a face crosses itself; no face has an area: the message names face, edge or vertex.
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: tolerance is out of [0, 1], or capacity is too small: nothing is written to the arrays, and
-/// the message says how many are needed. SWIFTPROX_ERROR_CANCELLED: progress said so. SWIFTPROX_ERROR_LIMIT: a count does not fit
-/// 32 bits. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: decomposition, its corners or an array of the mesh is null.
+/// the message says how many are needed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_mesh_decompose(
     vertices: *const f64,

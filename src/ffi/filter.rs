@@ -27,8 +27,6 @@ unsafe impl Sync for User {}
 /// Asks `filter` of each pair of objects whether it is to be tested, once for each of its pairs of pieces when that comes near, and
 /// of many objects without a tolerance in each query. Null: none is asked, as before the first call. All pairs that are near are
 /// asked anew: set the same filter again when it has changed its mind. The callback may be called from every thread that queries the scene.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_pair_filter(
     scene: *mut SceneHandle,
@@ -56,8 +54,7 @@ pub unsafe extern "C" fn swiftprox_scene_set_pair_filter(
 /// objects are heeded as ever; objects removed later are in no pair. Pairs that stay keep what they remember. On failure the pairs
 /// of before stay.
 ///
-/// SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice in a pair. The
-/// message says which. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or pairs is null. SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice in a pair. The message says which.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_pairs(
     scene: *mut SceneHandle,
@@ -75,8 +72,6 @@ pub unsafe extern "C" fn swiftprox_scene_set_pairs(
 
 /// Takes back what swiftprox_scene_set_pairs has set: from now on the scene finds the pairs that are near by itself, as it did
 /// before.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_reset_pairs(scene: *mut SceneHandle) -> StatusCode {
     // SAFETY: the header's pointer rules.

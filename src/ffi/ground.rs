@@ -25,7 +25,7 @@ use crate::shape::Shape;
 ///
 /// On failure `*ground` is null. SWIFTPROX_ERROR_MESH: a coordinate is not finite or beyond 2^200, a triangle names a vertex that
 /// is not there, or none has an area. SWIFTPROX_ERROR_LIMIT: more than 2^30 triangles, or a count that does not fit 32 bits.
-/// SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+/// SWIFTPROX_ERROR_MEMORY,
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_ground_create_from_triangles(
     vertices: *const f64,
@@ -52,7 +52,7 @@ pub unsafe extern "C" fn swiftprox_ground_create_from_triangles(
 ///
 /// On failure `*ground` is null. SWIFTPROX_ERROR_INVALID_ARGUMENT: fewer than two rows or columns, or a spacing that is not
 /// positive and finite. SWIFTPROX_ERROR_MESH: a coordinate is infinite or beyond 2^200, or all is holes. SWIFTPROX_ERROR_LIMIT:
-/// more than 2^29 heights. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+/// more than 2^29 heights. SWIFTPROX_ERROR_MEMORY,
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_ground_create_from_heights(
     rows: usize,
@@ -107,7 +107,7 @@ pub struct GroundInfo {
     pub bytes: usize,
 }
 
-/// Says what a ground is. On failure all is 0. SWIFTPROX_ERROR_NULL_POINTER.
+/// Says what a ground is. On failure all is 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_ground_get_info(ground: *const Ground, info: *mut GroundInfo) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -124,8 +124,7 @@ pub unsafe extern "C" fn swiftprox_ground_get_info(ground: *const Ground, info: 
 /// swiftprox_pair_intersection, of the ground as a set of points; `config` is as there. There is no cache.
 ///
 /// On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: another kind, or a member of config is out of range.
-/// SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_MEMORY: some 4 kB are asked for. SWIFTPROX_ERROR_NULL_POINTER,
-/// SWIFTPROX_ERROR_STRUCT_SIZE.
+/// SWIFTPROX_ERROR_MEMORY: some 4 kB are asked for. SWIFTPROX_ERROR_NULL_POINTER,
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_ground_distance(
     kind: QueryNumber,
@@ -165,8 +164,8 @@ pub struct GroundCount {
 /// triangle's. So no flat or concave edge between triangles holds up a body that slides over it.
 ///
 /// On failure the counts are 0, and contacts and points are as they were. SWIFTPROX_ERROR_INVALID_ARGUMENT,
-/// SWIFTPROX_ERROR_STRUCT_SIZE: as of swiftprox_pair_manifold. SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_LIMIT: a
-/// capacity is larger than memory. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+/// SWIFTPROX_ERROR_STRUCT_SIZE: as of swiftprox_pair_manifold. SWIFTPROX_ERROR_LIMIT: a capacity is larger than memory.
+/// SWIFTPROX_ERROR_MEMORY,
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_ground_contacts(
     shape: *const Shape,

@@ -14,7 +14,6 @@ use crate::pair::{
 /// half-space's, of unit length; its witness point is on the plane, in the world in both members, and its feature is of no kind.
 ///
 /// On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the normal is 0, or a number of half_space is not finite.
-/// SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_half_space_distance(
     object: CPlaced,

@@ -76,9 +76,7 @@ impl LevelInfo {
 /// On failure `*shape` is null. `options` may be null for the defaults.
 ///
 /// SWIFTPROX_ERROR_MESH: the body breaks the contract of swiftprox_shape_create_from_mesh, or a level has no interior; the message
-/// names it. SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_LIMIT: a count does not fit 32 bits.
-/// SWIFTPROX_ERROR_MEMORY.
-/// SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_INVALID_ARGUMENT, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
+/// names it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_from_levels(
     levels: *const CMesh,
@@ -107,8 +105,7 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_levels(
 /// Says what a level of detail is: `level` is from 0, the body itself, to swiftprox_shape_tuning_info.level_count, the coarsest.
 /// Set info->struct_size to sizeof(swiftprox_level_info) first. On failure the deviation is NaN, all else 0.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level. SWIFTPROX_ERROR_NULL_POINTER: shape or info is null.
-/// SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_get_level_info(
     shape: *const Shape,
@@ -141,7 +138,6 @@ pub unsafe extern "C" fn swiftprox_shape_get_level_info(
 /// swiftprox_level_info.vertex_count. For bodies far from their own origin the coordinates are rounded by a unit in the last place.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
-/// SWIFTPROX_ERROR_NULL_POINTER: shape or vertices is null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_copy_level_vertices(
     shape: *const Shape,
@@ -162,7 +158,6 @@ pub unsafe extern "C" fn swiftprox_shape_copy_level_vertices(
 /// swiftprox_level_info.triangle_count.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
-/// SWIFTPROX_ERROR_NULL_POINTER: shape or corners is null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_copy_level_triangles(
     shape: *const Shape,

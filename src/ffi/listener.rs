@@ -42,8 +42,6 @@ impl CListenerEvents {
 
 /// Makes a listener that remembers nothing yet; the caller owns it and gives it back with swiftprox_listener_destroy. On failure
 /// `*listener` is null.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_listener_create(listener: *mut *mut Listener) -> StatusCode {
     // SAFETY: the header's pointer rules.

@@ -49,8 +49,7 @@ pub unsafe extern "C" fn swiftprox_scene_add_objects(
 /// Removes `count` objects and their pairs, as swiftprox_scene_remove_object does: all or none.
 ///
 /// On failure nothing is removed; the message names the first id that is refused. SWIFTPROX_ERROR_HANDLE: it names no object of
-/// this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is given twice. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or
-/// ids is null. SWIFTPROX_ERROR_POISONED.
+/// this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is given twice.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_remove_objects(
     scene: *mut SceneHandle,

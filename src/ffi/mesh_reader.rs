@@ -98,8 +98,7 @@ impl MeshSink {
 /// and no other thread is still reading a file by it.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: magic is empty or begins with white space or a byte order mark, which are skipped in files; or
-/// it begins with the magic of another reader, or that one with it: a file could be for both. SWIFTPROX_ERROR_MEMORY.
-/// SWIFTPROX_ERROR_NULL_POINTER: magic is null.
+/// it begins with the magic of another reader, or that one with it: a file could be for both.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_library_register_mesh_reader(
     magic: *const c_char,
@@ -122,8 +121,7 @@ pub unsafe extern "C" fn swiftprox_library_register_mesh_reader(
 /// which they are added. The array is copied.
 ///
 /// SWIFTPROX_ERROR_MESH: a coordinate is not finite; the message names the vertex. SWIFTPROX_ERROR_LIMIT: too many vertices.
-/// SWIFTPROX_ERROR_MEMORY, which is then the status of what reads the file, too.
-/// SWIFTPROX_ERROR_NULL_POINTER: sink is null, or vertices while vertex_count is not 0. Nothing is added, and the file is refused.
+/// SWIFTPROX_ERROR_MEMORY, which is then the status of what reads the file, too. Nothing is added, and the file is refused.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_mesh_sink_add_vertices(
     sink: *mut MeshSink,
@@ -147,8 +145,8 @@ pub unsafe extern "C" fn swiftprox_mesh_sink_add_vertices(
 /// They are numbered from 0 in the order in which they are added. A face may name vertices that are added later: that they exist is
 /// checked when the callback returns. The arrays are copied.
 ///
-/// SWIFTPROX_ERROR_LIMIT: too many faces or indices. SWIFTPROX_ERROR_MEMORY: as of swiftprox_mesh_sink_add_vertices.
-/// SWIFTPROX_ERROR_NULL_POINTER: sink is null, or indices while there are any. Nothing is added, and the file is refused.
+/// SWIFTPROX_ERROR_LIMIT: too many faces or indices. SWIFTPROX_ERROR_MEMORY: as of swiftprox_mesh_sink_add_vertices. Nothing is
+/// added, and the file is refused.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_mesh_sink_add_faces(
     sink: *mut MeshSink,
@@ -175,8 +173,6 @@ pub unsafe extern "C" fn swiftprox_mesh_sink_add_faces(
 /// Says that the coordinates of the file went through single precision, as those of STL files have: how far a vertex may lie
 /// outside a face is then 1e-6 of the bounding-box diagonal, not 1e-9, unless swiftprox_shape_options.convexity_tolerance says
 /// otherwise.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER: sink is null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_mesh_sink_set_single_precision(sink: *mut MeshSink) -> StatusCode {
     change(sink, |sink| {

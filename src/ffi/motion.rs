@@ -136,8 +136,7 @@ impl CClearanceConfig {
 /// comes to pose2 at time 1. `end_error` (may be null): no point within `reach` of the centre ends farther than that from where
 /// pose2 has it, which is rounding and what one rotation is more distorted than the other.
 ///
-/// SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT: the centre is not finite, or the reach is not from 0
-/// on. SWIFTPROX_ERROR_NULL_POINTER. Then nothing is written.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the centre is not finite, or the reach is not from 0 on. Then nothing is written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_motion_between(
     pose1: *const f64,
@@ -192,9 +191,8 @@ fn row_major(pose: &Pose) -> [f64; 12] {
 /// answer is reset: its outcome is SWIFTPROX_CAST_OUTCOME_NONE.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of config or of a motion is out of range or not finite, or a callback's poses show
-/// that its bend is wrong. SWIFTPROX_ERROR_POSE: a pose of a motion is refused; the message says when.
-/// SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_BUG: the cache is
-/// reset, too.
+/// that its bend is wrong. SWIFTPROX_ERROR_POSE: a pose of a motion is refused; the message says when. SWIFTPROX_ERROR_BUG: the
+/// cache is reset, too.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_cast(
     shape1: *const Shape,

@@ -94,9 +94,7 @@ impl ObjectInfo {
 /// shape: the caller's own may be released at once. On failure nothing is added and `*id` is null.
 /// `options` may be null for the defaults.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces. SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_LIMIT: more objects or
-/// pieces than a scene holds. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names
-/// the argument. SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces. SWIFTPROX_ERROR_LIMIT: more objects or pieces than a scene holds.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_add_object(
     scene: *mut SceneHandle,
@@ -122,9 +120,7 @@ pub unsafe extern "C" fn swiftprox_scene_add_object(
 /// data, as they are now. All its pairs are active, whatever those of its original are; what pairs remember is not copied. On
 /// failure nothing is added and `*id` is null.
 ///
-/// SWIFTPROX_ERROR_HANDLE: original names no object of this scene. SWIFTPROX_ERROR_LIMIT: more objects than a scene holds.
-/// SWIFTPROX_ERROR_MEMORY.
-/// SWIFTPROX_ERROR_NULL_POINTER: the message names the argument. SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_LIMIT: more objects than a scene holds.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_copy_object(
     scene: *mut SceneHandle,
@@ -142,8 +138,6 @@ pub unsafe extern "C" fn swiftprox_scene_copy_object(
 }
 
 /// Removes an object and its pairs. Its id is refused from now on; all other ids stay as they are.
-///
-/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_remove_object(scene: *mut SceneHandle, id: ObjectId) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -152,8 +146,6 @@ pub unsafe extern "C" fn swiftprox_scene_remove_object(scene: *mut SceneHandle, 
 
 /// Sets `*valid` to 1 if an id names an object of this scene, else to 0 (also on failure): if it is null, of another scene, or of
 /// an object that was removed. Two ids name the same object if their bits are equal.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER: scene or valid is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_is_object_valid(
     scene: *const SceneHandle,
@@ -175,7 +167,6 @@ pub unsafe extern "C" fn swiftprox_scene_is_object_valid(
 /// failure `*count` is 0.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is neither 0 nor as large as the number of objects.
-/// SWIFTPROX_ERROR_NULL_POINTER: the message names the argument. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_copy_object_ids(
     scene: *const SceneHandle,
@@ -202,9 +193,7 @@ pub unsafe extern "C" fn swiftprox_scene_copy_object_ids(
 /// Makes an object what `info` says: its user data, pose, fixedness, groups and mask. Fill info by
 /// swiftprox_scene_get_object_info and change members; a pose as it was moves nothing. What pairs remember stays.
 ///
-/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_POSE: the pose is refused.
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count is another one. SWIFTPROX_ERROR_NULL_POINTER: scene or info is null.
-/// SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown. SWIFTPROX_ERROR_POISONED. Nothing has changed then.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count is another one. Nothing has changed then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_object_info(
     scene: *mut SceneHandle,
@@ -245,8 +234,7 @@ pub unsafe extern "C" fn swiftprox_scene_set_object_info(
 /// Sets the number of a piece, which swiftprox_scene_get_piece_user_data gives, and the events of listeners; 0 before. Results name
 /// the object and the piece.
 ///
-/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
-/// SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_piece_user_data(
     scene: *mut SceneHandle,
@@ -260,8 +248,7 @@ pub unsafe extern "C" fn swiftprox_scene_set_piece_user_data(
 
 /// Writes the caller's number of a piece, in a time that does not grow with the scene. On failure it is 0.
 ///
-/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
-/// SWIFTPROX_ERROR_NULL_POINTER: scene or user_data is null. SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_get_piece_user_data(
     scene: *const SceneHandle,
@@ -282,9 +269,6 @@ pub unsafe extern "C" fn swiftprox_scene_get_piece_user_data(
 }
 
 /// Says what an object is: set info->struct_size to sizeof(swiftprox_object_info) first. On failure the pose is NaN, all else 0.
-///
-/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene or info is null.
-/// SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_get_object_info(
     scene: *const SceneHandle,
@@ -302,8 +286,7 @@ pub unsafe extern "C" fn swiftprox_scene_get_object_info(
 /// greatest, three numbers each. It is wider than the object by less than 1e-5 of the radius and the place of each piece; around a
 /// piece of more than 512 vertices it is the box of that piece's own turned box. On failure all numbers are NaN.
 ///
-/// SWIFTPROX_ERROR_HANDLE: the id is null, stale or another scene's. SWIFTPROX_ERROR_NULL_POINTER.
-/// SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_HANDLE: the id is null, stale or another scene's.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_get_object_box(
     scene: *const SceneHandle,
@@ -327,8 +310,7 @@ pub unsafe extern "C" fn swiftprox_scene_get_object_box(
 /// uint32_t, so that programs of before run on. The scene owns the share: take one more with swiftprox_shape_retain to keep
 /// the shape longer than the object. On failure `*shape` is null.
 ///
-/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
-/// SWIFTPROX_ERROR_NULL_POINTER: scene or shape is null. SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_get_piece(
     scene: *const SceneHandle,

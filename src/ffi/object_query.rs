@@ -48,8 +48,7 @@ impl CSceneEvents {
 /// the tolerance of contacts is 0 and of others infinity unless query says otherwise. It takes as long as the pairs that are near,
 /// if nothing else has moved.
 ///
-/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other
-/// errors as of swiftprox_scene_query_intersection.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other errors as of swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_object(
     scene: *mut SceneHandle,
@@ -73,8 +72,7 @@ pub unsafe extern "C" fn swiftprox_scene_query_object(
 /// As swiftprox_scene_query_object, of a shape that is not in the scene, put at `pose`, 12 doubles, for this question. Each object
 /// of the scene is object 1 of its results; object 2 has the null id. All objects are asked, whatever activation and filters say.
 ///
-/// SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other errors as of
-/// swiftprox_scene_query_intersection.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other errors as of swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_placed(
     scene: *mut SceneHandle,
@@ -140,8 +138,7 @@ pub unsafe extern "C" fn swiftprox_scene_query_placed_pieces(
 /// scene has one such memory; swiftprox_scene_listen has one for each listener, and tells of contact points. On failure `*events`
 /// is empty, and what was near stays remembered.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene
-/// or events is null. SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_events(
     scene: *mut SceneHandle,

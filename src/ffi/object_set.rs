@@ -44,8 +44,6 @@ impl CSceneRayAnswer {
 /// Of sets it keeps what pairs of objects remember, which changes how fast an answer comes and which of several nearest points it
 /// gives, never a verdict: where bits matter, take a new one. Rays, grounds and half-spaces remember nothing: whatever it has seen,
 /// they are answered bit for bit as with a new one. On failure `*scratch` is null.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scratch_create(scratch: *mut *mut SetScratch) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -69,7 +67,7 @@ pub unsafe extern "C" fn swiftprox_scratch_destroy(scratch: *mut SetScratch) {
 /// phase, which this brings up to date. It changes no answer. Without it they go through what has changed one by one, and through
 /// all pieces if many have.
 ///
-/// SWIFTPROX_ERROR_MEMORY: questions take longer. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_MEMORY: questions take longer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_prepare(scene: *mut SceneHandle) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -83,9 +81,8 @@ pub unsafe extern "C" fn swiftprox_scene_prepare(scene: *mut SceneHandle) -> Sta
 /// the sets has poses. Any number of threads may ask a scene at once that nobody changes, each with its own scratch; a null scratch
 /// is made for the call.
 ///
-/// On failure the answer's numbers are NaN. SWIFTPROX_ERROR_HANDLE: an id names no object of this scene.
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: cut_off is negative or NaN. SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_BUSY: the
-/// scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_POISONED.
+/// On failure the answer's numbers are NaN. SWIFTPROX_ERROR_INVALID_ARGUMENT: cut_off is negative or NaN. SWIFTPROX_ERROR_BUSY: the
+/// scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER,
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_least_distance(
     scene: *const SceneHandle,
@@ -138,7 +135,6 @@ pub unsafe extern "C" fn swiftprox_scene_first_hit(
 ///
 /// On failure the answer is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT: the ray is refused as by swiftprox_shape_cast_ray, or hits is
 /// unknown. SWIFTPROX_ERROR_BUSY: the scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER,
-/// SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_cast_ray(
     scene: *const SceneHandle,
@@ -169,9 +165,8 @@ pub unsafe extern "C" fn swiftprox_scene_cast_ray(
 /// null for the defaults. Threads and scratch as of swiftprox_scene_least_distance.
 ///
 /// On failure the answer is reset: its outcome is SWIFTPROX_CAST_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is
-/// neither 1 nor set->count, or as of swiftprox_pair_cast. SWIFTPROX_ERROR_HANDLE: an id names no
-/// object of this scene. SWIFTPROX_ERROR_BUSY: the scene is being changed. Others as of swiftprox_pair_cast, and
-/// SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_POISONED.
+/// neither 1 nor set->count, or as of swiftprox_pair_cast. SWIFTPROX_ERROR_BUSY: the scene is being changed. Others as of
+/// swiftprox_pair_cast, and SWIFTPROX_ERROR_MEMORY,
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_cast(
     scene: *const SceneHandle,

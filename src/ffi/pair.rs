@@ -92,8 +92,7 @@ const _: () = {
 /// `config` may be null for the defaults. On failure the answer is reset: its outcome is SWIFTPROX_OUTCOME_NONE.
 ///
 /// SWIFTPROX_ERROR_POSE: a pose is refused; the message says why. SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of config is out of
-/// range; those that are for swiftprox_pair_approximate alone only there. SWIFTPROX_ERROR_NULL_POINTER,
-/// SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_BUG: the cache is reset, too.
+/// range; those that are for swiftprox_pair_approximate alone only there. SWIFTPROX_ERROR_BUG: the cache is reset, too.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_distance(
     object1: CPlaced,

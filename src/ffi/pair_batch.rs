@@ -34,10 +34,9 @@ pub struct CPairQuestion {
 /// does all. The scene is not changed, and no other call may use it meanwhile. `config` may be null for the defaults.
 ///
 /// A pair that is refused gets an answer that says nothing, and all others are answered: the message names the first by its number.
-/// SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT: kind is unknown, or a member of config is out of
-/// range. SWIFTPROX_ERROR_NULL_POINTER: an array or a member of a pair is null; then, and where memory is lacking, nothing is
-/// answered. SWIFTPROX_ERROR_STRUCT_SIZE, SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_BUSY, SWIFTPROX_ERROR_POISONED.
-/// SWIFTPROX_ERROR_BUG: all answers and caches are reset.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: kind is unknown, or a member of config is out of range. SWIFTPROX_ERROR_NULL_POINTER: an array
+/// or a member of a pair is null; then, and where memory is lacking, nothing is answered. SWIFTPROX_ERROR_BUG: all answers and
+/// caches are reset.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_batch(
     kind: QueryNumber,

@@ -15,7 +15,7 @@ use crate::shape::Shape;
 /// that is nearest. Certain, whatever the magnitudes: integers decide where doubles cannot tell. It allocates.
 ///
 /// On failure the answer is reset: its location is SWIFTPROX_POINT_LOCATION_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: the point is
-/// not finite. SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+/// not finite. SWIFTPROX_ERROR_MEMORY,
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_locate_point(
     shape: *const Shape,
@@ -38,7 +38,7 @@ pub unsafe extern "C" fn swiftprox_shape_locate_point(
 /// farther, whatever the magnitudes. Of a shape with a swept radius place and height are those of the ball about the vertex.
 ///
 /// On failure the answer's numbers are NaN and 0. SWIFTPROX_ERROR_INVALID_ARGUMENT: the direction is 0 or not finite.
-/// SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
+/// SWIFTPROX_ERROR_MEMORY,
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_support(
     shape: *const Shape,

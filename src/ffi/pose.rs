@@ -11,9 +11,6 @@ use crate::scene::Scene;
 use crate::scene::object::ObjectId;
 
 /// Moves an object, a fixed one too: `pose` is 12 doubles, row-major [R|T]. On failure it stays where it is.
-///
-/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_POSE: the pose is refused.
-/// SWIFTPROX_ERROR_NULL_POINTER: scene or pose is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_pose(
     scene: *mut SceneHandle,
@@ -46,9 +43,7 @@ pub unsafe extern "C" fn swiftprox_scene_set_transform(
 /// pose counts. Null `ids` are all objects that are not fixed, in order of creation. On failure all stay where they are; the
 /// message says which pose or id is refused. Workers share the work where it is in order of creation.
 ///
-/// SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_POSE: a pose is refused.
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: ids is null, and count is not the number of objects that are not fixed.
-/// SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or poses is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_poses(
     scene: *mut SceneHandle,
@@ -91,9 +86,8 @@ pub unsafe extern "C" fn swiftprox_scene_set_transforms(
 /// the object's pose times this one puts it, each of the twelve numbers rounded; its exact body is what these give. Points and
 /// features of results are in the piece's own frame. On failure it stays where it is.
 ///
-/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
-/// SWIFTPROX_ERROR_POSE: the pose is refused, alone or with the object's. SWIFTPROX_ERROR_MEMORY.
-/// SWIFTPROX_ERROR_NULL_POINTER: scene or pose is null. SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece. SWIFTPROX_ERROR_POSE: the pose is refused, alone or with the
+/// object's.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_piece_pose(
     scene: *mut SceneHandle,
@@ -108,8 +102,7 @@ pub unsafe extern "C" fn swiftprox_scene_set_piece_pose(
 /// Writes where a piece of an object is in the world, 12 doubles, row-major [R|T]: the pose for which queries answer, as
 /// swiftprox_pair_verify takes it. On failure they are NaN.
 ///
-/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
-/// SWIFTPROX_ERROR_NULL_POINTER: scene or pose is null. SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_get_piece_pose(
     scene: *const SceneHandle,

@@ -110,9 +110,8 @@ impl CSceneAnswer {
 /// statistics and distance, lower and upper, which are 0, are said. `query` may be null for the defaults.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of query is out of range, also where this query does without it.
-/// SWIFTPROX_ERROR_MEMORY: none for a changed list of pairs; the next query tries again. SWIFTPROX_ERROR_NULL_POINTER,
-/// SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_POISONED. The answer is empty then. What a scene
-/// has accepted it answers: no pair makes a query fail.
+/// SWIFTPROX_ERROR_MEMORY: none for a changed list of pairs; the next query tries again. The answer is empty then. What a scene has
+/// accepted it answers: no pair makes a query fail.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_intersection(
     scene: *mut SceneHandle,
@@ -199,8 +198,6 @@ impl CSceneContacts {
 
 /// Hands over what the last query of a scene said beside its answers: nothing unless it was one of contacts with a
 /// swiftprox_scene_query.detail. On failure `*contacts` is empty.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER: scene or contacts is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_get_contacts(
     scene: *const SceneHandle,
@@ -221,7 +218,7 @@ pub unsafe extern "C" fn swiftprox_scene_get_contacts(
 /// further search. `number` is the pair's among swiftprox_scene_contacts.contacts. On failure the answer's numbers are NaN.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: there are not so many contacts, or the last query was none of contacts with a
-/// swiftprox_scene_query.detail. SWIFTPROX_ERROR_NULL_POINTER: scene or answer is null. SWIFTPROX_ERROR_POISONED.
+/// swiftprox_scene_query.detail.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_get_signed_distance(
     scene: *const SceneHandle,
@@ -240,8 +237,6 @@ pub unsafe extern "C" fn swiftprox_scene_get_signed_distance(
 
 /// What the queries of a scene did since it was made or swiftprox_scene_reset_statistics was called. On failure error_spent is NaN,
 /// all else 0.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER: scene or statistics is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_get_statistics(
     scene: *const SceneHandle,
@@ -259,8 +254,6 @@ pub unsafe extern "C" fn swiftprox_scene_get_statistics(
 }
 
 /// Sets the statistics of a scene to zero.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_reset_statistics(scene: *mut SceneHandle) -> StatusCode {
     // SAFETY: the header's pointer rules.

@@ -16,8 +16,7 @@ use crate::shape::Shape;
 /// that the ray and the body have wide, over that of the direction.
 ///
 /// On failure the answer is reset: its outcome is SWIFTPROX_RAY_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: origin or direction
-/// is not finite, the direction is 0, or t_max is negative or NaN. SWIFTPROX_ERROR_POSE: the pose is refused.
-/// SWIFTPROX_ERROR_NULL_POINTER.
+/// is not finite, the direction is 0, or t_max is negative or NaN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_cast_ray(
     shape: *const Shape,

@@ -27,8 +27,7 @@ use crate::scene::{Replay, Scene};
 /// ends the recording.
 ///
 /// SWIFTPROX_ERROR_FILE: the file cannot be written, or is no regular file; or the recording before could not be written to its
-/// end, and then no other is begun. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path.
-/// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED. The scene is not recorded then.
+/// end, and then no other is begun. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path. The scene is not recorded then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_record(scene: *mut SceneHandle, path: *const c_char) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -91,8 +90,7 @@ impl CReplayStep {
 /// the rotation limit of the recorded scene. The caller gives both back with swiftprox_replay_close. On failure `*replay` is null.
 ///
 /// SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file, no recording, of another version, or damaged at its
-/// beginning. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path, or of enqueue_task and finish_task one is
-/// null and the other is not. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
+/// beginning. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path, or of enqueue_task and finish_task one is null and the other is not.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_replay_open(
     path: *const c_char,
@@ -145,8 +143,7 @@ pub unsafe extern "C" fn swiftprox_replay_scene(replay: *mut ReplayHandle) -> *m
 /// `*step` says that there is no step.
 ///
 /// SWIFTPROX_ERROR_FILE: the recording is damaged here, the message says where; the steps before are good.
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the step before has not been done. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER,
-/// SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the step before has not been done.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_replay_read(replay: *mut ReplayHandle, step: *mut CReplayStep) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -175,7 +172,7 @@ pub unsafe extern "C" fn swiftprox_replay_read(replay: *mut ReplayHandle, step: 
 /// Does what was done in the step that was read, without its query.
 ///
 /// SWIFTPROX_ERROR_FILE: the scene refuses it, as the program has changed it or the recording is damaged; it cannot be gone on
-/// with. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: replay is null. SWIFTPROX_ERROR_POISONED.
+/// with.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_replay_change(replay: *mut ReplayHandle) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -195,7 +192,7 @@ pub unsafe extern "C" fn swiftprox_replay_change(replay: *mut ReplayHandle) -> S
 /// on other failures it is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such query, or the step has not been done; or the
 /// query is out of range, as the last of a recording that is cut off may be. SWIFTPROX_ERROR_FILE: the recording is damaged, its
 /// query is about an object or a shape that it has not told of. SWIFTPROX_ERROR_HANDLE: the query is about an object that has been
-/// removed. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: replay or answer is null. SWIFTPROX_ERROR_POISONED.
+/// removed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_replay_ask(
     replay: *mut ReplayHandle,
@@ -228,9 +225,6 @@ pub unsafe extern "C" fn swiftprox_replay_ask(
 }
 
 /// Writes the number of an object of the replay's scene: how many there were before it in the recording. On failure it is 0.
-///
-/// SWIFTPROX_ERROR_HANDLE: id names no object of the scene. SWIFTPROX_ERROR_NULL_POINTER: replay or number is null.
-/// SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_replay_get_number(
     replay: *const ReplayHandle,

@@ -142,8 +142,7 @@ impl CSceneOptions {
 /// may be null for the defaults.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range, or of enqueue_task and finish_task one is null and the
-/// other is not. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE:
-/// the message names the argument.
+/// other is not.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_create(
     options: *const CSceneOptions,
@@ -185,8 +184,6 @@ pub unsafe extern "C" fn swiftprox_scene_destroy(scene: *mut SceneHandle) -> Sta
 /// which makes the next one several times faster and takes about 150 bytes, if there is memory for that. Of more than `limit` only
 /// near pairs remember theirs. Results and their order are the same. Default: 1048576 pairs, about 150 MB, which 1448
 /// single pieces make. 0: none but near pairs.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_kept_pair_limit(scene: *mut SceneHandle, limit: u64) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -202,7 +199,6 @@ pub unsafe extern "C" fn swiftprox_scene_set_kept_pair_limit(scene: *mut SceneHa
 /// more. What the others remember stays. The next query takes anew what it needs.
 ///
 /// SWIFTPROX_ERROR_MEMORY: there is not enough for a smaller list of pairs; nothing has changed.
-/// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_shrink(scene: *mut SceneHandle) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -215,8 +211,7 @@ pub unsafe extern "C" fn swiftprox_scene_shrink(scene: *mut SceneHandle) -> Stat
 /// its pairs of pieces; with one null pointer all pairs that the other object is in now; with two all that there are now. Objects
 /// added later begin with all their pairs active; two fixed objects are never tested.
 ///
-/// SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice.
-/// SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_pair_active(
     scene: *mut SceneHandle,

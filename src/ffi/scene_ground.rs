@@ -40,8 +40,7 @@ impl CSceneGroundAnswer {
 /// integer arithmetic asks for memory.
 ///
 /// On failure the answer is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT, SWIFTPROX_ERROR_STRUCT_SIZE: as of swiftprox_pair_manifold.
-/// SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_BUSY: the
-/// scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_BUSY: the scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER,
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_ground_contacts(
     scene: *const SceneHandle,

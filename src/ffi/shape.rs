@@ -84,9 +84,7 @@ impl ShapeInfo {
 ///
 /// On failure `*shape` is null. `options` may be null for the defaults.
 ///
-/// SWIFTPROX_ERROR_MESH: the mesh breaks the contract, or a coordinate is not finite. SWIFTPROX_ERROR_LIMIT: a count does not fit
-/// 32 bits. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_NULL_POINTER,
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
+/// SWIFTPROX_ERROR_MESH: the mesh breaks the contract, or a coordinate is not finite.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_from_mesh(
     vertices: *const f64,
@@ -110,8 +108,6 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_mesh(
 /// `vertices` holds 3 * vertex_count coordinates as they were written down, before any transform. On failure it is NaN.
 ///
 /// SWIFTPROX_ERROR_MESH: a coordinate is not finite. SWIFTPROX_ERROR_INVALID_ARGUMENT: there are no vertices.
-/// SWIFTPROX_ERROR_LIMIT: the count does not fit 32 bits. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: tolerance is null,
-/// or vertices where there are some.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_mesh_estimate_tolerance(
     vertices: *const f64,
@@ -136,9 +132,6 @@ pub unsafe extern "C" fn swiftprox_mesh_estimate_tolerance(
 ///
 /// SWIFTPROX_ERROR_MESH: a coordinate is not finite, or the options do not admit a hull of that dimension.
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: no points, or an option out of range. SWIFTPROX_ERROR_LIMIT: too many points.
-/// SWIFTPROX_ERROR_MEMORY.
-/// SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message
-/// names the argument.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_from_points(
     points: *const f64,
@@ -159,7 +152,6 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_points(
 /// for y, bit 2 for z. The caller owns the shape and gives it back with swiftprox_shape_release. On failure `*shape` is null.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: a half extent is not positive, or a number is negative, larger than 2^1000 or NaN.
-/// SWIFTPROX_ERROR_NULL_POINTER. SWIFTPROX_ERROR_MEMORY.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_box(
     half_extents: *const f64,
@@ -175,8 +167,7 @@ pub unsafe extern "C" fn swiftprox_shape_create_box(
 
 /// Makes the sphere of a radius about the local origin. Owned and given back as any shape. On failure `*shape` is null.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the radius is negative, larger than 2^1000 or NaN. SWIFTPROX_ERROR_NULL_POINTER.
-/// SWIFTPROX_ERROR_MEMORY.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the radius is negative, larger than 2^1000 or NaN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_sphere(radius: f64, shape: *mut *const Shape) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -186,8 +177,7 @@ pub unsafe extern "C" fn swiftprox_shape_create_sphere(radius: f64, shape: *mut 
 /// Makes the capsule of a radius about the segment from (0, 0, -half_length), vertex 0, to (0, 0, half_length), vertex 1: a
 /// cylinder along z with half a sphere at either end. Owned and given back as any shape. On failure `*shape` is null.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a number is negative, larger than 2^1000 or NaN. SWIFTPROX_ERROR_NULL_POINTER.
-/// SWIFTPROX_ERROR_MEMORY.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a number is negative, larger than 2^1000 or NaN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_capsule(
     half_length: f64,
@@ -209,10 +199,7 @@ pub unsafe extern "C" fn swiftprox_shape_create_capsule(
 ///
 /// SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file (a pipe and a device are refused, not waited for), is larger
 /// than 4 GiB (4,294,967,296 bytes) or does not parse; the message names the line, or the registered reader and what it says.
-/// SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_MESH: its mesh breaks the contract (see swiftprox_shape_create_from_mesh). Both messages
-/// name the file.
-/// SWIFTPROX_ERROR_CANCELLED: options->progress said so. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_INVALID_ARGUMENT,
-/// SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
+/// SWIFTPROX_ERROR_MESH: its mesh breaks the contract (see swiftprox_shape_create_from_mesh). Both messages name the file.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_from_file(
     path: *const c_char,
@@ -238,7 +225,6 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_file(
 /// mirrored is made from other vertices. On failure `*shape` is null.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: scale is no positive power of two, or lengths would leave the range of doubles.
-/// SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED: progress said so. SWIFTPROX_ERROR_NULL_POINTER: source or shape is null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_scaled(
     source: *const Shape,
@@ -260,8 +246,7 @@ pub unsafe extern "C" fn swiftprox_shape_create_scaled(
 /// file refuses it.
 ///
 /// SWIFTPROX_ERROR_FILE: the file cannot be written or is no regular one (nothing waits for the reader of a pipe); the message
-/// names it and says why. SWIFTPROX_ERROR_MEMORY: the file is as it was. SWIFTPROX_ERROR_NULL_POINTER,
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the message names the argument.
+/// names it and says why. SWIFTPROX_ERROR_MEMORY: the file is as it was.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_save(shape: *const Shape, path: *const c_char) -> StatusCode {
     guard(|| {
@@ -280,8 +265,7 @@ pub unsafe extern "C" fn swiftprox_shape_save(shape: *const Shape, path: *const 
 /// On failure `*shape` is null.
 ///
 /// SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file, is larger than 4 GiB (4,294,967,296 bytes), is no shape file,
-/// of another version or damaged; the message names it and says what is wrong. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED:
-/// progress said so. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_INVALID_ARGUMENT: the message names the argument.
+/// of another version or damaged; the message names it and says what is wrong.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_load(
     path: *const c_char,
@@ -330,7 +314,7 @@ pub unsafe extern "C" fn swiftprox_shape_release(shape: *const Shape) {
 /// meanwhile, or another swiftprox_shape_prepare, does not wait but makes them, too, and what comes second is dropped.
 ///
 /// SWIFTPROX_ERROR_CANCELLED: progress said so; SWIFTPROX_ERROR_MEMORY: in both cases no levels are made, a table that was made
-/// stays, and the shape can be used as before. SWIFTPROX_ERROR_NULL_POINTER: shape is null.
+/// stays, and the shape can be used as before.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_prepare(
     shape: *const Shape,
@@ -346,8 +330,6 @@ pub unsafe extern "C" fn swiftprox_shape_prepare(
 
 /// Says what a shape is: set info->struct_size to sizeof(swiftprox_shape_info) first. On failure real numbers are NaN, all else 0.
 /// The inertia takes time in proportion to the triangles.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER: shape or info is null. SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_get_info(shape: *const Shape, info: *mut ShapeInfo) -> StatusCode {
     guard(|| {
@@ -380,8 +362,7 @@ pub unsafe extern "C" fn swiftprox_shape_get_info(shape: *const Shape, info: *mu
 /// Copies the vertices of the hull, in the local frame: `capacity` is how many `vertices` has room for (3 coordinates each),
 /// at least swiftprox_shape_info.vertex_count. `labels` receives the caller's number of each vertex, or is null.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFTPROX_ERROR_NULL_POINTER: shape or vertices is
-/// null.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_copy_vertices(
     shape: *const Shape,
@@ -408,8 +389,7 @@ pub unsafe extern "C" fn swiftprox_shape_copy_vertices(
 /// swiftprox_shape_info.triangle_count. Faces of more than three sides come as several triangles; a body of dimension 1 or 0 has
 /// none.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFTPROX_ERROR_NULL_POINTER: shape or corners is
-/// null.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_copy_triangles(
     shape: *const Shape,
@@ -448,7 +428,7 @@ impl CFace {
 /// are merged in it, ascending, or the face's own number where the hull was made without polygons. Each gets as many as there is
 /// room for, and may be null with no room. swiftprox_shape_find_face tells the place of a face of an answer.
 ///
-/// On failure `*face` is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the shape has no such face. SWIFTPROX_ERROR_NULL_POINTER.
+/// On failure `*face` is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the shape has no such face.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_get_face(
     shape: *const Shape,
@@ -495,7 +475,7 @@ pub unsafe extern "C" fn swiftprox_shape_get_face(
 /// The place of a face, for swiftprox_shape_get_face: of the one that the caller's polygon `label` is a part of, which is the id
 /// of a face in an answer. Of several the first. Takes time in proportion to the faces. On failure `*index` is SIZE_MAX.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: no face has the label. SWIFTPROX_ERROR_NULL_POINTER.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: no face has the label.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_find_face(shape: *const Shape, label: u32, index: *mut usize) -> StatusCode {
     guard(|| {

@@ -185,8 +185,6 @@ impl TuningInfo {
 
 /// Says which levels of detail and which look-up table a shape has: set info->struct_size to sizeof(swiftprox_shape_tuning_info)
 /// first. On failure all is 0.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER: shape or info is null. SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_get_tuning_info(shape: *const Shape, info: *mut TuningInfo) -> StatusCode {
     guard(|| {
