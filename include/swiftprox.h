@@ -1388,11 +1388,13 @@ typedef struct swiftprox_scene_query {
    * SWIFTPROX_CONTACT_DETAIL_NONE.
    */
   swiftprox_contact_detail detail;
+  /** swiftprox_scene_query_placed: the groups of objects that are asked, one bit each. Default: 0, which stands for all. */
+  uint32_t mask;
 } swiftprox_scene_query;
 
 /** Begins a swiftprox_scene_query: the defaults. In C and C++, as an initialiser. */
 #define SWIFTPROX_SCENE_QUERY_DEFAULT \
-  {sizeof(swiftprox_scene_query), SWIFTPROX_DEFAULT_TOLERANCE, 0, 0, HUGE_VAL, UINT32_MAX, 0, 0, HUGE_VAL, SWIFTPROX_CONTACT_DETAIL_NONE}
+  {sizeof(swiftprox_scene_query), SWIFTPROX_DEFAULT_TOLERANCE, 0, 0, HUGE_VAL, UINT32_MAX, 0, 0, HUGE_VAL, SWIFTPROX_CONTACT_DETAIL_NONE, 0}
 
 /** One pair of convex pieces in a query's list. */
 typedef struct swiftprox_pair_result {
@@ -1554,40 +1556,22 @@ swiftprox_status swiftprox_scene_query_object(struct swiftprox_scene *scene,
                                               struct swiftprox_scene_answer *answer);
 
 /**
- * As swiftprox_scene_query_object, of a shape that is not in the scene, put at `pose`, 12 doubles, for this question. Each object
- * of the scene is object 1 of its results; object 2 has the null id. All objects are asked, whatever activation and filters say.
+ * As swiftprox_scene_query_object, of a body that is not in the scene: `piece_count` convex pieces, each where it is in the world.
+ * Each object of the scene is object 1 of its results; object 2 has the null id, and piece2 is the piece's place in `pieces`.
+ * Objects are asked whose groups have a bit of query->mask, whatever their own masks, activation and filters say.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other errors as of swiftprox_scene_query_intersection.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT also without pieces and for an unknown kind. Other errors as of
+ * swiftprox_scene_query_intersection.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_query_placed(struct swiftprox_scene *scene,
-                                              const struct swiftprox_shape *shape,
-                                              const double *pose,
+                                              const struct swiftprox_placed *pieces,
+                                              size_t piece_count,
                                               swiftprox_query_kind kind,
                                               const struct swiftprox_scene_query *query,
                                               struct swiftprox_scene_answer *answer);
-
-/**
- * As swiftprox_scene_query_placed, of a body of `piece_count` convex pieces: `poses` holds 12 doubles for each, where it is in the
- * world. piece2 of a result says which of them it is. Objects are asked whose groups have a bit of `mask` (UINT32_MAX: all in some
- * group), whatever their own masks, activation and filters say.
- *
- * SWIFTPROX_ERROR_POSE: a pose is refused; the message says which. SWIFTPROX_ERROR_INVALID_ARGUMENT also without pieces and for an
- * unknown kind. Other errors as of swiftprox_scene_query_intersection.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_query_placed_pieces(struct swiftprox_scene *scene,
-                                                     const struct swiftprox_shape *const *pieces,
-                                                     const double *poses,
-                                                     size_t piece_count,
-                                                     uint32_t mask,
-                                                     swiftprox_query_kind kind,
-                                                     const struct swiftprox_scene_query *query,
-                                                     struct swiftprox_scene_answer *answer);
 
 /** @} */
 

@@ -52,7 +52,8 @@ int main(int argc, char **argv)
     if (swiftprox_scene_query_distance(scene, &query, &answer) == SWIFTPROX_OK) {
         return EXIT_FAILURE;
     }
-    demand(swiftprox_scene_query_placed(scene, cube, there, SWIFTPROX_QUERY_KIND_CONTACT, NULL, &answer));
+    demand(
+        swiftprox_scene_query_placed(scene, &(swiftprox_placed){cube, there}, 1, SWIFTPROX_QUERY_KIND_CONTACT, NULL, &answer));
 
     /* A copy of the first, far away, and the second is gone. */
     demand(swiftprox_scene_copy_object(scene, ids[0], &ids[3]));

@@ -195,6 +195,7 @@ MEMBER(swiftprox_scene_query, early_exit, 44, 4)
 MEMBER(swiftprox_scene_query, tuning, 48, 8)
 MEMBER(swiftprox_scene_query, margin, 56, 8)
 MEMBER(swiftprox_scene_query, detail, 64, 4)
+MEMBER(swiftprox_scene_query, mask, 68, 4)
 
 STRUCT(swiftprox_pair_result, 272, 8)
 MEMBER(swiftprox_pair_result, object1, 0, 8)

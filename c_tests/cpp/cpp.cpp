@@ -472,8 +472,11 @@ static void scenes(const std::string &folder)
     const auto events = scene.try_query_events();
     CHECK(swiftprox::began(events.value).size() == 1 && swiftprox::ended(events.value).empty());
     const std::array<Pose, 2> placed{Pose::at(10, 0, 0), Pose::at(0.75, 0, 0)};
-    CHECK(scene.try_query_placed_pieces(pieces, placed, 1, SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 3);
-    CHECK(scene.try_query_placed_pieces(pieces, placed, 2, SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 0);
+    swiftprox::SceneQuery of_group;
+    of_group.mask = 1;
+    CHECK(scene.try_query_placed(pieces, placed, SWIFTPROX_QUERY_KIND_INTERSECTION, of_group).value.count == 3);
+    of_group.mask = 2;
+    CHECK(scene.try_query_placed(pieces, placed, SWIFTPROX_QUERY_KIND_INTERSECTION, of_group).value.count == 0);
     const std::array<swiftprox::ObjectOptions, 2> each{};
     const auto more = scene.try_add_objects(pieces, each);
     CHECK(more && more.value.size() == 2 && scene.try_object_ids().value.size() == 5);

@@ -93,28 +93,39 @@ static void numbers_of_pieces(void)
 /* Two cubes, in the places of the third and the fourth one of the scene. */
 static void placed(void)
 {
-    const swiftprox_shape *pieces[2];
-    double poses[24];
+    swiftprox_placed pieces[2];
+    double pose[12];
     swiftprox_scene_answer answer;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     const swiftprox_query_kind kind = SWIFTPROX_QUERY_KIND_INTERSECTION;
-    pieces[0] = pieces[1] = cube;
-    memcpy(poses, options[2].pose, sizeof options[2].pose);
-    memcpy(poses + 12, options[3].pose, sizeof options[3].pose);
-    CHECK_OK(swiftprox_scene_query_placed_pieces(scene, pieces, poses, 2, UINT32_MAX, kind, NULL, &answer));
+    pieces[0].shape = pieces[1].shape = cube;
+    pieces[0].pose = options[2].pose;
+    pieces[1].pose = options[3].pose;
+    CHECK_OK(swiftprox_scene_query_placed(scene, pieces, 2, kind, NULL, &answer));
     CHECK(answer.count == 2 && answer.pairs[0].object1.bits == ids[2].bits && answer.pairs[0].piece2 == 0);
     CHECK(answer.pairs[1].object1.bits == ids[3].bits && answer.pairs[1].piece2 == 1 && answer.pairs[1].object2.bits == 0);
-    CHECK_OK(swiftprox_scene_query_placed_pieces(scene, pieces, poses, 2, 2, kind, NULL, &answer));
+    query.mask = 2;
+    CHECK_OK(swiftprox_scene_query_placed(scene, pieces, 2, kind, &query, &answer));
     CHECK(answer.count == 1 && answer.pairs[0].object1.bits == ids[3].bits);
-    CHECK_OK(swiftprox_scene_query_placed_pieces(scene, pieces, poses, 2, 0, kind, NULL, &answer));
+    CHECK_OK(swiftprox_scene_query_placed(scene, &pieces[1], 1, kind, &query, &answer));
+    CHECK(answer.count == 1 && answer.pairs[0].object1.bits == ids[3].bits && answer.pairs[0].piece2 == 0);
+    query.mask = 1u << 31;
+    CHECK_OK(swiftprox_scene_query_placed(scene, pieces, 2, kind, &query, &answer));
     CHECK(answer.count == 0);
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "piece",
-                swiftprox_scene_query_placed_pieces(scene, NULL, NULL, 0, 1, kind, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "poses",
-                swiftprox_scene_query_placed_pieces(scene, pieces, NULL, 2, 1, kind, NULL, &answer));
-    poses[12] = NAN;
-    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "pose 1 of 2",
-                swiftprox_scene_query_placed_pieces(scene, pieces, poses, 2, 1, kind, NULL, &answer));
+    query.mask = 1;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "piece", swiftprox_scene_query_placed(scene, NULL, 0, kind, &query, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pieces", swiftprox_scene_query_placed(scene, NULL, 2, kind, &query, &answer));
+    memcpy(pose, options[3].pose, sizeof pose);
+    pose[0] = NAN;
+    pieces[1].pose = pose;
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "pose 1 of 2", swiftprox_scene_query_placed(scene, pieces, 2, kind, &query, &answer));
     CHECK(answer.count == 0 && answer.pairs == NULL);
+    pieces[1].pose = NULL;
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pieces[1].pose",
+                swiftprox_scene_query_placed(scene, pieces, 2, kind, &query, &answer));
+    pieces[1].shape = NULL;
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pieces[1].shape",
+                swiftprox_scene_query_placed(scene, pieces, 2, kind, &query, &answer));
 }
 
 int main(void)

@@ -77,7 +77,8 @@ static size_t session(swiftprox_scene *scene, double *sums)
         if (step % 3 == 0)
             CHECK_OK(swiftprox_scene_query_distance(scene, &query, &answer));
         else if (step % 3 == 1)
-            CHECK_OK(swiftprox_scene_query_placed(scene, shape, pose, SWIFTPROX_QUERY_KIND_CONTACT, NULL, &answer));
+            CHECK_OK(swiftprox_scene_query_placed(scene, &(swiftprox_placed){shape, pose}, 1, SWIFTPROX_QUERY_KIND_CONTACT,
+                                                  NULL, &answer));
         else
             CHECK_OK(swiftprox_scene_query_object(scene, ids[5], SWIFTPROX_QUERY_KIND_DISTANCE, &query, &answer));
         sums[asked] = 0;

@@ -376,13 +376,15 @@ static void near_objects(void)
 
     CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 8, FACES, VALENCES, 6, NULL, &shape));
     place(pose, 3.5, 0, 0);
-    CHECK_OK(swiftprox_scene_query_placed(scene, shape, pose, SWIFTPROX_QUERY_KIND_CONTACT, NULL, &answer));
+    CHECK_OK(
+        swiftprox_scene_query_placed(scene, &(swiftprox_placed){shape, pose}, 1, SWIFTPROX_QUERY_KIND_CONTACT, NULL, &answer));
     CHECK(answer.count == 1 && is(answer.pairs[0].object1, c) && answer.pairs[0].object2.bits == 0);
-    CHECK_OK(swiftprox_scene_query_placed(scene, shape, pose, SWIFTPROX_QUERY_KIND_DISTANCE, NULL, &answer));
+    CHECK_OK(
+        swiftprox_scene_query_placed(scene, &(swiftprox_placed){shape, pose}, 1, SWIFTPROX_QUERY_KIND_DISTANCE, NULL, &answer));
     CHECK(answer.count == 3 && answer.pairs[2].user_data1 == 30);
     pose[0] = NAN;
-    CHECK(swiftprox_scene_query_placed(scene, shape, pose, SWIFTPROX_QUERY_KIND_CONTACT, NULL, &answer) ==
-          SWIFTPROX_ERROR_POSE);
+    CHECK(swiftprox_scene_query_placed(scene, &(swiftprox_placed){shape, pose}, 1, SWIFTPROX_QUERY_KIND_CONTACT, NULL,
+                                       &answer) == SWIFTPROX_ERROR_POSE);
     swiftprox_shape_release(shape);
 
     CHECK_OK(swiftprox_scene_query_events(scene, 0, &events));

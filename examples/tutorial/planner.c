@@ -94,7 +94,8 @@ static int is_free(struct world *world, struct state state)
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     query.distance_tolerance = MARGIN; /* who is farther apart is not listed */
     swiftprox_scene_answer answer;
-    demand(swiftprox_scene_query_placed(world->scene, world->plank, pose, SWIFTPROX_QUERY_KIND_DISTANCE, &query, &answer));
+    demand(swiftprox_scene_query_placed(world->scene, &(swiftprox_placed){world->plank, pose}, 1, SWIFTPROX_QUERY_KIND_DISTANCE,
+                                        &query, &answer));
     return answer.count == 0;
 }
 

@@ -39,7 +39,8 @@ inline Result<void> try_batch(swiftprox_query_kind kind, Range<const Question> q
         swiftprox_pair_batch(kind, pairs.data(), pairs.size(), &c, scene ? scene->get() : nullptr, answers.data()));
 }
 
-/** One pair at many poses: bit for bit what try_distance says with the one cache. Either has as many poses as the other, or one. */
+/** One pair at many poses: bit for bit what try_distance says with the one cache. Either has as many poses as the other, or
+ * one. */
 inline Result<void> try_distances(const Shape &a, Range<const Pose> poses_of_a, const Shape &b, Range<const Pose> poses_of_b,
                                   PairCache &cache, std::vector<swiftprox_pair_answer> &answers, const PairConfig &config = {})
 {

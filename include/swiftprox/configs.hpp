@@ -263,6 +263,8 @@ struct SceneQuery {
     const swiftprox_pair_tuning *tuning = nullptr;
     double margin = infinity;
     swiftprox_contact_detail detail = SWIFTPROX_CONTACT_DETAIL_NONE;
+    /** Of placed bodies: the groups of objects that are asked; 0 for all. */
+    std::uint32_t mask = 0;
 
     swiftprox_scene_query to_c() const noexcept
     {
@@ -277,6 +279,7 @@ struct SceneQuery {
         c.tuning = tuning;
         c.margin = margin;
         c.detail = detail;
+        c.mask = mask;
         return c;
     }
 };

@@ -302,25 +302,24 @@ class SceneView
                                                     const SceneQuery &query = {})
     {
         const swiftprox_scene_query c = query.to_c();
-        return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
-            return swiftprox_scene_query_placed(scene_, shape.get(), pose.data(), kind, &c, answer);
-        });
+        const swiftprox_placed piece{shape.get(), pose.data()};
+        return detail::asked<swiftprox_scene_answer>(
+            [&](swiftprox_scene_answer *answer) { return swiftprox_scene_query_placed(scene_, &piece, 1, kind, &c, answer); });
     }
-    /** A body of several convex pieces, against the objects whose groups have a bit of the mask. */
-    Result<swiftprox_scene_answer> try_query_placed_pieces(Range<const Shape> pieces, Range<const Pose> poses, std::uint32_t mask,
-                                                           swiftprox_query_kind kind, const SceneQuery &query = {})
+    /** A body of several convex pieces. */
+    Result<swiftprox_scene_answer> try_query_placed(Range<const Shape> pieces, Range<const Pose> poses,
+                                                    swiftprox_query_kind kind, const SceneQuery &query = {})
     {
         if (poses.size() != pieces.size()) {
             return detail::refused<swiftprox_scene_answer>("poses: there are not as many as pieces");
         }
-        std::vector<const swiftprox_shape *> shapes;
-        for (const Shape &piece : pieces) {
-            shapes.push_back(piece.get());
+        std::vector<swiftprox_placed> placed;
+        for (std::size_t i = 0; i < pieces.size(); ++i) {
+            placed.push_back({pieces[i].get(), poses[i].data()});
         }
         const swiftprox_scene_query c = query.to_c();
         return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
-            return swiftprox_scene_query_placed_pieces(scene_, shapes.data(), detail::rows_of(poses), shapes.size(), mask, kind, &c,
-                                                       answer);
+            return swiftprox_scene_query_placed(scene_, placed.data(), placed.size(), kind, &c, answer);
         });
     }
     Result<swiftprox_scene_events> try_query_events(double distance = 0)
@@ -528,10 +527,10 @@ class SceneView
     {
         return take(try_query_placed(shape, pose, kind, query));
     }
-    swiftprox_scene_answer query_placed_pieces(Range<const Shape> pieces, Range<const Pose> poses, std::uint32_t mask,
-                                               swiftprox_query_kind kind, const SceneQuery &query = {})
+    swiftprox_scene_answer query_placed(Range<const Shape> pieces, Range<const Pose> poses, swiftprox_query_kind kind,
+                                        const SceneQuery &query = {})
     {
-        return take(try_query_placed_pieces(pieces, poses, mask, kind, query));
+        return take(try_query_placed(pieces, poses, kind, query));
     }
     swiftprox_scene_events query_events(double distance = 0) { return take(try_query_events(distance)); }
     swiftprox_scene_statistics statistics() const { return take(try_statistics()); }

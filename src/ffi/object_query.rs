@@ -4,14 +4,14 @@ use super::enumerators::{QueryNumber, read_enumerator};
 use super::failure::{Failure, StatusCode};
 use super::guard::guard;
 use super::object::share;
-use super::pointers::{array, input, output};
-use super::query::{CSceneAnswer, CSceneQuery, ask};
+use super::pair::CPlaced;
+use super::pointers::{array, output};
+use super::query::{CSceneAnswer, CSceneQuery, ask, ask_masked};
 use super::scene::{SceneHandle, change};
 use crate::base::math::Pose;
 use crate::base::memory::with_capacity;
 use crate::scene::object::ObjectId;
 use crate::scene::{ObjectPair, Query, SceneEvents};
-use crate::shape::Shape;
 
 /// What has changed since the last query about events.
 #[derive(Debug, Clone, Copy)]
@@ -69,61 +69,35 @@ pub unsafe extern "C" fn swiftprox_scene_query_object(
     }
 }
 
-/// As swiftprox_scene_query_object, of a shape that is not in the scene, put at `pose`, 12 doubles, for this question. Each object
-/// of the scene is object 1 of its results; object 2 has the null id. All objects are asked, whatever activation and filters say.
+/// As swiftprox_scene_query_object, of a body that is not in the scene: `piece_count` convex pieces, each where it is in the world.
+/// Each object of the scene is object 1 of its results; object 2 has the null id, and piece2 is the piece's place in `pieces`.
+/// Objects are asked whose groups have a bit of query->mask, whatever their own masks, activation and filters say.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other errors as of swiftprox_scene_query_intersection.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT also without pieces and for an unknown kind. Other errors as of
+/// swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_placed(
     scene: *mut SceneHandle,
-    shape: *const Shape,
-    pose: *const f64,
-    kind: QueryNumber,
-    query: *const CSceneQuery,
-    answer: *mut CSceneAnswer,
-) -> StatusCode {
-    // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
-    unsafe {
-        ask(
-            |scene, query| {
-                let pose = input(pose.cast::<Pose>(), "pose")?;
-                Ok(scene.query_placed(&share(shape, "shape")?, pose, read_kind(kind)?, query)?)
-            },
-            default_tolerance(kind),
-            scene,
-            query,
-            answer,
-        )
-    }
-}
-
-/// As swiftprox_scene_query_placed, of a body of `piece_count` convex pieces: `poses` holds 12 doubles for each, where it is in the
-/// world. piece2 of a result says which of them it is. Objects are asked whose groups have a bit of `mask` (UINT32_MAX: all in some
-/// group), whatever their own masks, activation and filters say.
-///
-/// SWIFTPROX_ERROR_POSE: a pose is refused; the message says which. SWIFTPROX_ERROR_INVALID_ARGUMENT also without pieces and for an
-/// unknown kind. Other errors as of swiftprox_scene_query_intersection.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_query_placed_pieces(
-    scene: *mut SceneHandle,
-    pieces: *const *const Shape,
-    poses: *const f64,
+    pieces: *const CPlaced,
     piece_count: usize,
-    mask: u32,
     kind: QueryNumber,
     query: *const CSceneQuery,
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
     unsafe {
-        ask(
-            |scene, query| {
-                let poses = array(poses.cast::<Pose>(), piece_count, "poses")?;
+        ask_masked(
+            |scene, query, mask| {
                 let mut placed = with_capacity(piece_count)?;
-                for (k, (&piece, pose)) in array(pieces, piece_count, "pieces")?.iter().zip(poses).enumerate() {
-                    placed.push((share(piece, format_args!("pieces[{k}]"))?, *pose));
+                for (k, piece) in array(pieces, piece_count, "pieces")?.iter().enumerate() {
+                    let shape = share(piece.shape, format_args!("pieces[{k}].shape"))?;
+                    let pose = piece.pose.cast::<Pose>().as_ref();
+                    placed.push((shape, *pose.ok_or_else(|| Failure::null(&format!("pieces[{k}].pose")))?));
                 }
-                Ok(scene.query_placed_pieces(&placed, mask, read_kind(kind)?, query)?)
+                match (&placed[..], mask) {
+                    ([(shape, pose)], u32::MAX) => Ok(scene.query_placed(shape, pose, read_kind(kind)?, query)?),
+                    _ => Ok(scene.query_placed_pieces(&placed, mask, read_kind(kind)?, query)?),
+                }
             },
             default_tolerance(kind),
             scene,

@@ -51,6 +51,8 @@ pub struct CSceneQuery {
     /// are then those of the depths. Queries of other kinds do as with none; all refuse an unknown number. Default:
     /// SWIFTPROX_CONTACT_DETAIL_NONE.
     pub detail: ContactDetailNumber,
+    /// swiftprox_scene_query_placed: the groups of objects that are asked, one bit each. Default: 0, which stands for all.
+    pub mask: u32,
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.
@@ -71,6 +73,7 @@ impl CSceneQuery {
         tuning: std::ptr::null(),
         margin: f64::INFINITY,
         detail: ContactDetail::None as i32,
+        mask: 0,
     };
 }
 
@@ -267,12 +270,28 @@ pub unsafe extern "C" fn swiftprox_scene_reset_statistics(scene: *mut SceneHandl
 
 // --- What the functions above share --------------------------------------------------------------------------------------
 
-/// Runs a query and shows its results where the scene has them. `tolerance` is the query's own default.
+/// As [`ask_masked`], of a query that knows no groups.
 ///
 /// # Safety
 /// The pointers meet the header's pointer rules.
 pub(super) unsafe fn ask(
     run: impl for<'a> FnOnce(&'a mut Scene, &SceneQuery) -> Checked<SceneAnswer<'a>>,
+    tolerance: f64,
+    scene: *mut SceneHandle,
+    query: *const CSceneQuery,
+    answer: *mut CSceneAnswer,
+) -> StatusCode {
+    // SAFETY: by the caller.
+    unsafe { ask_masked(|scene, query, _| run(scene, query), tolerance, scene, query, answer) }
+}
+
+/// Runs a query and shows its results where the scene has them. `tolerance` is the query's own default.
+/// The groups of the query are handed over beside it.
+///
+/// # Safety
+/// The pointers meet the header's pointer rules.
+pub(super) unsafe fn ask_masked(
+    run: impl for<'a> FnOnce(&'a mut Scene, &SceneQuery, u32) -> Checked<SceneAnswer<'a>>,
     tolerance: f64,
     scene: *mut SceneHandle,
     query: *const CSceneQuery,
@@ -287,6 +306,7 @@ pub(super) unsafe fn ask(
             let query = if query.is_null() { &defaults } else { view_struct(query, &defaults, &mut older)? };
             let PairTuning { start, levels, refinement } = read_pair_tuning(query.tuning)?;
             let is_default = query.distance_tolerance == DEFAULT_TOLERANCE;
+            let mask = if query.mask == 0 { u32::MAX } else { query.mask };
             let query = SceneQuery {
                 early_exit: query.early_exit != 0,
                 distance_tolerance: if is_default { tolerance } else { query.distance_tolerance },
@@ -300,7 +320,7 @@ pub(super) unsafe fn ask(
                 detail: read_enumerator(query.detail, "query->detail", "swiftprox_contact_detail")?,
                 margin: query.margin,
             };
-            let said = CSceneAnswer::new(&run(scene, &query)?);
+            let said = CSceneAnswer::new(&run(scene, &query, mask)?);
             answer.write(said);
             Ok(())
         })

@@ -7,6 +7,7 @@ use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::filter::*;
 use swiftprox::ffi::object::*;
 use swiftprox::ffi::object_query::*;
+use swiftprox::ffi::pair::CPlaced;
 use swiftprox::ffi::pose::*;
 use swiftprox::ffi::query::*;
 use swiftprox::ffi::scene::*;
@@ -444,7 +445,14 @@ impl Program {
             let mut answer = std::mem::zeroed::<CSceneAnswer>();
             let status = match u.int_in_range(0..=2)? {
                 0 => swiftprox_scene_query_object(scene.handle, id, kind, start(&given), &mut answer),
-                1 => swiftprox_scene_query_placed(scene.handle, shape, pose.at(), kind, start(&given), &mut answer),
+                1 => swiftprox_scene_query_placed(
+                    scene.handle,
+                    &CPlaced { shape, pose: pose.at() },
+                    1,
+                    kind,
+                    start(&given),
+                    &mut answer,
+                ),
                 _ => {
                     let mut events = std::mem::zeroed::<CSceneEvents>();
                     let status = swiftprox_scene_query_events(scene.handle, value.distance_tolerance, &mut events);
