@@ -244,7 +244,7 @@ fn prove_lower(facts: &Facts, cache: &DepthCache, lower: f64) -> Result<()> {
     let mut why = Ok(());
     let pyramids = (0..PYRAMIDS).map(|place| ProofFrom::Pyramid(cache, place));
     for from in pyramids.chain([ProofFrom::Cache(cache), ProofFrom::Search(0.0), ProofFrom::Search(lower)]) {
-        let polytope = proof(facts.polyhedra, facts.poses, from);
+        let polytope = proof(facts.polyhedra, facts.poses, from)?;
         why = encloses_ball(facts, &polytope, lower);
         if why.is_ok() {
             return Ok(());

@@ -25,10 +25,17 @@ const MOST_PAIRS: usize = 4_096;
 /// Whether the depth is at least `lower`, more than 0. It takes time in proportion to triangles times vertices.
 pub fn prove_lower(polyhedra: [&Polyhedron; 2], bounds: &Bounds, exact: &Differences, lower: f64) -> bool {
     let work = |i: usize| polyhedra[i].triangles.len() * polyhedra[1 - i].vertices.len();
-    if polyhedra.iter().any(|polyhedron| polyhedron.dimension < 3) || work(0) + work(1) > MOST_WORK {
+    if work(0) + work(1) > MOST_WORK {
         return false;
     }
     let proof = Proof::new(polyhedra, bounds, exact, lower);
+    // A point has no edges: one vertex proves all triangles of the other body, and so all arcs.
+    match polyhedra.map(|polyhedron| polyhedron.dimension) {
+        [3, 3] => {}
+        [3, 0] => return proof.open_edges(0).is_some(),
+        [0, 3] => return proof.open_edges(1).is_some(),
+        _ => return false,
+    }
     let Some(edges) = proof.open_edges(0).zip(proof.open_edges(1)) else { return false };
     let is_small = edges.0.len() * edges.1.len() <= MOST_PAIRS;
     is_small && edges.0.iter().all(|e| edges.1.iter().all(|g| proof.covers_crossing(*e, *g)))
