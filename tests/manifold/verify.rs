@@ -214,6 +214,30 @@ fn forgeries_are_refused() {
     }
 }
 
+/// Two places as far beside a corner of the upper box: in line, their gap in an interval wide enough for both to be off. Cause: a point
+/// could be out of its body by what corners at one place are apart, 2⁻²⁵ of the size. Cut-off: 256 times the allowance, 1.4e-11 here.
+#[test]
+fn a_point_beside_its_body_is_refused_however_wide_its_gap() {
+    let ([upper, lower], poses) = stacked(-0.0625, 0.3);
+    let case = Case::new([upper, lower], poses, ManifoldConfig { margin: 0.05, ..ALL });
+    for k in 0..4 {
+        assert_eq!(case.points[k].feature1.kind, FeatureKind::Vertex);
+        let is_refused = |off: f64| {
+            case.refuses(|_, points| {
+                let point = &mut points[k];
+                let aside = Vector::x() * (off * point.local1[0]);
+                let shift = case.poses[0].rotation() * aside;
+                let moved = |place: [f64; 3], by: Vector| <[f64; 3]>::from(Vector::from(place) + by);
+                (point.local1, point.world1) = (moved(point.local1, aside), moved(point.world1, shift));
+                (point.local2, point.world2) = (moved(point.local2, shift), moved(point.world2, shift));
+                (point.gap_lower, point.gap_upper) = (point.gap_lower - 1e-6, point.gap_upper + 1e-6);
+            })
+        };
+        assert!([0.0, 1e-12, -1e-8].iter().all(|&off| !is_refused(off)));
+        assert!([1e-10, 1e-8, 1e-6].iter().all(|&off| is_refused(off)));
+    }
+}
+
 /// A place on the far face of a plate in the place of the one below it, over a corner of a box: on the surface, in line with its
 /// partner, with the gap of the two and their id. Only that the face looks up gives it away.
 #[test]
