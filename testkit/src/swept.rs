@@ -43,8 +43,9 @@ impl Length {
         }
         let found = depth(&placed, limit);
         let is_exact = found.lower_square == found.upper_square;
-        let unit = rational(2.0).pow(2 * placed.exponent as isize);
-        (Length { is_negative: true, square: found.lower_square * unit, radii }, is_exact)
+        let square = found.lower_square * rational(2.0).pow(2 * placed.exponent as isize);
+        // Those that touch are not less than 0 apart.
+        (Length { is_negative: !square.is_zero(), square, radii }, is_exact)
     }
 
     /// The largest double that is less and the smallest that is more, from an interval that holds it.
