@@ -64,7 +64,8 @@ use witness::{Witness, difference_of};
 /// Points and features are said together, or not at all. Outcomes that say no points, no normal or no proof may not have them.
 /// `decided_by` and the statistics tell of the search, and are not checked. Of a contact's normal only its length is checked.
 /// [`DecidedBy::InscribedSpheres`] and swept radii excuse an intersection from a proof: integers decide it anew. Points on a swept
-/// body are moved back by its radius along the normal, and checked on the polyhedron.
+/// body are moved back by its radius along the normal, and checked on the polyhedron. All lengths are of the world, where the ball
+/// is round.
 ///
 /// It takes time in proportion to the vertices: bounds in double-double arithmetic mostly prove the interval, else integers do.
 ///
