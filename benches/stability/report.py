@@ -100,33 +100,37 @@ def small(value):
 
 
 def totals_table(rows):
-    """Each method over all families."""
-    lines = []
-    for method in in_order(row["method"] for row in rows):
-        sums = total([row for row in rows if row["method"] == method])
-        lines.append([f"`{method}`", failures(sums), sums["wrong"], sums["gross"], small(sums["worst_wrong"]), sums["off"],
-                      small(sums["worst_error"]), sums["nan"], sums["threw"], sums["aborted"], sums["timed_out"], sums["refused"]])
-    return table(["method", "failures", "wrong", "of them gross", "worst, over L", "off", "worst, over L", "NaN", "threw",
-                  "aborted", "timed out", "refused"], lines)
+    """Each method over all families, without the kinds of failure that none has."""
+    columns = [("failures", failures), ("wrong", "wrong"), ("gross", "gross"), ("off", "off"), ("NaN", "nan"), ("threw", "threw"),
+               ("aborted", "aborted"), ("timed out", "timed_out"), ("refused", "refused")]
+    sums = {method: total([row for row in rows if row["method"] == method]) for method in in_order(row["method"] for row in rows)}
+    values = {head: [of(row) if callable(of) else row[of] for row in sums.values()] for head, of in columns}
+    shown = {head: column for head, column in values.items() if head == "failures" or any(column)}
+    return table(["method", *shown], [[f"`{method}`", *line] for method, line in zip(sums, zip(*shown.values()))])
+
+
+COSTLIEST = 3  # families that the page shows
 
 
 def cost_table(costs):
-    """How often each tier was needed, and the time of a query it decided."""
-    lines = []
+    """How often each tier was needed, and the time of a query it decided: all families, and those that need integers most."""
+    shares, lines = {}, {}
     for family in in_order(row["family"] for row in costs):
         tiers = {row["tier"]: row for row in costs if row["family"] == family}
         answers = sum(row["answers"] for row in tiers.values())
+        shares[family] = tiers["exact"]["answers"] / answers if "exact" in tiers else 0
         line = [family, answers]
         for tier in TIERS:
             row = tiers.get(tier)
             line += [f'{100 * row["answers"] / answers:.0f} %', duration(row["median_ns"]), duration(row["worst_ns"])] if row else [""] * 3
-        lines.append(line)
+        lines[family] = line
     answers = sum(row["answers"] for row in costs)
     line = ["**all**", answers]
     for tier in TIERS:
         here = [row for row in costs if row["tier"] == tier]
         line += [f'{100 * sum(row["answers"] for row in here) / answers:.0f} %', "", duration(max(row["worst_ns"] for row in here))]
-    return table(["family", "poses"] + [head for tier in TIERS for head in (tier, "median", "worst")], lines + [line])
+    costliest = sorted(lines, key=lambda family: -shares[family])[:COSTLIEST]
+    return table(["family", "poses"] + [head for tier in TIERS for head in (tier, "median", "worst")], [lines[family] for family in costliest] + [line])
 
 
 def duration(nanoseconds):
