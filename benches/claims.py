@@ -265,12 +265,12 @@ def choice_table(rows):
         here = {key: value for key, value in found.items() if key[0] == query}
         fixed = {key: value for key, value in here.items()}
         near = sum(1 for ratio, _, _ in fixed.values() if ratio <= 1.1)
-        ranked = sorted(fixed.items(), key=lambda item: -item[1][0])[:3]
+        ranked = sorted(fixed.items(), key=lambda item: -item[1][0])[:1]
         worst = "; ".join(f"{ratio:.2f} ({model}, {orbit}, {step if step == 'random' else step + '°'}: {name})"
                           for (_, orbit, model, step), (ratio, name, _) in ranked)
         over = geometric_mean([ratio for ratio, _, _ in fixed.values()])
         lines.append([query, f"{near} of {len(fixed)}", f"{over:.2f}", worst])
-    return table(["query", "cells within 10 %", "automatic / best, mean", "worst cells, and what is best there"], lines)
+    return table(["query", "cells within 10 %", "automatic / best, mean", "worst cell, and what is best there"], lines)
 
 
 def error_table(rows):
