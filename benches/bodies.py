@@ -295,7 +295,7 @@ def first_table(rows):
 def weak_table(rows):
     """Of each query the bodies with the least ratios, each at its worst motion and in its worst form."""
     rows = strongest(rows)
-    lines = ["| query | how many times as long the quickest other library takes, at least |", "|---|---|"]
+    lines = ["| query | least speed-up over the fastest other library |", "|---|---|"]
     for query in QUERIES:
         least = {}
         for body in in_order((row["body"], row["form"]) for row in of(rows, query=query)):
