@@ -250,7 +250,8 @@ fn prove_lower(facts: &Facts, cache: &DepthCache, lower: f64) -> Result<()> {
             return Ok(());
         }
     }
-    if facts.bounds.as_ref().is_some_and(|bounds| facets::prove_lower(facts.polyhedra, bounds, &facts.exact, lower)) {
+    let by_facets = |bounds| facets::prove_lower(facts.polyhedra, bounds, &facts.exact, lower);
+    if facts.bounds.as_ref().is_some_and(by_facets) || facets::prove_point(facts.polyhedra, &facts.exact, lower) {
         return Ok(());
     }
     why.map_err(|why| unverified(format!("a depth of at least {lower:e} is not proved: {why}")))
