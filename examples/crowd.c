@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include <swiftprox.h>
+#include <swiftprox/scene.h>
 
 #include "program.h"
 
@@ -91,12 +92,11 @@ static swiftprox_scene *build(struct body *bodies)
     }
     for (int i = 0; i < BODIES; i++) {
         bodies[i] = (struct body){{SIDE * draw(), SIDE * draw()}, 6.283185307179586 * draw(), 0};
-        swiftprox_object_options options;
+        swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
         swiftprox_object_id id;
-        swiftprox_object_options_init(&options);
         options.user_data = (uint64_t)i;
         find_pose(&bodies[i], options.pose);
-        demand(swiftprox_scene_add_shape(scene, shapes[i % KINDS], &options, &id));
+        demand(swiftprox_scene_add_object(scene, &shapes[i % KINDS], 1, &options, &id));
     }
     for (int kind = 0; kind < KINDS; kind++) {
         swiftprox_shape_release(shapes[kind]); /* the scene has shares of its own */
@@ -127,7 +127,7 @@ static void move_all(swiftprox_scene *scene, struct body *bodies)
         walk(&bodies[i]);
         find_pose(&bodies[i], poses + 12 * i);
     }
-    demand(swiftprox_scene_set_all_poses(scene, poses, BODIES));
+    demand(swiftprox_scene_set_poses(scene, NULL, poses, BODIES));
 }
 
 /* Takes in what has changed; says how many pairs more touch than before. */

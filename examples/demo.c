@@ -12,6 +12,8 @@
 #include <time.h>
 
 #include <swiftprox.h>
+#include <swiftprox/replay.h>
+#include <swiftprox/verify.h>
 
 #include "demo_chart.h"
 #include "program.h"
@@ -147,13 +149,12 @@ static bool record(const struct flight *flight, const char *path)
     if (swiftprox_scene_create(NULL, &scene) != SWIFTPROX_OK) {
         return failed("no scene");
     }
-    swiftprox_scene_query query;
-    swiftprox_scene_query_init(&query);
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     query.distance_tolerance = INFINITY;
     swiftprox_object_id ids[2];
     bool good = swiftprox_scene_record(scene, path) == SWIFTPROX_OK;
     for (int k = 0; k < 2 && good; k++) {
-        good = swiftprox_scene_add_shape(scene, flight->shapes[k], NULL, &ids[k]) == SWIFTPROX_OK;
+        good = swiftprox_scene_add_object(scene, &flight->shapes[k], 1, NULL, &ids[k]) == SWIFTPROX_OK;
     }
     for (int i = 0; i < POSES && good; i += POSES / 360) {
         swiftprox_scene_answer answer;
@@ -294,8 +295,7 @@ static bool load_shape(const char *path, const swiftprox_shape **shape)
     const swiftprox_status status = swiftprox_shape_create_from_file(path, NULL, shape);
     if (status == SWIFTPROX_ERROR_MESH) {
         fprintf(stderr, "demo: %s; its convex hull flies instead\n", swiftprox_library_last_error_message());
-        swiftprox_shape_options options;
-        swiftprox_shape_options_init(&options);
+        swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
         options.input = SWIFTPROX_INPUT_HULL;
         return swiftprox_shape_create_from_file(path, &options, shape) == SWIFTPROX_OK || failed("cannot load");
     }

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 
 #include <swiftprox.h>
+#include <swiftprox/sets.h>
+#include <swiftprox/ground.h>
 
 #include "program.h"
 
@@ -49,10 +51,9 @@ static void add_boxes(swiftprox_scene *scene, swiftprox_object_id *ids)
     const swiftprox_shape *box;
     demand(swiftprox_shape_create_from_points(corners, 8, NULL, &box));
     for (int i = 0; i < BOXES; i++) {
-        swiftprox_object_options options;
-        swiftprox_object_options_init(&options);
+        swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
         options.user_data = (uint64_t)i;
-        demand(swiftprox_scene_add_shape(scene, box, &options, &ids[i]));
+        demand(swiftprox_scene_add_object(scene, &box, 1, &options, &ids[i]));
     }
     swiftprox_shape_release(box);
 }
@@ -60,8 +61,7 @@ static void add_boxes(swiftprox_scene *scene, swiftprox_object_id *ids)
 static void print_contacts(const swiftprox_scene *scene, const swiftprox_ground *ground, swiftprox_scratch *scratch)
 {
     const double here[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}; /* rows of [R|T] */
-    swiftprox_manifold_config config;
-    swiftprox_manifold_config_init(&config);
+    swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
     config.margin = 0.05;
     config.reduces = 1; /* four points of a contact are enough */
 

@@ -32,13 +32,15 @@ static void demand(swiftprox_status status)
 static swiftprox_object_id add(swiftprox_scene *scene, const char *folder, const char *model, uint64_t name, int fixed)
 {
     char path[1024];
-    swiftprox_object_options options;
+    const swiftprox_shape *shape;
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     swiftprox_object_id id;
     snprintf(path, sizeof path, "%s/%s", folder, model);
-    swiftprox_object_options_init(&options);
     options.user_data = name;
     options.fixed = fixed;
-    demand(swiftprox_scene_add_file(scene, path, NULL, &options, &id));
+    demand(swiftprox_shape_create_from_file(path, NULL, &shape));
+    demand(swiftprox_scene_add_object(scene, &shape, 1, &options, &id));
+    swiftprox_shape_release(shape); /* the scene has a share of its own */
     return id;
 }
 
@@ -71,8 +73,7 @@ int main(int argc, char **argv)
     const double at_the_side[12] = {1, 0, 0, 2, 0, 1, 0, 0, 0, 0, 1, 1}; /* rows of [R|T] */
     demand(swiftprox_scene_set_pose(scene, ball, at_the_side));
 
-    swiftprox_scene_query query;
-    swiftprox_scene_query_init(&query);
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     query.distance_tolerance = 1.0; /* who is farther apart is not listed */
 
     for (int step = 0; step < STEPS; step++) {

@@ -37,8 +37,8 @@
  * path, of a file's content or of a callback's message is not UTF-8 stands in messages as U+FFFD.
  *
  * Structs. Options, configs, queries, tunings and infos begin with struct_size and may grow at their end. The program's compiler
- * says it: fill the first four with their _init macro and change members, set an info's struct_size to its sizeof. Then header and
- * library may differ within an interface. A smaller struct of an older header is read and written as far as it goes, what it lacks
+ * says it: begin the first four with their SWIFTPROX_..._DEFAULT and change members, set an info's struct_size to its sizeof. Then
+ * header and library may differ within an interface. A smaller struct of an older header is read and written as far as it goes, what it lacks
  * is the default. Of a larger struct of a newer header this library leaves 0 what it does not know, and refuses by
  * SWIFTPROX_ERROR_STRUCT_SIZE one that sets it: a member that is added later means by 0 what was done before. All others (answers,
  * results, features, statistics, meshes, caches, ids) have a fixed size.
@@ -74,6 +74,7 @@
 #ifndef SWIFTPROX_H
 #define SWIFTPROX_H
 
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -117,7 +118,7 @@ extern "C" {
 #define SWIFTPROX_VERSION_MAJOR 0
 
 /** Minor version of this header. While the major version is 0, another minor version is another interface. */
-#define SWIFTPROX_VERSION_MINOR 1
+#define SWIFTPROX_VERSION_MINOR 2
 
 /** Patch version of this header. */
 #define SWIFTPROX_VERSION_PATCH 0
@@ -138,7 +139,7 @@ typedef enum swiftprox_status SWIFTPROX_INT32 {
   /** An argument is out of range, not finite or unknown: the message names it. */
   SWIFTPROX_ERROR_INVALID_ARGUMENT = 2,
   /**
-   * A struct_size is unknown: the struct was not initialised by its _init macro. Or the struct comes from a newer header and
+   * A struct_size is unknown: the struct was not begun with its SWIFTPROX_..._DEFAULT. Or the struct comes from a newer header and
    * sets what this library does not know.
    */
   SWIFTPROX_ERROR_STRUCT_SIZE = 3,
@@ -258,9 +259,9 @@ typedef enum swiftprox_input SWIFTPROX_INT32 {
  */
 typedef int32_t (*swiftprox_progress_callback)(void *user, double fraction);
 
-/** How a shape is made. Fill it with swiftprox_shape_options_init, then change what should differ. */
+/** How a shape is made. Begin with SWIFTPROX_SHAPE_OPTIONS_DEFAULT, then change what should differ. */
 typedef struct swiftprox_shape_options {
-  /** Set by swiftprox_shape_options_init. */
+  /** Set by SWIFTPROX_SHAPE_OPTIONS_DEFAULT. */
   size_t struct_size;
   /** What to do with input that is not a closed convex mesh with interior. Default: refuse it. */
   swiftprox_input input;
@@ -283,7 +284,7 @@ typedef struct swiftprox_shape_options {
   swiftprox_progress_callback progress;
   /** Handed to progress. Default: null. */
   void *progress_user;
-  /** Levels of detail and look-up table (swiftprox_tuning.h). Default: null, the automatic ones. */
+  /** Levels of detail and look-up table (swiftprox/tuning.h). Default: null, the automatic ones. */
   const struct swiftprox_shape_tuning *tuning;
   /**
    * By how much a coordinate may be off, in the units of the input, before scale: vertices that could lie in one plane up to
@@ -301,92 +302,9 @@ typedef struct swiftprox_shape_options {
   double swept_radius;
 } swiftprox_shape_options;
 
-/**
- * Fills `options` with the defaults. Call it as swiftprox_shape_options_init(&options), which hands over the size that the program
- * was compiled with. Null is ignored.
- *
- * Stable.
- */
-void swiftprox_shape_options_init_sized(struct swiftprox_shape_options *options,
-                                        size_t struct_size);
-#define swiftprox_shape_options_init(pointer) swiftprox_shape_options_init_sized((pointer), sizeof *(pointer))
-
-/**
- * Writes how far from convex a mesh may be because of the precision of its coordinates, relative to its bounding box's diagonal:
- * four units of the last place in which they are written (decimals, significant digits, floats), at least 1e-9 and at most 0.005.
- * `vertices` holds 3 * vertex_count coordinates as they were written down, before any transform. On failure it is NaN.
- *
- * SWIFTPROX_ERROR_MESH: a coordinate is not finite. SWIFTPROX_ERROR_INVALID_ARGUMENT: there are no vertices.
- * SWIFTPROX_ERROR_LIMIT: the count does not fit 32 bits. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: tolerance is null,
- * or vertices where there are some.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_mesh_estimate_tolerance(const double *vertices,
-                                                   size_t vertex_count,
-                                                   double *tolerance);
-
-/** Where swiftprox_mesh_decompose writes the triangles of a surface, piece by piece. The arrays are the caller's. */
-typedef struct swiftprox_decomposition {
-  /**
-   * Receives the vertices of each triangle, 3 * capacity numbers, counter-clockwise seen from outside: those of one piece
-   * follow each other. Of exactly equal vertices the first is named.
-   */
-  uint32_t *corners;
-  /** Receives for each triangle the face of the mesh that it is a part of, or is null. */
-  uint32_t *faces;
-  /** Receives for each triangle the number of its piece, ascending from 0, or is null. */
-  uint32_t *pieces;
-  /**
-   * Triangles for which the arrays have room. Two fewer than corners, summed over the faces of three or more, are always
-   * enough.
-   */
-  size_t capacity;
-  /** Receives the number of triangles; 0 on failure. */
-  size_t triangle_count;
-  /** Receives the number of pieces; 0 on failure. */
-  size_t piece_count;
-} swiftprox_decomposition;
-
-/**
- * Cuts the surface of a mesh into convex pieces, as the decomposer of SWIFT++ did. The mesh need not be convex, and may be in
- * several parts. Each triangle of the surface is in one piece; the piece's body is the convex hull of its triangles, which lie
- * on that hull.
- *
- * Of a closed surface, outside of which its faces run counter-clockwise, the hulls are inside of the body: bodies that are apart
- * are as far apart as their pieces. Pieces may overlap, and need not fill the body, so that a body wholly inside of another may
- * not meet one of its pieces. Surfaces without inside, which are open, or cavities, become flat pieces. A mesh whose closed
- * parts are all inside out is turned.
- *
- * For an object of a scene make a shape of each piece k with swiftprox_shape_create_from_mesh: the same vertices, the corners of
- * the piece's triangles, no valences, input = SWIFTPROX_INPUT_PATCH; and hand all of them to swiftprox_scene_add_object.
- *
- * `vertices`, `indices` and `valences` are as swiftprox_shape_create_from_mesh takes them; a face need not be convex, and is to
- * be flat about. `tolerance` is relative to the bounding box's diagonal: what is that close to a plane counts as on it, and a
- * piece may be about that far beyond the surface; 0 is exact. swiftprox_mesh_estimate_tolerance says what the coordinates
- * excuse. Without it, plane faces that were turned and rounded come to pieces. It takes time in proportion to the square of the
- * triangles at worst, one to two seconds for 10,000. `progress` learns how far it is and can cancel it, or is null;
- * `progress_user` is handed to it.
- *
- * SWIFTPROX_ERROR_MESH: a coordinate is not finite; an index is out of range; an edge belongs to more than two faces, or to two
- * in the same direction; a face crosses itself; no face has an area: the message names face, edge or vertex.
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: tolerance is out of [0, 1], or capacity is too small: nothing is written to the arrays, and
- * the message says how many are needed. SWIFTPROX_ERROR_CANCELLED: progress said so. SWIFTPROX_ERROR_LIMIT: a count does not fit
- * 32 bits. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: decomposition, its corners or an array of the mesh is null.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_mesh_decompose(const double *vertices,
-                                          size_t vertex_count,
-                                          const uint32_t *indices,
-                                          const uint32_t *valences,
-                                          size_t face_count,
-                                          double tolerance,
-                                          swiftprox_progress_callback progress,
-                                          void *progress_user,
-                                          struct swiftprox_decomposition *decomposition);
+/** Begins a swiftprox_shape_options: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_SHAPE_OPTIONS_DEFAULT \
+  {sizeof(swiftprox_shape_options), SWIFTPROX_INPUT_STRICT, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}, 1, -1, 0, 0, 0, -1, 0}
 
 /**
  * Makes a shape from a polygon mesh; the caller owns it and gives it back with swiftprox_shape_release. The arrays are copied.
@@ -500,29 +418,6 @@ swiftprox_status swiftprox_shape_create_capsule(double half_length,
                                                 const struct swiftprox_shape **shape);
 
 /**
- * Makes a copy of a shape with every length multiplied by `scale`, a power of two; the caller owns it and gives it back with
- * swiftprox_shape_release. Vertices, levels of detail and distances are exactly those multiplied, and labels are the same. Levels
- * are not built anew, automatic ones are taken over if they are made; what answers rely on is proved and measured again, which
- * takes up to half as long as making the shape did. `progress` learns how far it is and can cancel it, or is null; `progress_user`
- * is handed to it.
- *
- * A shape that is turned or moved needs no copy: objects share it, each with a pose, and so do pieces of one object. At any other
- * scale vertices would be rounded, so such a shape is made anew with swiftprox_shape_options.scale; one that is stretched or
- * mirrored is made from other vertices. On failure `*shape` is null.
- *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: scale is no positive power of two, or lengths would leave the range of doubles.
- * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED: progress said so. SWIFTPROX_ERROR_NULL_POINTER: source or shape is null.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_shape_create_scaled(const struct swiftprox_shape *source,
-                                               double scale,
-                                               swiftprox_progress_callback progress,
-                                               void *progress_user,
-                                               const struct swiftprox_shape **shape);
-
-/**
  * Gives the caller one more share of a shape, to be given back with a swiftprox_shape_release of its own; returns the shape. Safe
  * from any thread. Of null it returns null.
  *
@@ -590,81 +485,6 @@ swiftprox_status swiftprox_shape_get_info(const struct swiftprox_shape *shape,
                                           struct swiftprox_shape_info *info);
 
 /**
- * Copies the vertices of the hull, in the local frame: `capacity` is how many `vertices` has room for (3 coordinates each),
- * at least swiftprox_shape_info.vertex_count. `labels` receives the caller's number of each vertex, or is null.
- *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFTPROX_ERROR_NULL_POINTER: shape or vertices is
- * null.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_shape_copy_vertices(const struct swiftprox_shape *shape,
-                                               double *vertices,
-                                               uint32_t *labels,
-                                               size_t capacity);
-
-/**
- * Copies the triangles of the hull, 3 corners each, counter-clockwise seen from outside, as places in what
- * swiftprox_shape_copy_vertices gives: `capacity` is how many triangles `corners` has room for, at least
- * swiftprox_shape_info.triangle_count. Faces of more than three sides come as several triangles; a body of dimension 1 or 0 has
- * none.
- *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written. SWIFTPROX_ERROR_NULL_POINTER: shape or corners is
- * null.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_shape_copy_triangles(const struct swiftprox_shape *shape,
-                                                uint32_t *corners,
-                                                size_t capacity);
-
-/** A face of a shape's hull: all coplanar triangles, a convex polygon. */
-typedef struct swiftprox_face {
-  /** Outward, a unit vector up to rounding, in the local frame. */
-  double normal[3];
-  /** The product of the normal with a corner, rounded: normal * x = offset in the face's plane. */
-  double offset;
-  /** How many corners the face has. */
-  size_t corner_count;
-  /** How many of the caller's polygons are merged in it, 1 at least. */
-  size_t label_count;
-} swiftprox_face;
-
-/**
- * Says what a face of a shape is, by its place from 0 to below swiftprox_shape_info.face_count. `corners` receives its corners,
- * counter-clockwise seen from outside, as places in what swiftprox_shape_copy_vertices gives; `labels` the caller's polygons that
- * are merged in it, ascending, or the face's own number where the hull was made without polygons. Each gets as many as there is
- * room for, and may be null with no room. swiftprox_shape_find_face tells the place of a face of an answer.
- *
- * On failure `*face` is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the shape has no such face. SWIFTPROX_ERROR_NULL_POINTER.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_shape_get_face(const struct swiftprox_shape *shape,
-                                          size_t index,
-                                          struct swiftprox_face *face,
-                                          uint32_t *corners,
-                                          size_t corner_capacity,
-                                          uint32_t *labels,
-                                          size_t label_capacity);
-
-/**
- * The place of a face, for swiftprox_shape_get_face: of the one that the caller's polygon `label` is a part of, which is the id
- * of a face in an answer. Of several the first. Takes time in proportion to the faces. On failure `*index` is SIZE_MAX.
- *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: no face has the label. SWIFTPROX_ERROR_NULL_POINTER.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_shape_find_face(const struct swiftprox_shape *shape,
-                                           uint32_t label,
-                                           size_t *index);
-
-/**
  * Makes now what a query of a shape would make when it first needs it: the look-up table, maps of the support function, and
  * automatic levels of detail, which take about twice as long as making the shape did. After that no query of this shape allocates
  * or waits for that.
@@ -682,43 +502,6 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_prepare(const struct swiftprox_shape *shape,
                                          swiftprox_progress_callback progress,
                                          void *progress_user);
-
-/**
- * Saves a shape in a file, replacing what was there: with its levels of detail, except automatic ones, which are made again
- * when they are needed, as the look-up table is. Any machine can load it, with the levels that are saved: built anew, those of a
- * machine with other vector units may be slightly different ones. A version of this library that does not know the version of the
- * file refuses it.
- *
- * SWIFTPROX_ERROR_FILE: the file cannot be written or is no regular one (nothing waits for the reader of a pipe); the message
- * names it and says why. SWIFTPROX_ERROR_MEMORY: the file is as it was. SWIFTPROX_ERROR_NULL_POINTER,
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the message names the argument.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_shape_save(const struct swiftprox_shape *shape,
-                                      const char *path);
-
-/**
- * Loads a shape that swiftprox_shape_save has saved; the caller owns it and gives it back with swiftprox_shape_release. It has the
- * same hull, labels, levels and table, for the same answers. What answers
- * rely on is not believed but proved and measured again, so loading takes up to about half as long as making the shape did,
- * levels included; a damaged file is refused. `progress` learns how far it is and can cancel it, or is null; `progress_user` is
- * handed to it.
- *
- * On failure `*shape` is null.
- *
- * SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file, is larger than 4 GiB (4,294,967,296 bytes), is no shape file,
- * of another version or damaged; the message names it and says what is wrong. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_CANCELLED:
- * progress said so. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_INVALID_ARGUMENT: the message names the argument.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_shape_load(const char *path,
-                                      swiftprox_progress_callback progress,
-                                      void *progress_user,
-                                      const struct swiftprox_shape **shape);
 
 /** @} */
 
@@ -854,9 +637,9 @@ typedef struct swiftprox_pair_cache {
   uint32_t words[24];
 } swiftprox_pair_cache;
 
-/** What a pair query is asked for. Fill it with swiftprox_pair_config_init, then change what should differ. */
+/** What a pair query is asked for. Begin with SWIFTPROX_PAIR_CONFIG_DEFAULT, then change what should differ. */
 typedef struct swiftprox_pair_config {
-  /** Set by swiftprox_pair_config_init. */
+  /** Set by SWIFTPROX_PAIR_CONFIG_DEFAULT. */
   size_t struct_size;
   /** Pairs farther apart than this are SWIFTPROX_OUTCOME_BEYOND; from 0 to infinity (the default: none is). */
   double distance_tolerance;
@@ -876,19 +659,12 @@ typedef struct swiftprox_pair_config {
    * one stopped, unless tuning->start says that it begin anew, at the tables or afresh: it may then stop there for ever.
    */
   uint32_t step_budget;
-  /** Where it starts and which levels of detail it goes through (swiftprox_tuning.h). Default: null, the automatic choice. */
+  /** Where it starts and which levels of detail it goes through (swiftprox/tuning.h). Default: null, the automatic choice. */
   const struct swiftprox_pair_tuning *tuning;
 } swiftprox_pair_config;
 
-/**
- * Fills `config` with the defaults. Call it as swiftprox_pair_config_init(&config), which hands over the size that the program was
- * compiled with. Null is ignored.
- *
- * Stable.
- */
-void swiftprox_pair_config_init_sized(struct swiftprox_pair_config *config,
-                                      size_t struct_size);
-#define swiftprox_pair_config_init(pointer) swiftprox_pair_config_init_sized((pointer), sizeof *(pointer))
+/** Begins a swiftprox_pair_config: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_PAIR_CONFIG_DEFAULT {sizeof(swiftprox_pair_config), HUGE_VAL, 1e-2, 0, 0, UINT32_MAX, 0}
 
 /**
  * The distance of two objects with a rigorous interval, witness points, normal and features. Of an intersecting pair the
@@ -965,58 +741,6 @@ swiftprox_status swiftprox_pair_approximate(const struct swiftprox_shape *shape1
                                             struct swiftprox_pair_cache *cache,
                                             const struct swiftprox_pair_config *config,
                                             struct swiftprox_pair_answer *answer);
-
-/**
- * Re-checks an answer, trusting nothing of the search that found it. SWIFTPROX_OK: it holds for these shapes and poses.
- *
- * Verdict and interval are proved for the exact objects R*v + T, with no tolerance. Separated and beyond: the distance is not 0,
- * and it is in [lower, upper]; a lower of 0 is said only of a distance below all doubles, or beyond a tolerance. Intersecting: the
- * differences of the proof's vertex pairs hold the origin in their hull. Undecided: the distance is at most upper. `distance` is
- * in the interval.
- *
- * The other members are rounded, so they hold up to an allowance of 2^-47 (radius 1 + radius 2 + distance of the centres in the
- * world and of each from its local origin). The normal is of unit length; along it separated objects are at least lower apart.
- * The witness points are in their objects, and the same in both frames. Those of separated objects are on their features, at a
- * distance in [lower, upper]; those of a contact are one point. What an answer does not say is NaN. decided_by and statistics are
- * not checked, nor is more of a contact's normal than its length.
- *
- * Takes time linear in the number of vertices: double-double arithmetic proves most intervals, integers the others.
- *
- * SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT: an enumerator in the
- * answer is unknown, it holds no outcome, its proof has no such vertex, or a normal or points are said of objects so large or far
- * apart that doubles cannot tell. SWIFTPROX_ERROR_POSE, SWIFTPROX_ERROR_NULL_POINTER: as of swiftprox_pair_distance.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_verify(const struct swiftprox_shape *shape1,
-                                       const double *pose1,
-                                       const struct swiftprox_shape *shape2,
-                                       const double *pose2,
-                                       const struct swiftprox_pair_answer *answer);
-
-/**
- * An outcome of a pair query in words. Never null, valid for ever; a number that is no outcome gets a string
- * that says so.
- *
- * Stable.
- */
-const char *swiftprox_library_outcome_string(swiftprox_outcome outcome);
-
-/**
- * What decided a pair query, in words. Never null, valid for ever; an unknown number gets a string that says so.
- *
- * Stable.
- */
-const char *swiftprox_library_decided_by_string(swiftprox_decided_by decided_by);
-
-/**
- * A kind of features in a word: "none", "vertex", "edge" or "face". Never null, valid for ever; a
- * number that is no kind gets a string that says so.
- *
- * Stable.
- */
-const char *swiftprox_library_feature_kind_string(swiftprox_feature_kind kind);
 
 /** @} */
 
@@ -1101,9 +825,9 @@ typedef struct swiftprox_depth_cache {
   uint32_t words[352];
 } swiftprox_depth_cache;
 
-/** What a depth query is asked for. Fill it with swiftprox_depth_config_init, then change what should differ. */
+/** What a depth query is asked for. Begin with SWIFTPROX_DEPTH_CONFIG_DEFAULT, then change what should differ. */
 typedef struct swiftprox_depth_config {
-  /** Set by swiftprox_depth_config_init. */
+  /** Set by SWIFTPROX_DEPTH_CONFIG_DEFAULT. */
   size_t struct_size;
   /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
   double rotation_limit;
@@ -1117,16 +841,10 @@ typedef struct swiftprox_depth_config {
    */
   uint32_t step_budget;
 } swiftprox_depth_config;
+/** What the header calls its default. */
 
-/**
- * Fills `config` with the defaults. Call it as swiftprox_depth_config_init(&config), which hands over the size that the program
- * was compiled with. Null is ignored.
- *
- * Stable.
- */
-void swiftprox_depth_config_init_sized(struct swiftprox_depth_config *config,
-                                       size_t struct_size);
-#define swiftprox_depth_config_init(pointer) swiftprox_depth_config_init_sized((pointer), sizeof *(pointer))
+/** Begins a swiftprox_depth_config: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_DEPTH_CONFIG_DEFAULT {sizeof(swiftprox_depth_config), 1e-2, 0, 0, UINT32_MAX}
 
 /**
  * How deep two objects are in each other: the least translation that parts them, with a rigorous interval, unit normal, witness
@@ -1145,36 +863,6 @@ swiftprox_status swiftprox_pair_depth(const struct swiftprox_shape *shape1,
                                       struct swiftprox_depth_cache *cache,
                                       const struct swiftprox_depth_config *config,
                                       struct swiftprox_depth_answer *answer);
-
-/**
- * Re-checks a depth, trusting nothing of the search that found it; `cache` is that of the query, which holds the proof, or any
- * other: then a proof is searched for. SWIFTPROX_OK: it holds for these shapes and poses.
- *
- * Verdict and interval are proved for the exact objects R*v + T, with no tolerance: that they overlap, touch or are separated, and
- * that the depth is in [lower, upper]. The other members are rounded, and hold up to the allowance of swiftprox_pair_verify:
- * points and features, and world2 - world1 is depth * normal up to that and upper - lower. How it ended and the statistics are not
- * checked.
- *
- * Takes time linear in the number of vertices and in the size of the cache.
- *
- * Errors as of swiftprox_pair_verify.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_depth_verify(const struct swiftprox_shape *shape1,
-                                             const double *pose1,
-                                             const struct swiftprox_shape *shape2,
-                                             const double *pose2,
-                                             const struct swiftprox_depth_cache *cache,
-                                             const struct swiftprox_depth_answer *answer);
-
-/**
- * How a depth query ended, in words. Never null, valid for ever; an unknown number gets a string that says so.
- *
- * Stable.
- */
-const char *swiftprox_library_depth_ending_string(swiftprox_depth_ending ending);
 
 /** @} */
 
@@ -1292,9 +980,9 @@ typedef struct swiftprox_manifold {
   uint32_t found_count;
 } swiftprox_manifold;
 
-/** What a manifold query is asked for. Fill it with swiftprox_manifold_config_init, then change what should differ. */
+/** What a manifold query is asked for. Begin with SWIFTPROX_MANIFOLD_CONFIG_DEFAULT, then change what should differ. */
 typedef struct swiftprox_manifold_config {
-  /** Set by swiftprox_manifold_config_init. */
+  /** Set by SWIFTPROX_MANIFOLD_CONFIG_DEFAULT. */
   size_t struct_size;
   /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
   double rotation_limit;
@@ -1310,16 +998,10 @@ typedef struct swiftprox_manifold_config {
    */
   int32_t reduces;
 } swiftprox_manifold_config;
+/** What the header calls its default. */
 
-/**
- * Fills `config` with the defaults. Call it as swiftprox_manifold_config_init(&config), which hands over the size that the program
- * was compiled with. Null is ignored.
- *
- * Stable.
- */
-void swiftprox_manifold_config_init_sized(struct swiftprox_manifold_config *config,
-                                          size_t struct_size);
-#define swiftprox_manifold_config_init(pointer) swiftprox_manifold_config_init_sized((pointer), sizeof *(pointer))
+/** Begins a swiftprox_manifold_config: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_MANIFOLD_CONFIG_DEFAULT {sizeof(swiftprox_manifold_config), 1e-2, 0, 0}
 
 /**
  * Where two objects meet, or are up to config->margin apart: pairs of points along the normal of least overlap or of the shortest
@@ -1366,514 +1048,6 @@ swiftprox_status swiftprox_pair_manifold_with_distance(const struct swiftprox_sh
                                                        struct swiftprox_manifold *manifold,
                                                        struct swiftprox_signed_distance *distance);
 
-/**
- * The best estimate of a point's gap: the middle of gap_lower and gap_upper. NaN of null, which the message and the log tell.
- *
- * Stable.
- */
-double swiftprox_manifold_point_gap(const struct swiftprox_manifold_point *point);
-
-/**
- * Re-checks a manifold, trusting nothing of the search that found it; config is that of the query, and `cache` too, or any other:
- * then a proof of the depth is searched for. `points` holds `count` points, those of the manifold first. SWIFTPROX_OK: it holds
- * for these shapes and poses.
- *
- * Verdict and interval are proved for the exact objects R*v + T, with no tolerance, as by swiftprox_pair_verify and
- * swiftprox_pair_depth_verify. The other members are rounded. The normal is of unit length; along it objects that are apart are at
- * least lower apart, others overlap by at most -lower. Each point has a place on either object: no farther than b out of
- * it, no farther than b and the width of the gap behind a face that looks towards the other object, and the same in both frames.
- * The object has its feature; the place is no farther than b from that if it is a vertex or an edge. The gap is that of the two
- * places along the normal, up to the allowance of swiftprox_pair_verify; sideways they are no more than b off. One of the points
- * is as deep as the objects are, if none was left out.
- *
- * b is that allowance, 2^-25 of the pair's size (both radii and the distance of the centres) and eight times what contact faces
- * are thick at most. That a face is complete is not checked.
- *
- * SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT also for fewer points than
- * the manifold has. Others as of swiftprox_pair_verify and swiftprox_pair_manifold.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_manifold_verify(const struct swiftprox_shape *shape1,
-                                                const double *pose1,
-                                                const struct swiftprox_shape *shape2,
-                                                const double *pose2,
-                                                const struct swiftprox_manifold_cache *cache,
-                                                const struct swiftprox_manifold_config *config,
-                                                const struct swiftprox_manifold_point *points,
-                                                size_t count,
-                                                const struct swiftprox_manifold *manifold);
-
-/** @} */
-
-/**
- * @defgroup swiftprox_half_space Half-spaces
- * @{
- */
-
-/** The points x of the world with `normal` * x <= `offset`. */
-typedef struct swiftprox_half_space {
-  /** Out of the half-space; of any length but 0. */
-  double normal[3];
-  /** Where its plane is: the product of the normal with any of its points. */
-  double offset;
-} swiftprox_half_space;
-
-/**
- * The distance of a shape, which is object 1, from a half-space, or minus its depth, as of swiftprox_pair_signed_distance: the
- * interval holds for the exact shape and plane, and touching is decided in integers. The normal of the answer is the
- * half-space's, of unit length; its witness point is on the plane, in the world in both members, and its feature is of no kind.
- *
- * On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the normal is 0, or a number of half_space is not finite.
- * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_NULL_POINTER.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_half_space_distance(const struct swiftprox_shape *shape,
-                                                    const double *pose,
-                                                    const struct swiftprox_half_space *half_space,
-                                                    struct swiftprox_signed_distance *answer);
-
-/**
- * Where a shape, which is object 1, meets a half-space, or is up to config->margin apart: the corners of its face that looks most
- * at the plane, with a gap of at most the margin, and in any case its lowest point. Points and their room as of
- * swiftprox_pair_manifold; there is no cache, so that four points of a reduced manifold are chosen anew each time.
- *
- * Errors as of swiftprox_pair_half_space_distance and swiftprox_pair_manifold. On failure the manifold is reset, and points are as
- * they were.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_half_space_manifold(const struct swiftprox_shape *shape,
-                                                    const double *pose,
-                                                    const struct swiftprox_half_space *half_space,
-                                                    const struct swiftprox_manifold_config *config,
-                                                    struct swiftprox_manifold_point *points,
-                                                    size_t capacity,
-                                                    struct swiftprox_manifold *manifold);
-
-/** @} */
-
-/**
- * @defgroup swiftprox_motion Objects that move
- * @{
- */
-
-/** How an object moves. */
-typedef enum swiftprox_motion_kind SWIFTPROX_INT32 {
-  /** It stays at start. */
-  SWIFTPROX_MOTION_KIND_FIXED = 0,
-  /**
-   * A point p is at T + R c + t velocity + exp(t [rotation]) R (p - c) at time t, where start is [R|T] and c the centre: it
-   * turns at a constant rate about a centre that moves on a line.
-   */
-  SWIFTPROX_MOTION_KIND_SCREW = 1,
-  /** Its pose is (1 - t) start + t end, entry by entry. For turns of up to 0.2 radians: poses in between are refused beyond. */
-  SWIFTPROX_MOTION_KIND_AFFINE = 2,
-  /** Where `pose` says. */
-  SWIFTPROX_MOTION_KIND_CALLBACK = 3
-} swiftprox_motion_kind;
-
-/**
- * Writes the pose at a time, 12 doubles, row by row; they are NaN before, which is refused. The same time gives the same pose. It
- * runs in the thread that asks, and must return; a C++ exception that leaves it ends the program.
- */
-typedef void (*swiftprox_motion_callback)(void *user, double time, double *pose);
-
-/** A motion. Of its members only those of its kind are looked at. */
-typedef struct swiftprox_motion {
-  /** Which of the following it is. */
-  swiftprox_motion_kind kind;
-  /** The pose at time 0. Not of SWIFTPROX_MOTION_KIND_CALLBACK. */
-  double start[12];
-  /** The pose at time 1, of SWIFTPROX_MOTION_KIND_AFFINE. */
-  double end[12];
-  /** Of SWIFTPROX_MOTION_KIND_SCREW: what it turns about, in the object's frame, */
-  double centre[3];
-  /** how fast that moves, in the world, */
-  double velocity[3];
-  /** and its angular velocity, in the world: along the axis, in radians per unit of time. All turned by may be 2^20 radians. */
-  double rotation[3];
-  /** Of SWIFTPROX_MOTION_KIND_CALLBACK: where it is at a time, */
-  swiftprox_motion_callback pose;
-  /** what is handed to that, */
-  void *user;
-  /** a bound of the acceleration of all points of the object at all times that are asked about, */
-  double bend;
-  /** and how far from the motion that is meant the poses may have a point. Answers are as right as these two. */
-  double rounding;
-} swiftprox_motion;
-
-/**
- * The motion about a centre, in the object's frame (null: its origin), that starts at pose1 at time 0 and by the shortest turn
- * comes to pose2 at time 1. `end_error` (may be null): no point within `reach` of the centre ends farther than that from where
- * pose2 has it, which is rounding and what one rotation is more distorted than the other.
- *
- * SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_INVALID_ARGUMENT: the centre is not finite, or the reach is not from 0
- * on. SWIFTPROX_ERROR_NULL_POINTER. Then nothing is written.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_motion_between(const double *pose1,
-                                          const double *pose2,
-                                          const double *centre,
-                                          double reach,
-                                          struct swiftprox_motion *motion,
-                                          double *end_error);
-
-/** How a cast came out. */
-typedef enum swiftprox_cast_outcome SWIFTPROX_INT32 {
-  /** Nothing is said yet: the value of a fresh answer. */
-  SWIFTPROX_CAST_OUTCOME_NONE = 0,
-  /** Farther apart than the margin at every time of the range. */
-  SWIFTPROX_CAST_OUTCOME_FREE = 1,
-  /**
-   * Farther apart than the margin at every time before `t_lo` and at it, no farther than the margin at `t_hi`. Both are the
-   * beginning where that is no farther. `t_hi` - `t_lo` is at most the time tolerance wherever contact can be proved so soon.
-   */
-  SWIFTPROX_CAST_OUTCOME_HIT = 2,
-  /**
-   * Farther apart than the margin up to `t_lo`, and hardly farther there: the objects graze, and rounding hides whether they
-   * meet.
-   */
-  SWIFTPROX_CAST_OUTCOME_NEAR = 3,
-  /** The step budget ran out: farther apart than the margin up to `t_lo`, and nothing is said of what follows. */
-  SWIFTPROX_CAST_OUTCOME_BUDGET = 4
-} swiftprox_cast_outcome;
-
-/** The answer to a cast. Numbers that it does not say are NaN. */
-typedef struct swiftprox_cast_answer {
-  /** How it came out. */
-  swiftprox_cast_outcome outcome;
-  /** Certified queries made. */
-  uint32_t queries;
-  /** The objects are farther apart than the margin from the beginning up to here; the end of the range if they are free. */
-  double t_lo;
-  /** Where they are no farther apart than the margin. Only of a hit. */
-  double t_hi;
-  /** Their distance is at least this at every time of the range. Only of objects that are free. */
-  double clearance;
-  /** Of a hit their distance at `t_hi` is at most this, 0 where they intersect; of a near miss that at `t_lo`. */
-  double upper;
-  /**
-   * Of a hit the contact at `t_hi`, of a near miss the distance at `t_lo`, with witness points, normal and features: for the
-   * poses there as rounded.
-   */
-  struct swiftprox_pair_answer contact;
-} swiftprox_cast_answer;
-
-/** What a cast is asked for. Fill it with swiftprox_cast_config_init, then change what should differ. */
-typedef struct swiftprox_cast_config {
-  /** Set by swiftprox_cast_config_init. */
-  size_t struct_size;
-  /** Where the range of times begins. Default: 0. */
-  double t_begin;
-  /** Where it ends, not before it begins. Default: 1. */
-  double t_end;
-  /** How wide the interval of a hit may be, and the shortest step; from 2^-50 of the larger end on. Default: 1e-9. */
-  double time_tolerance;
-  /** Objects are free where they are farther apart than this, from 0 on. Default: 0. */
-  double margin;
-  /** Certified queries after which it stops with what is proved, 1 or more. Default: 100,000. */
-  uint32_t step_budget;
-} swiftprox_cast_config;
-
-/**
- * Fills `config` with the defaults. Call it as swiftprox_cast_config_init(&config), which hands over the size that the program was
- * compiled with. Null is ignored.
- *
- * Experimental.
- */
-void swiftprox_cast_config_init_sized(struct swiftprox_cast_config *config,
-                                      size_t struct_size);
-#define swiftprox_cast_config_init(pointer) swiftprox_cast_config_init_sized((pointer), sizeof *(pointer))
-
-/**
- * Whether two moving objects stay farther apart than config->margin, or when they first do not: certain for the motions exactly as
- * they are described, at all times of the range and not only at some of them. Rounding of poses is accounted for.
- *
- * `cache` is what the pair remembers, as of swiftprox_pair_distance, and may be shared with that. It changes how long the cast
- * takes and where within what is proved a time lies, never what holds. `config` may be null for the defaults. On failure the
- * answer is reset: its outcome is SWIFTPROX_CAST_OUTCOME_NONE.
- *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of config or of a motion is out of range or not finite, or a callback's poses show
- * that its bend is wrong. SWIFTPROX_ERROR_POSE: a pose of a motion is refused; the message says when.
- * SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_BUG: the cache is
- * reset, too.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_cast(const struct swiftprox_shape *shape1,
-                                     const struct swiftprox_motion *motion1,
-                                     const struct swiftprox_shape *shape2,
-                                     const struct swiftprox_motion *motion2,
-                                     struct swiftprox_pair_cache *cache,
-                                     const struct swiftprox_cast_config *config,
-                                     struct swiftprox_cast_answer *answer);
-
-/**
- * Re-checks the answer of swiftprox_pair_cast for the same motions and configuration, trusting nothing of the search that found
- * it. SWIFTPROX_OK: it holds.
- *
- * Proved are, at every time and without tolerance: of a free pair that it is farther apart than the margin and at least
- * clearance; of all others that it is farther apart than the margin up to t_lo, if that is not the beginning; of a hit that it is
- * no farther apart than the margin and upper at t_hi; of a near miss that it is no farther apart than upper at t_lo. `contact` is
- * checked by swiftprox_pair_verify for the poses there. `queries` is not checked.
- *
- * Steps and directions come from a sweep without a cache. Each is proved over all vertices, so it takes time in proportion to
- * both.
- *
- * SWIFTPROX_ERROR_UNVERIFIED: something does not hold, or is not proved; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT:
- * an enumerator in the answer is unknown, or it holds no outcome. Others as of swiftprox_pair_cast and swiftprox_pair_verify.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_cast_verify(const struct swiftprox_shape *shape1,
-                                       const struct swiftprox_motion *motion1,
-                                       const struct swiftprox_shape *shape2,
-                                       const struct swiftprox_motion *motion2,
-                                       const struct swiftprox_cast_config *config,
-                                       const struct swiftprox_cast_answer *answer);
-
-/** The smallest distance of two objects over a motion. */
-typedef struct swiftprox_clearance {
-  /** They are at least this far apart at every time. */
-  double lower;
-  /** They are at most this far apart at `time`; 0 where they intersect. */
-  double upper;
-  /** A time of the range. */
-  double time;
-  /** Certified queries made. */
-  uint32_t queries;
-} swiftprox_clearance;
-
-/** What a clearance is asked for. Fill it with swiftprox_clearance_config_init, then change what should differ. */
-typedef struct swiftprox_clearance_config {
-  /** Set by swiftprox_clearance_config_init. */
-  size_t struct_size;
-  /** Where the range of times begins. Default: 0. */
-  double t_begin;
-  /** Where it ends, not before it begins. Default: 1. */
-  double t_end;
-  /** upper - lower may be as large as this ... from 0 to infinity. Default: 0. */
-  double absolute_error;
-  /** ... or as this times lower. Default: 0.01. Both 0: as narrow as can be proved. */
-  double relative_error;
-  /** Certified queries after which it stops with what is proved, 1 or more. Default: 100,000. */
-  uint32_t step_budget;
-} swiftprox_clearance_config;
-
-/**
- * Fills `config` with the defaults. Call it as swiftprox_clearance_config_init(&config), which hands over the size that the
- * program was compiled with. Null is ignored.
- *
- * Experimental.
- */
-void swiftprox_clearance_config_init_sized(struct swiftprox_clearance_config *config,
-                                           size_t struct_size);
-#define swiftprox_clearance_config_init(pointer) swiftprox_clearance_config_init_sized((pointer), sizeof *(pointer))
-
-/**
- * The smallest distance of two moving objects over the range of times, as an interval [lower, upper]: as narrow as asked for, or
- * as can be proved. It is wider where the step budget runs out, and where rounding of poses hides more. Arguments and errors as of
- * swiftprox_pair_cast; on failure the numbers are NaN.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_clearance(const struct swiftprox_shape *shape1,
-                                          const struct swiftprox_motion *motion1,
-                                          const struct swiftprox_shape *shape2,
-                                          const struct swiftprox_motion *motion2,
-                                          struct swiftprox_pair_cache *cache,
-                                          const struct swiftprox_clearance_config *config,
-                                          struct swiftprox_clearance *answer);
-
-/**
- * How a cast came out, in words. Never null, valid for ever; an unknown number gets a string that says so.
- *
- * Experimental.
- */
-const char *swiftprox_library_cast_outcome_string(swiftprox_cast_outcome outcome);
-
-/** @} */
-
-/**
- * @defgroup swiftprox_ray Rays
- * @{
- */
-
-/** The points `origin + t*direction` with 0 <= t <= `t_max`. */
-typedef struct swiftprox_ray {
-  /** Where it begins, in the world. */
-  double origin[3];
-  /** Where it leads, of any length but 0. */
-  double direction[3];
-  /** Where it ends, from 0 to infinity. */
-  double t_max;
-} swiftprox_ray;
-
-/** Whether a ray meets a body. */
-typedef enum swiftprox_ray_outcome SWIFTPROX_INT32 {
-  /** Nothing is said yet: the value of a fresh answer. */
-  SWIFTPROX_RAY_OUTCOME_NONE = 0,
-  /** No point of the ray is in the body. */
-  SWIFTPROX_RAY_OUTCOME_MISS = 1,
-  /** The ray enters the body, or touches it, from its origin on. */
-  SWIFTPROX_RAY_OUTCOME_HIT = 2,
-  /** The ray begins in the body, at a place that is not the first of its line in it. */
-  SWIFTPROX_RAY_OUTCOME_INSIDE = 3
-} swiftprox_ray_outcome;
-
-/** The part of a ray that is in a body, `entry <= t <= exit`. Numbers that it does not say are NaN. */
-typedef struct swiftprox_ray_answer {
-  /** Whether there is such a part. */
-  swiftprox_ray_outcome outcome;
-  /** Whether integers decided what rounding hides: 1 or 0. They allocate. */
-  int32_t exact;
-  /** `entry[0]` <= where it begins <= `entry[1]`; 0 from inside. */
-  double entry[2];
-  /** `exit[0]` <= where it ends <= `exit[1]`: where the ray leaves the body, or `t_max` if that comes first. */
-  double exit[2];
-  /**
-   * Of a hit the outward unit normal there, in the world frame, rounded: of the feature's face. A segment or a point has no
-   * face, and the normal is against the ray. Of a flat body met edge-on it is that of its plane. With a swept radius it is
-   * that of the round surface.
-   */
-  double normal[3];
-  /**
-   * Of a hit the face that the ray enters through; one of those that meet where it enters. A segment has an edge, a point a
-   * vertex. With a swept radius it is the vertex, the edge or the face that is nearest to where the ray enters, of the body
-   * without the ball.
-   */
-  struct swiftprox_feature feature;
-  /** Faces that the search visited; with a swept radius vertices. */
-  uint32_t steps;
-} swiftprox_ray_answer;
-
-/**
- * Where a ray meets a shape at a pose, the part of it that is in the closed body, a swept radius included: certain, whatever the
- * magnitudes. A ray that only touches is a hit. Ends are intervals that hold the true ones; they are at most 2^-40 of the lengths
- * that the ray and the body have wide, over that of the direction.
- *
- * On failure the answer is reset: its outcome is SWIFTPROX_RAY_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: origin or direction
- * is not finite, the direction is 0, or t_max is negative or NaN. SWIFTPROX_ERROR_POSE: the pose is refused.
- * SWIFTPROX_ERROR_NULL_POINTER.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_shape_cast_ray(const struct swiftprox_shape *shape,
-                                          const double *pose,
-                                          const struct swiftprox_ray *ray,
-                                          struct swiftprox_ray_answer *answer);
-
-/**
- * How a ray cast came out, in words. Never null, valid for ever; for an unknown number the string says so.
- *
- * Experimental.
- */
-const char *swiftprox_library_ray_outcome_string(swiftprox_ray_outcome outcome);
-
-/** @} */
-
-/**
- * @defgroup swiftprox_point Points and support vertices
- * @{
- */
-
-/** Where a point is relative to a closed body. */
-typedef enum swiftprox_point_location SWIFTPROX_INT32 {
-  /** Nothing is said yet: the value of a fresh answer. */
-  SWIFTPROX_POINT_LOCATION_NONE = 0,
-  /** In the body's interior. A body without interior has no such point. */
-  SWIFTPROX_POINT_LOCATION_INSIDE = 1,
-  /** On its surface; of a body without interior any point of it. */
-  SWIFTPROX_POINT_LOCATION_ON = 2,
-  /** Not in the body. */
-  SWIFTPROX_POINT_LOCATION_OUTSIDE = 3
-} swiftprox_point_location;
-
-/** Where a point is relative to a body, and what of the surface is nearest. Numbers that it does not say are NaN. */
-typedef struct swiftprox_point_answer {
-  /** Certain, whatever the magnitudes. */
-  swiftprox_point_location location;
-  /** What of the body's surface holds the nearest point of it, in the caller's numbering. */
-  struct swiftprox_feature feature;
-  /** The best estimate of how far the point is from the surface, `lower <= distance <= upper`: negative inside, 0 on it. */
-  double distance;
-  /** Lower end of the rigorous interval; above 0 only outside. */
-  double lower;
-  /** Upper end of the rigorous interval; at most 0 unless outside. */
-  double upper;
-  /** The nearest point of the surface, in the body's local frame. */
-  double local[3];
-  /** The same in the world. */
-  double world[3];
-  /** Unit normal in the world: moving the point along it makes the distance grow as much. */
-  double normal[3];
-} swiftprox_point_answer;
-
-/**
- * Where a point of the world is relative to a shape at a pose: inside, on it or outside, how far from its surface, and what of
- * that is nearest. Certain, whatever the magnitudes: integers decide where doubles cannot tell. It allocates.
- *
- * On failure the answer is reset: its location is SWIFTPROX_POINT_LOCATION_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: the point is
- * not finite. SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_shape_locate_point(const struct swiftprox_shape *shape,
-                                              const double *pose,
-                                              const double *point,
-                                              struct swiftprox_point_answer *answer);
-
-/** A vertex farthest along a direction. Numbers that it does not say are NaN. */
-typedef struct swiftprox_support_vertex {
-  /** The vertex's index in the caller's array: for certain no other is farther. Of several that are as far it is any. */
-  uint32_t vertex;
-  /** Whether integers decided what rounding hides: 1 or 0. They allocate. */
-  int32_t exact;
-  /** Where the body reaches farthest, in its local frame: the vertex, or a point of the ball about it. */
-  double local[3];
-  /** The same in the world, rounded. */
-  double world[3];
-  /**
-   * `height[0]` <= direction * x <= `height[1]` for its exact place x in the world: the largest over the body, the ball that is
-   * swept over it included.
-   */
-  double height[2];
-} swiftprox_support_vertex;
-
-/**
- * The vertex of a shape at a pose that is farthest along a direction of the world, of any length but 0: for certain no other is
- * farther, whatever the magnitudes. Of a shape with a swept radius place and height are those of the ball about the vertex.
- *
- * On failure the answer's numbers are NaN and 0. SWIFTPROX_ERROR_INVALID_ARGUMENT: the direction is 0 or not finite.
- * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_shape_support(const struct swiftprox_shape *shape,
-                                         const double *pose,
-                                         const double *direction,
-                                         struct swiftprox_support_vertex *answer);
-
-/**
- * A location, in words. Never null, valid for ever; a number that is none gets a string that says so.
- *
- * Experimental.
- */
-const char *swiftprox_library_point_location_string(swiftprox_point_location location);
-
 /** @} */
 
 /**
@@ -1903,9 +1077,9 @@ typedef void *(*swiftprox_enqueue_task_callback)(swiftprox_task_callback task,
 /** Is to return when the task that swiftprox_enqueue_task_callback returned is done. It must return, as that. */
 typedef void (*swiftprox_finish_task_callback)(void *task, void *user);
 
-/** How a scene is made. Fill it with swiftprox_scene_options_init, then change what should differ. */
+/** How a scene is made. Begin with SWIFTPROX_SCENE_OPTIONS_DEFAULT, then change what should differ. */
 typedef struct swiftprox_scene_options {
-  /** Set by swiftprox_scene_options_init. */
+  /** Set by SWIFTPROX_SCENE_OPTIONS_DEFAULT. */
   size_t struct_size;
   /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
   double rotation_limit;
@@ -1928,15 +1102,8 @@ typedef struct swiftprox_scene_options {
   void *task_user;
 } swiftprox_scene_options;
 
-/**
- * Fills `options` with the defaults. Call it as swiftprox_scene_options_init(&options), which hands over the size that the program
- * was compiled with. Null is ignored.
- *
- * Stable.
- */
-void swiftprox_scene_options_init_sized(struct swiftprox_scene_options *options,
-                                        size_t struct_size);
-#define swiftprox_scene_options_init(pointer) swiftprox_scene_options_init_sized((pointer), sizeof *(pointer))
+/** Begins a swiftprox_scene_options: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_SCENE_OPTIONS_DEFAULT {sizeof(swiftprox_scene_options), 1e-2, 0, 0, 0, 0}
 
 /**
  * Makes an empty scene; the caller owns it and gives it back with swiftprox_scene_destroy. On failure `*scene` is null. `options`
@@ -1986,9 +1153,9 @@ typedef struct swiftprox_object_id {
 #define SWIFTPROX_OBJECT_ID_NULL ((swiftprox_object_id){0})
 #endif
 
-/** How an object begins. Fill it with swiftprox_object_options_init, then change what should differ. */
+/** How an object begins. Begin with SWIFTPROX_OBJECT_OPTIONS_DEFAULT, then change what should differ. */
 typedef struct swiftprox_object_options {
-  /** Set by swiftprox_object_options_init. */
+  /** Set by SWIFTPROX_OBJECT_OPTIONS_DEFAULT. */
   size_t struct_size;
   /** The caller's own; it comes back in every result. Default: 0. */
   uint64_t user_data;
@@ -2004,31 +1171,10 @@ typedef struct swiftprox_object_options {
   /** The groups that it is tested against. Default: 0, which stands for all. */
   uint32_t mask;
 } swiftprox_object_options;
+/** What the header calls its default. */
 
-/**
- * Fills `options` with the defaults. Call it as swiftprox_object_options_init(&options), which hands over the size that the
- * program was compiled with. Null is ignored.
- *
- * Stable.
- */
-void swiftprox_object_options_init_sized(struct swiftprox_object_options *options,
-                                         size_t struct_size);
-#define swiftprox_object_options_init(pointer) swiftprox_object_options_init_sized((pointer), sizeof *(pointer))
-
-/**
- * Adds an object of one convex piece. All its pairs are active. The scene takes a share of the shape: the caller's own may be
- * released at once. On failure nothing is added and `*id` is null. `options` may be null for the defaults.
- *
- * SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_LIMIT: more objects than a scene holds. SWIFTPROX_ERROR_MEMORY.
- * SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_add_shape(struct swiftprox_scene *scene,
-                                           const struct swiftprox_shape *shape,
-                                           const struct swiftprox_object_options *options,
-                                           struct swiftprox_object_id *id);
+/** Begins a swiftprox_object_options: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_OBJECT_OPTIONS_DEFAULT {sizeof(swiftprox_object_options), 0, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, 0, 0, 0}
 
 /**
  * Adds an object of one or several convex pieces in one local frame. All its pairs are active. The scene takes a share of each
@@ -2049,67 +1195,21 @@ swiftprox_status swiftprox_scene_add_object(struct swiftprox_scene *scene,
                                             struct swiftprox_object_id *id);
 
 /**
- * Adds an object of one convex piece for each of `count` shapes, in their order, as swiftprox_scene_add_shape does: all or none.
- * `options` are as many, one behind the other, each filled with swiftprox_object_options_init; null for the defaults of all. `ids`
+ * Adds an object of one convex piece for each of `count` shapes, in their order, as swiftprox_scene_add_object does: all or none.
+ * `options` are as many, one behind the other, each begun with SWIFTPROX_OBJECT_OPTIONS_DEFAULT; null for the defaults of all. `ids`
  * receives the ids.
  *
  * On failure nothing is added, and all ids are null. The message names the first place that is refused. Errors as of
- * swiftprox_scene_add_shape; SWIFTPROX_ERROR_STRUCT_SIZE also where the options have different sizes.
+ * swiftprox_scene_add_object; SWIFTPROX_ERROR_STRUCT_SIZE also where the options have different sizes.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_add_shapes(struct swiftprox_scene *scene,
-                                            const struct swiftprox_shape *const *shapes,
-                                            const struct swiftprox_object_options *options,
-                                            size_t count,
-                                            struct swiftprox_object_id *ids);
-
-/**
- * Makes a shape as swiftprox_shape_create_from_mesh does and adds an object of that one piece as swiftprox_scene_add_object does,
- * with the arguments and the errors of both. Both options may be null for the defaults.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_add_mesh(struct swiftprox_scene *scene,
-                                          const double *vertices,
-                                          size_t vertex_count,
-                                          const uint32_t *indices,
-                                          const uint32_t *valences,
-                                          size_t face_count,
-                                          const struct swiftprox_shape_options *shape_options,
-                                          const struct swiftprox_object_options *object_options,
-                                          struct swiftprox_object_id *id);
-
-/**
- * Makes a shape as swiftprox_shape_create_from_file does and adds an object of that one piece as swiftprox_scene_add_object does,
- * with the arguments and the errors of both. Both options may be null for the defaults.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_add_file(struct swiftprox_scene *scene,
-                                          const char *path,
-                                          const struct swiftprox_shape_options *shape_options,
-                                          const struct swiftprox_object_options *object_options,
-                                          struct swiftprox_object_id *id);
-
-/**
- * Adds an object like `original`: with its pieces (shared) and their poses, its pose, fixedness, groups and mask, and all user
- * data, as they are now. All its pairs are active, whatever those of its original are; what pairs remember is not copied. On
- * failure nothing is added and `*id` is null.
- *
- * SWIFTPROX_ERROR_HANDLE: original names no object of this scene. SWIFTPROX_ERROR_LIMIT: more objects than a scene holds.
- * SWIFTPROX_ERROR_MEMORY.
- * SWIFTPROX_ERROR_NULL_POINTER: the message names the argument. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_copy_object(struct swiftprox_scene *scene,
-                                             struct swiftprox_object_id original,
-                                             struct swiftprox_object_id *id);
+swiftprox_status swiftprox_scene_add_objects(struct swiftprox_scene *scene,
+                                             const struct swiftprox_shape *const *shapes,
+                                             const struct swiftprox_object_options *options,
+                                             size_t count,
+                                             struct swiftprox_object_id *ids);
 
 /**
  * Removes an object and its pairs. Its id is refused from now on; all other ids stay as they are.
@@ -2150,7 +1250,7 @@ swiftprox_status swiftprox_scene_is_object_valid(const struct swiftprox_scene *s
                                                  int32_t *valid);
 
 /**
- * Writes the ids of all objects in order of creation, which is that of results and of swiftprox_scene_set_all_poses, and their
+ * Writes the ids of all objects in order of creation, which is that of results and of swiftprox_scene_set_poses, and their
  * number to `*count`. `ids` has room for `capacity` of them; with capacity 0 it may be null, and only the number is written. On
  * failure `*count` is 0.
  *
@@ -2191,11 +1291,12 @@ swiftprox_status swiftprox_scene_set_transform(struct swiftprox_scene *scene,
 
 /**
  * Moves the objects of `count` ids, fixed ones too: `poses` holds 12 doubles for each. Of an object that is given twice the later
- * pose counts. On failure all stay where they are.
+ * pose counts. Null `ids` are all objects that are not fixed, in order of creation. On failure all stay where they are; the
+ * message says which pose or id is refused. Workers share the work where it is in order of creation.
  *
- * Workers share what is in order of creation. SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_POSE: a
- * pose is refused. The message says which. SWIFTPROX_ERROR_MEMORY: only in a scene with workers. SWIFTPROX_ERROR_NULL_POINTER:
- * scene, ids or poses is null. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_POSE: a pose is refused.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: ids is null, and count is not the number of objects that are not fixed.
+ * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or poses is null. SWIFTPROX_ERROR_POISONED.
  *
  * Stable.
  */
@@ -2206,116 +1307,16 @@ swiftprox_status swiftprox_scene_set_poses(struct swiftprox_scene *scene,
                                            size_t count);
 
 /**
- * Moves all objects that are not fixed, in order of creation: `poses` holds 12 doubles for each of the `count`. On failure all
- * stay where they are.
- *
- * Workers share the work. SWIFTPROX_ERROR_INVALID_ARGUMENT: count is not the number of objects that are not fixed.
- * SWIFTPROX_ERROR_POSE: a pose is refused; the message names it. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or
- * poses is null. SWIFTPROX_ERROR_POISONED.
+ * As swiftprox_scene_set_poses, from 9 doubles of `rotations` and 3 of `translations` for each object.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_all_poses(struct swiftprox_scene *scene,
-                                               const double *poses,
-                                               size_t count);
-
-/**
- * As swiftprox_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_all_transforms(struct swiftprox_scene *scene,
-                                                    const double *rotations,
-                                                    const double *translations,
-                                                    size_t count);
-
-/**
- * Moves one piece within its object, by its number from 0: `pose` is 12 doubles, row-major [R|T]. The piece is in the world where
- * the object's pose times this one puts it, each of the twelve numbers rounded; its exact body is what these give. Points and
- * features of results are in the piece's own frame. On failure it stays where it is.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
- * SWIFTPROX_ERROR_POSE: the pose is refused, alone or with the object's. SWIFTPROX_ERROR_MEMORY.
- * SWIFTPROX_ERROR_NULL_POINTER: scene or pose is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_piece_pose(struct swiftprox_scene *scene,
-                                                struct swiftprox_object_id id,
-                                                uint32_t piece,
-                                                const double *pose);
-
-/**
- * Writes where a piece of an object is in the world, 12 doubles, row-major [R|T]: the pose for which queries answer, as
- * swiftprox_pair_verify takes it. On failure they are NaN.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
- * SWIFTPROX_ERROR_NULL_POINTER: scene or pose is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_get_piece_pose(const struct swiftprox_scene *scene,
-                                                struct swiftprox_object_id id,
-                                                uint32_t piece,
-                                                double *pose);
-
-/**
- * Fixes an object (`fixed` not 0) or lets it move again: pairs of two fixed objects are never tested. What its other pairs
- * remember stays.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_fixed(struct swiftprox_scene *scene,
-                                           struct swiftprox_object_id id,
-                                           int32_t fixed);
-
-/**
- * Sets the number that comes back in every result of this object.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_user_data(struct swiftprox_scene *scene,
-                                               struct swiftprox_object_id id,
-                                               uint64_t user_data);
-
-/**
- * Sets the number of a piece, which swiftprox_scene_get_piece_user_data gives, and the events of listeners; 0 before. Results name
- * the object and the piece.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
- * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_piece_user_data(struct swiftprox_scene *scene,
-                                                     struct swiftprox_object_id id,
-                                                     uint32_t piece,
-                                                     uint64_t user_data);
-
-/**
- * Writes the caller's number of a piece, in a time that does not grow with the scene. On failure it is 0.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
- * SWIFTPROX_ERROR_NULL_POINTER: scene or user_data is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_get_piece_user_data(const struct swiftprox_scene *scene,
-                                                     struct swiftprox_object_id id,
-                                                     uint32_t piece,
-                                                     uint64_t *user_data);
+swiftprox_status swiftprox_scene_set_transforms(struct swiftprox_scene *scene,
+                                                const struct swiftprox_object_id *ids,
+                                                const double *rotations,
+                                                const double *translations,
+                                                size_t count);
 
 /** What an object is. Set struct_size to sizeof(swiftprox_object_info) before asking for it. */
 typedef struct swiftprox_object_info {
@@ -2349,36 +1350,19 @@ swiftprox_status swiftprox_scene_get_object_info(const struct swiftprox_scene *s
                                                  struct swiftprox_object_info *info);
 
 /**
- * A box along the world's axes that contains an object, swept radii included: the corners where all coordinates are least and
- * greatest, three numbers each. It is wider than the object by less than 1e-5 of the radius and the place of each piece; around a
- * piece of more than 512 vertices it is the box of that piece's own turned box. On failure all numbers are NaN.
+ * Makes an object what `info` says: its user data, pose, fixedness, groups and mask. Fill info by
+ * swiftprox_scene_get_object_info and change members; a pose as it was moves nothing. What pairs remember stays.
  *
- * SWIFTPROX_ERROR_HANDLE: the id is null, stale or another scene's. SWIFTPROX_ERROR_NULL_POINTER.
- * SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_get_object_box(const struct swiftprox_scene *scene,
-                                                struct swiftprox_object_id id,
-                                                double *lower_corner,
-                                                double *upper_corner);
-
-/**
- * Gives a piece of an object, by its number from 0: a size_t as info's piece_count is, where results and other calls have a
- * uint32_t, so that programs of before run on. The scene owns the share: take one more with swiftprox_shape_retain to keep
- * the shape longer than the object. On failure `*shape` is null.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
- * SWIFTPROX_ERROR_NULL_POINTER: scene or shape is null. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_POSE: the pose is refused.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count is another one. SWIFTPROX_ERROR_NULL_POINTER: scene or info is null.
+ * SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown. SWIFTPROX_ERROR_POISONED. Nothing has changed then.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_get_piece(const struct swiftprox_scene *scene,
-                                           struct swiftprox_object_id id,
-                                           size_t piece,
-                                           const struct swiftprox_shape **shape);
+swiftprox_status swiftprox_scene_set_object_info(struct swiftprox_scene *scene,
+                                                 struct swiftprox_object_id id,
+                                                 const struct swiftprox_object_info *info);
 
 /** @} */
 
@@ -2405,9 +1389,9 @@ typedef enum swiftprox_contact_detail SWIFTPROX_INT32 {
   SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD = 3
 } swiftprox_contact_detail;
 
-/** What a query over a scene is asked for. Fill it with swiftprox_scene_query_init, then change what should differ. */
+/** What a query over a scene is asked for. Begin with SWIFTPROX_SCENE_QUERY_DEFAULT, then change what should differ. */
 typedef struct swiftprox_scene_query {
-  /** Set by swiftprox_scene_query_init. */
+  /** Set by SWIFTPROX_SCENE_QUERY_DEFAULT. */
   size_t struct_size;
   /**
    * List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
@@ -2436,7 +1420,7 @@ typedef struct swiftprox_scene_query {
    * swiftprox_scene_answer.found is it. Default: 0.
    */
   int32_t early_exit;
-  /** Where pairs start and which levels of detail they go through (swiftprox_tuning.h). Default: null, the automatic choice. */
+  /** Where pairs start and which levels of detail they go through (swiftprox/tuning.h). Default: null, the automatic choice. */
   const struct swiftprox_pair_tuning *tuning;
   /**
    * swiftprox_scene_query_contact: pairs farther apart have no manifold, and points with a larger gap do not belong to one;
@@ -2451,15 +1435,9 @@ typedef struct swiftprox_scene_query {
   swiftprox_contact_detail detail;
 } swiftprox_scene_query;
 
-/**
- * Fills `query` with the defaults. Call it as swiftprox_scene_query_init(&query), which hands over the size that the program was
- * compiled with. Null is ignored.
- *
- * Stable.
- */
-void swiftprox_scene_query_init_sized(struct swiftprox_scene_query *query,
-                                      size_t struct_size);
-#define swiftprox_scene_query_init(pointer) swiftprox_scene_query_init_sized((pointer), sizeof *(pointer))
+/** Begins a swiftprox_scene_query: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_SCENE_QUERY_DEFAULT \
+  {sizeof(swiftprox_scene_query), SWIFTPROX_DEFAULT_TOLERANCE, 0, 0, HUGE_VAL, UINT32_MAX, 0, 0, HUGE_VAL, SWIFTPROX_CONTACT_DETAIL_NONE}
 
 /** One pair of convex pieces in a query's list. */
 typedef struct swiftprox_pair_result {
@@ -2595,21 +1573,6 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_get_contacts(const struct swiftprox_scene *scene,
                                               struct swiftprox_scene_contacts *contacts);
 
-/**
- * The distance of a pair of the last query of contacts, or minus how deep it is: one interval through zero, normal and witness
- * points, as of swiftprox_pair_signed_distance. They come from swiftprox_pair_result.answer or swiftprox_contact.depth, at no
- * further search. `number` is the pair's among swiftprox_scene_contacts.contacts. On failure the answer's numbers are NaN.
- *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: there are not so many contacts, or the last query was none of contacts with a
- * swiftprox_scene_query.detail. SWIFTPROX_ERROR_NULL_POINTER: scene or answer is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_get_signed_distance(const struct swiftprox_scene *scene,
-                                                     size_t number,
-                                                     struct swiftprox_signed_distance *answer);
-
 /** What is asked of a pair. */
 typedef enum swiftprox_query_kind SWIFTPROX_INT32 {
   /** The verdict alone. */
@@ -2676,317 +1639,6 @@ swiftprox_status swiftprox_scene_query_placed_pieces(struct swiftprox_scene *sce
                                                      const struct swiftprox_scene_query *query,
                                                      struct swiftprox_scene_answer *answer);
 
-/** A pair of objects, the earlier created first. */
-typedef struct swiftprox_object_pair {
-  /** The earlier created object. */
-  struct swiftprox_object_id object1;
-  /** The later created object. */
-  struct swiftprox_object_id object2;
-  /** The caller's own number of object 1. */
-  uint64_t user_data1;
-  /** The caller's own number of object 2. */
-  uint64_t user_data2;
-} swiftprox_object_pair;
-
-/** What has changed since the last query about events. */
-typedef struct swiftprox_scene_events {
-  /**
-   * Pairs of objects that are near and were not, in order of creation. Owned by the scene, valid until its next query about
-   * events. Null when began_count is 0.
-   */
-  const struct swiftprox_object_pair *began;
-  /** How many. */
-  size_t began_count;
-  /**
-   * Pairs of objects that were near and are not, those of removed objects and of deactivated pairs among them. Owned and valid
-   * as began are. Null when ended_count is 0.
-   */
-  const struct swiftprox_object_pair *ended;
-  /** How many. */
-  size_t ended_count;
-} swiftprox_scene_events;
-
-/**
- * Which pairs of objects began or ended touching (`distance` 0), or being within a distance, since the last call; the first call
- * lists all that are. Objects are near if any of their pieces are. It is a query as others are: results of queries before end. The
- * scene has one such memory; swiftprox_scene_listen has one for each listener, and tells of contact points. On failure `*events`
- * is empty, and what was near stays remembered.
- *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene
- * or events is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_query_events(struct swiftprox_scene *scene,
-                                              double distance,
-                                              struct swiftprox_scene_events *events);
-
-/** What the queries of a scene did since it was made or swiftprox_scene_reset_statistics was called. */
-typedef struct swiftprox_scene_statistics {
-  /** Queries. */
-  uint64_t queries;
-  /** Active pairs of convex pieces that were near enough to be looked at. How near that is depends on earlier queries. */
-  uint64_t pairs;
-  /** ... of which Voronoi marching decided. */
-  uint64_t marched;
-  /** ... of which the vertex pairs or the separating axis of the query before decided. */
-  uint64_t coherent;
-  /** ... of which Gilbert-Johnson-Keerthi in floating point decided. */
-  uint64_t fallback;
-  /** ... of which integer arithmetic decided. */
-  uint64_t exact;
-  /** Feature pairs visited by Voronoi marching. */
-  uint64_t marching_steps;
-  /** Iterations of Gilbert-Johnson-Keerthi in floating point. */
-  uint64_t fallback_iterations;
-  /** Iterations in integer arithmetic. */
-  uint64_t exact_iterations;
-  /** Of the pairs, those that an approximate query stopped at because their interval was narrow enough. */
-  uint64_t within_tolerance;
-  /** ... of which the step budget ran out. */
-  uint64_t budget_spent;
-  /**
-   * Of the pairs, how many were answered by which level of detail: the coarser one of the two objects', 0 for the objects
-   * themselves, also where no geometry was asked; the last entry is for all levels beyond, too.
-   */
-  uint64_t by_level[8];
-  /**
-   * Sum of `upper - lower` over the pairs that queries about distances answered as SWIFTPROX_OUTCOME_SEPARATED or left
-   * SWIFTPROX_OUTCOME_UNDECIDED. Queries of intersection add nothing: their intervals are wide and only prove the verdict.
-   */
-  double error_spent;
-  /** Of the pairs, those whose bounding spheres decided. */
-  uint64_t bounding_spheres;
-  /** ... of which balls inside the pieces decided. */
-  uint64_t inscribed_spheres;
-  /** ... of which neither piece had moved since the same query before: its answer was given again. */
-  uint64_t unmoved;
-  /** ... of which the pieces had not moved far enough since their last test to be listed. */
-  uint64_t out_of_reach;
-} swiftprox_scene_statistics;
-
-/**
- * What the queries of a scene did since it was made or swiftprox_scene_reset_statistics was called. On failure error_spent is NaN,
- * all else 0.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: scene or statistics is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_get_statistics(const struct swiftprox_scene *scene,
-                                                struct swiftprox_scene_statistics *statistics);
-
-/**
- * Sets the statistics of a scene to zero.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_reset_statistics(struct swiftprox_scene *scene);
-
-/**
- * Queries without a tolerance are about all pairs of pieces. While these are no more than `limit`, each remembers its last answer,
- * which makes the next one several times faster and takes about 150 bytes, if there is memory for that. Of more than `limit` only
- * near pairs remember theirs. Results and their order are the same. Default: 1048576 pairs, about 150 MB, which 1448
- * single pieces make. 0: none but near pairs.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_kept_pair_limit(struct swiftprox_scene *scene,
-                                                     uint64_t limit);
-
-/**
- * Gives back the memory that a scene keeps for later: that of the last query's results, which end, and that of pairs that are no
- * more. What the others remember stays. The next query takes anew what it needs.
- *
- * SWIFTPROX_ERROR_MEMORY: there is not enough for a smaller list of pairs; nothing has changed.
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_shrink(struct swiftprox_scene *scene);
-
-/** @} */
-
-/**
- * @defgroup swiftprox_ground Grounds
- * @{
- */
-
-/**
- * A surface of triangles, immutable, shared by any number of owners. The front of a triangle is where its corners go around
- * counter-clockwise.
- */
-typedef struct swiftprox_ground swiftprox_ground;
-
-/**
- * Makes a ground from triangles; the caller owns it and gives it back with swiftprox_ground_release. The arrays are copied.
- *
- * `vertices` holds 3 * vertex_count coordinates, `corners` the 0-based vertex numbers of 3 * triangle_count corners. The front of
- * a triangle, out of which it pushes, is where its corners go around counter-clockwise. Triangles may make any surface, or none.
- * Sides with equal ends are one, if two triangles have it, the one way round and the other; over it bodies slide. Triangles
- * without area, or smaller than 2^-200, are left out, and keep their numbers.
- *
- * On failure `*ground` is null. SWIFTPROX_ERROR_MESH: a coordinate is not finite or beyond 2^200, a triangle names a vertex that
- * is not there, or none has an area. SWIFTPROX_ERROR_LIMIT: more than 2^30 triangles, or a count that does not fit 32 bits.
- * SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_ground_create_from_triangles(const double *vertices,
-                                                        size_t vertex_count,
-                                                        const uint32_t *corners,
-                                                        size_t triangle_count,
-                                                        const struct swiftprox_ground **ground);
-
-/**
- * Makes a ground from heights over a grid in the plane of x and y; the caller owns it and gives it back with
- * swiftprox_ground_release. The heights are copied.
- *
- * `heights` holds rows * columns of them, row by row, each row along x; NaN is a hole. Vertex i * columns + j is at (j *
- * column_spacing, i * row_spacing, height). Each cell is cut from its least corner to its greatest, into two triangles that look
- * up. With c = i * (columns - 1) + j of the least corner, triangle 2 * c has the corner along x, triangle 2 * c + 1 the other. A
- * cell with a hole at a corner is a hole.
- *
- * On failure `*ground` is null. SWIFTPROX_ERROR_INVALID_ARGUMENT: fewer than two rows or columns, or a spacing that is not
- * positive and finite. SWIFTPROX_ERROR_MESH: a coordinate is infinite or beyond 2^200, or all is holes. SWIFTPROX_ERROR_LIMIT:
- * more than 2^29 heights. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_ground_create_from_heights(size_t rows,
-                                                      size_t columns,
-                                                      double row_spacing,
-                                                      double column_spacing,
-                                                      const double *heights,
-                                                      const struct swiftprox_ground **ground);
-
-/**
- * Gives the caller one more share of a ground, to be given back with a swiftprox_ground_release of its own; returns the ground.
- * Safe from any thread. Of null it returns null.
- *
- * Experimental.
- */
-const struct swiftprox_ground *swiftprox_ground_retain(const struct swiftprox_ground *ground);
-
-/**
- * Gives back one share of a ground that the caller owns; the last one frees it. Safe from any thread. Null is ignored.
- *
- * Experimental.
- */
-void swiftprox_ground_release(const struct swiftprox_ground *ground);
-
-/** What a ground is. */
-typedef struct swiftprox_ground_info {
-  /** Vertices, as they were given. */
-  size_t vertex_count;
-  /** Triangles, those included that are left out. */
-  size_t triangle_count;
-  /** Memory that it holds, in bytes. */
-  size_t bytes;
-} swiftprox_ground_info;
-
-/**
- * Says what a ground is. On failure all is 0. SWIFTPROX_ERROR_NULL_POINTER.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_ground_get_info(const struct swiftprox_ground *ground,
-                                           struct swiftprox_ground_info *info);
-
-/** What is said of a body, which is object 1, and a ground. */
-typedef struct swiftprox_ground_distance {
-  /**
-   * As of a body and the surface as a set of points. Features of object 2 are in the ground's numbering: vertices, edges by
-   * their vertices, a face is a triangle. Of a pair beyond the tolerance nothing but `lower` is said.
-   */
-  struct swiftprox_pair_answer answer;
-  /**
-   * The triangle that the answer is about: the nearest, or the first that was found to intersect. It is the number of triangles
-   * where the answer is about none.
-   */
-  uint32_t triangle;
-} swiftprox_ground_distance;
-
-/**
- * How far a shape, which is object 1, is from a ground, or whether they intersect, as `kind` says: SWIFTPROX_QUERY_KIND_DISTANCE
- * or SWIFTPROX_QUERY_KIND_INTERSECTION. The answer is as certain as that of swiftprox_pair_distance or
- * swiftprox_pair_intersection, of the ground as a set of points; `config` is as there. There is no cache.
- *
- * On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: another kind, or a member of config is out of range.
- * SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_MEMORY: some 4 kB are asked for. SWIFTPROX_ERROR_NULL_POINTER,
- * SWIFTPROX_ERROR_STRUCT_SIZE.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_ground_distance(swiftprox_query_kind kind,
-                                                const struct swiftprox_shape *shape,
-                                                const double *pose,
-                                                const struct swiftprox_ground *ground,
-                                                const double *ground_pose,
-                                                const struct swiftprox_pair_config *config,
-                                                struct swiftprox_ground_distance *answer);
-
-/** One contact of a body, which is object 1, with a ground: points with one normal. */
-typedef struct swiftprox_ground_contact {
-  /**
-   * Its normal is out of the ground. Its outcome is that of the body and the triangles that it meets with this normal; `lower`
-   * and `upper` are the least gap of its points.
-   */
-  struct swiftprox_manifold manifold;
-  /** The triangle that has the least. */
-  uint32_t triangle;
-  /** Where among all points those of the contact begin. */
-  size_t first_point;
-} swiftprox_ground_contact;
-
-/** How many contacts there are with a ground, and points of all of them. */
-typedef struct swiftprox_ground_count {
-  /** Contacts found. */
-  size_t contact_count;
-  /** Points found. */
-  size_t point_count;
-} swiftprox_ground_count;
-
-/**
- * Where a shape, which is object 1, meets a ground, or is up to config->margin apart: contacts, each of points with one normal out
- * of the ground, sorted by triangle. `contacts` and `points` receive as many as there is room for, and may be null with no room;
- * `count` says how many there are. Points of contact c are those from its first_point on, as many as its manifold.point_count.
- *
- * A triangle acts on bodies whose centre of mass is not behind its plane. The normal is the one along which the body and the
- * triangle are nearest, or overlap least, where that is normal to the surface at the point that is touched; else it is the
- * triangle's. So no flat or concave edge between triangles holds up a body that slides over it.
- *
- * On failure the counts are 0, and contacts and points are as they were. SWIFTPROX_ERROR_INVALID_ARGUMENT,
- * SWIFTPROX_ERROR_STRUCT_SIZE: as of swiftprox_pair_manifold. SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_LIMIT: a
- * capacity is larger than memory. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_ground_contacts(const struct swiftprox_shape *shape,
-                                                const double *pose,
-                                                const struct swiftprox_ground *ground,
-                                                const double *ground_pose,
-                                                const struct swiftprox_manifold_config *config,
-                                                struct swiftprox_ground_contact *contacts,
-                                                size_t contact_capacity,
-                                                struct swiftprox_manifold_point *points,
-                                                size_t point_capacity,
-                                                struct swiftprox_ground_count *count);
-
 /** @} */
 
 /**
@@ -2995,93 +1647,33 @@ swiftprox_status swiftprox_pair_ground_contacts(const struct swiftprox_shape *sh
  */
 
 /**
- * Activates the pair of two objects, in either order, with all its pairs of pieces. Two fixed objects are never tested all the
- * same.
+ * Sets whether queries test pairs of objects: `active` other than 0, or 0. With two ids it is their pair, in either order, with all
+ * its pairs of pieces; with one null pointer all pairs that the other object is in now; with two all that there are now. Objects
+ * added later begin with all their pairs active; two fixed objects are never tested.
  *
  * SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice.
- * SWIFTPROX_ERROR_MEMORY.
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+ * SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_activate_pair(struct swiftprox_scene *scene,
-                                               struct swiftprox_object_id id1,
-                                               struct swiftprox_object_id id2);
-
-/**
- * Deactivates the pair of two objects: queries leave it out. Errors as of swiftprox_scene_activate_pair.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_deactivate_pair(struct swiftprox_scene *scene,
-                                                 struct swiftprox_object_id id1,
-                                                 struct swiftprox_object_id id2);
-
-/**
- * Activates all pairs that an object is in now.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_activate_object(struct swiftprox_scene *scene,
-                                                 struct swiftprox_object_id id);
-
-/**
- * Deactivates all pairs that an object is in now. Errors as of swiftprox_scene_activate_object.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_deactivate_object(struct swiftprox_scene *scene,
-                                                   struct swiftprox_object_id id);
-
-/**
- * Activates all pairs that there are now. Objects added later begin with all their pairs active in any case.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_activate_all(struct swiftprox_scene *scene);
-
-/**
- * Deactivates all pairs that there are now. Errors as of swiftprox_scene_activate_all.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_deactivate_all(struct swiftprox_scene *scene);
+swiftprox_status swiftprox_scene_set_pair_active(struct swiftprox_scene *scene,
+                                                 const struct swiftprox_object_id *id1,
+                                                 const struct swiftprox_object_id *id2,
+                                                 int32_t active);
 
 /**
  * Sets `*active` to 1 if queries test the pair of two objects, given in either order, else to 0 (also on failure).
  *
- * Errors as of swiftprox_scene_activate_pair; SWIFTPROX_ERROR_NULL_POINTER also when active is null.
+ * Errors as of swiftprox_scene_set_pair_active; SWIFTPROX_ERROR_NULL_POINTER also when active is null.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_is_pair_active(const struct swiftprox_scene *scene,
-                                                struct swiftprox_object_id id1,
-                                                struct swiftprox_object_id id2,
-                                                int32_t *active);
-
-/**
- * Sets the groups that an object is in and those that it is tested against, as swiftprox_object_options has them.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_filter(struct swiftprox_scene *scene,
-                                            struct swiftprox_object_id id,
-                                            uint32_t groups,
-                                            uint32_t mask);
+swiftprox_status swiftprox_scene_get_pair_active(const struct swiftprox_scene *scene,
+                                                 struct swiftprox_object_id id1,
+                                                 struct swiftprox_object_id id2,
+                                                 int32_t *active);
 
 /**
  * Says whether a pair of objects is to be tested (not 0) or not (0), the earlier created object first; `user` is the pointer given
@@ -3095,7 +1687,7 @@ typedef int32_t (*swiftprox_pair_filter_callback)(struct swiftprox_object_id obj
 /**
  * Asks `filter` of each pair of objects whether it is to be tested, once for each of its pairs of pieces when that comes near, and
  * of many objects without a tolerance in each query. Null: none is asked, as before the first call. All pairs that are near are
- * asked anew. The callback may be called from every thread that queries the scene.
+ * asked anew: set the same filter again when it has changed its mind. The callback may be called from every thread that queries the scene.
  *
  * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
  *
@@ -3105,370 +1697,6 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_set_pair_filter(struct swiftprox_scene *scene,
                                                  swiftprox_pair_filter_callback filter,
                                                  void *user);
-
-/**
- * Asks the filter anew of all pairs that are near, in the next query.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_filter_again(struct swiftprox_scene *scene);
-
-/**
- * From now on queries test these pairs of objects and no others, however near: for a program with a broad phase of its own.
- * `pairs` holds 2 ids for each of the `count`, in any order; what is there twice is tested once. Activation, filters and fixed
- * objects are heeded as ever; objects removed later are in no pair. Pairs that stay keep what they remember. On failure the pairs
- * of before stay.
- *
- * SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice in a pair. The
- * message says which. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or pairs is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_set_pairs(struct swiftprox_scene *scene,
-                                           const struct swiftprox_object_id *pairs,
-                                           size_t count);
-
-/**
- * Takes back what swiftprox_scene_set_pairs has set: from now on the scene finds the pairs that are near by itself, as it did
- * before.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_reset_pairs(struct swiftprox_scene *scene);
-
-/** @} */
-
-/**
- * @defgroup swiftprox_set Questions about sets of objects, which threads may ask one scene at once
- * @{
- */
-
-/** Objects that a question is about. */
-typedef struct swiftprox_object_set {
-  /** Which, in any order. */
-  const struct swiftprox_object_id *ids;
-  /** How many. */
-  size_t count;
-  /** 12 doubles for each object: where it is for this question. Null: where the scene has it. */
-  const double *poses;
-  /** Not 0: pairs of two objects of the set are asked about, too. */
-  int32_t among;
-} swiftprox_object_set;
-
-/**
- * Room to work in for questions that threads ask a scene at once: about sets of objects, and of rays, grounds and half-spaces. One
- * thread at a time uses it, for any scenes.
- *
- * Of sets it keeps what pairs of objects remember, which changes how fast an answer comes and which of several nearest points it
- * gives, never a verdict. Of rays, grounds and half-spaces it keeps nothing but the room and the last answer: whatever it has
- * seen, they are answered bit for bit as with a new one.
- */
-typedef struct swiftprox_scratch swiftprox_scratch;
-
-/**
- * Makes room to work in for questions that threads ask a scene at once: about sets of objects, and of rays, grounds and
- * half-spaces. The caller owns it and gives it back with swiftprox_scratch_destroy. One thread at a time uses it, for any scenes.
- * Of sets it keeps what pairs of objects remember, which changes how fast an answer comes and which of several nearest points it
- * gives, never a verdict: where bits matter, take a new one. Rays, grounds and half-spaces remember nothing: whatever it has seen,
- * they are answered bit for bit as with a new one. On failure `*scratch` is null.
- *
- * SWIFTPROX_ERROR_NULL_POINTER.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scratch_create(struct swiftprox_scratch **scratch);
-
-/**
- * Gives back what swiftprox_scratch_create made, and what it owns. Null is ignored.
- *
- * Experimental.
- */
-void swiftprox_scratch_destroy(struct swiftprox_scratch *scratch);
-
-/**
- * Makes questions about sets fast after objects were moved, added or removed: they find what is near by the trees of the broad
- * phase, which this brings up to date. It changes no answer. Without it they go through what has changed one by one, and through
- * all pieces if many have.
- *
- * SWIFTPROX_ERROR_MEMORY: questions take longer. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_prepare(struct swiftprox_scene *scene);
-
-/** The least distance between two sets of objects. Numbers that it does not say are NaN. */
-typedef struct swiftprox_least_distance {
-  /** The least distance is at least this, of sets that are farther apart than the cut-off that ... */
-  double lower;
-  /** ... and at most this: infinite of sets that are farther apart than the cut-off, and where no pair is tested. */
-  double upper;
-  /**
-   * A pair with that distance, object 1 of the first set; with null ids if there is none within the cut-off. Of several pairs as
-   * near, as far as doubles tell, it is any.
-   */
-  struct swiftprox_pair_result nearest;
-} swiftprox_least_distance;
-
-/**
- * The least distance between two sets of objects, or between a set and all other objects (against is null), with its interval and
- * a pair that has it. Of sets farther apart than cut_off (infinity: none are) no more than that is said.
- *
- * Pairs are those that queries test: activation, groups and the filter are heeded. Two fixed objects are left out, unless one of
- * the sets has poses. Any number of threads may ask a scene at once that nobody changes, each with its own scratch; a null scratch
- * is made for the call.
- *
- * On failure the answer's numbers are NaN. SWIFTPROX_ERROR_HANDLE: an id names no object of this scene.
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: cut_off is negative or NaN. SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_BUSY: the
- * scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_POISONED.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_least_distance(const struct swiftprox_scene *scene,
-                                                const struct swiftprox_object_set *set,
-                                                const struct swiftprox_object_set *against,
-                                                double cut_off,
-                                                struct swiftprox_scratch *scratch,
-                                                struct swiftprox_least_distance *answer);
-
-/** In which order times are tried. */
-typedef enum swiftprox_pose_order SWIFTPROX_INT32 {
-  /** The first, the middle, the quarters, and so on: what is found is any of those that hit, and found soonest. */
-  SWIFTPROX_POSE_ORDER_BISECTION = 0,
-  /** One after the other: what is found is the first that hits. */
-  SWIFTPROX_POSE_ORDER_IN_ORDER = 1
-} swiftprox_pose_order;
-
-/** At which of many times a set of objects meets something. */
-typedef struct swiftprox_first_hit {
-  /** The number of the time that was found to hit; how many times there are if none does. */
-  size_t time;
-  /** How many times were tried. */
-  size_t tried;
-  /**
-   * A pair that is no farther apart than the margin, object 1 of the set: of an answer the verdict and its proof, or an interval
-   * of the distance. Null ids if nothing hits.
-   */
-  struct swiftprox_pair_result pair;
-} swiftprox_first_hit;
-
-/**
- * At which of many times a set of objects is no farther from something than margin: all other objects, and if set->among is not 0
- * one another. poses are 12 doubles for each object at the first time, then at the second, and so on; set->poses is not looked at,
- * nor are poses of times that are not tried. Pairs are those that queries test; both may be fixed. Threads and scratch as of
- * swiftprox_scene_least_distance.
- *
- * On failure nothing is said: time and tried are 0, the pair's ids null. Errors as of swiftprox_scene_least_distance;
- * SWIFTPROX_ERROR_INVALID_ARGUMENT also for an empty set, an unknown order, and a margin that is negative, infinite or NaN.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_first_hit(const struct swiftprox_scene *scene,
-                                           const struct swiftprox_object_set *set,
-                                           const double *poses,
-                                           size_t time_count,
-                                           swiftprox_pose_order order,
-                                           double margin,
-                                           struct swiftprox_scratch *scratch,
-                                           struct swiftprox_first_hit *answer);
-
-/** What of a ray is asked. */
-typedef enum swiftprox_ray_hits SWIFTPROX_INT32 {
-  /** The first that it meets. */
-  SWIFTPROX_RAY_HITS_FIRST = 0,
-  /** All, in order. */
-  SWIFTPROX_RAY_HITS_ALL = 1,
-  /** Any, found soonest. */
-  SWIFTPROX_RAY_HITS_ANY = 2
-} swiftprox_ray_hits;
-
-/** A convex piece that a ray meets. */
-typedef struct swiftprox_scene_ray_hit {
-  /** Whose piece it is. */
-  struct swiftprox_object_id object;
-  /** The caller's own number of the object. */
-  uint64_t user_data;
-  /** Which piece. */
-  uint32_t piece;
-  /** Its place among all pieces of the scene, in order of creation, while none is removed. */
-  uint32_t row;
-  /** Where the ray meets it. */
-  struct swiftprox_ray_answer answer;
-} swiftprox_scene_ray_hit;
-
-/** What a ray met in a scene. */
-typedef struct swiftprox_scene_ray_answer {
-  /** In order of where the ray comes in. Owned by the scratch and valid until its next use. Null when count is 0. */
-  const struct swiftprox_scene_ray_hit *hits;
-  /** How many. */
-  size_t count;
-} swiftprox_scene_ray_answer;
-
-/**
- * What a ray meets of the objects whose groups have a bit of mask (UINT32_MAX: all in some group): the first convex piece, all in
- * order, or any, found soonest. Each as swiftprox_shape_cast_ray has it; pieces that are met at one place, as far as doubles tell,
- * are in order of creation. Threads as of swiftprox_scene_least_distance; the scratch owns the hits and must not be null.
- *
- * On failure the answer is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT: the ray is refused as by swiftprox_shape_cast_ray, or hits is
- * unknown. SWIFTPROX_ERROR_BUSY: the scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER,
- * SWIFTPROX_ERROR_POISONED.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_cast_ray(const struct swiftprox_scene *scene,
-                                          const struct swiftprox_ray *ray,
-                                          swiftprox_ray_hits hits,
-                                          uint32_t mask,
-                                          struct swiftprox_scratch *scratch,
-                                          struct swiftprox_scene_ray_answer *answer);
-
-/** How a cast of moving objects through a scene came out. Numbers that it does not say are NaN. */
-typedef struct swiftprox_scene_cast_answer {
-  /** Of the pair that ends it; free if all pairs are. */
-  swiftprox_cast_outcome outcome;
-  /** Certified queries made. */
-  uint32_t queries;
-  /** All pairs are farther apart than the margin from the beginning up to here: the last valid time. */
-  double t_lo;
-  /** Of a hit a time at which its pair is no farther apart than the margin, the earliest that is known. */
-  double t_hi;
-  /** Of a hit the distance of its pair at `t_hi` is at most this, of a near miss that at its own `t_lo`. */
-  double upper;
-  /** The pair that ends it, object 1 moving, with what swiftprox_cast_answer_contact says; null ids if all are free. */
-  struct swiftprox_pair_result pair;
-} swiftprox_scene_cast_answer;
-
-/**
- * Whether moving objects stay farther than config->margin from all others, which rest, or when they first do not: certain at all
- * times of the range, as swiftprox_pair_cast is. One motion moves all objects of the set as one body, else each has its own;
- * pieces with poses of their own move with their object. Pairs of two of them are asked about if set->among is not 0; set->poses
- * is not looked at. Pairs are those that queries test; both may be fixed. config->step_budget is that of each pair; config may be
- * null for the defaults. Threads and scratch as of swiftprox_scene_least_distance.
- *
- * On failure the answer is reset: its outcome is SWIFTPROX_CAST_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is
- * neither 1 nor set->count, or as of swiftprox_pair_cast. SWIFTPROX_ERROR_HANDLE: an id names no
- * object of this scene. SWIFTPROX_ERROR_BUSY: the scene is being changed. Others as of swiftprox_pair_cast, and
- * SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_POISONED.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_cast(const struct swiftprox_scene *scene,
-                                      const struct swiftprox_object_set *set,
-                                      const struct swiftprox_motion *motions,
-                                      size_t motion_count,
-                                      const struct swiftprox_cast_config *config,
-                                      struct swiftprox_scratch *scratch,
-                                      struct swiftprox_scene_cast_answer *answer);
-
-/**
- * swiftprox_scene_cast of many edges: answers has room for edge_count. The motions of the edges stand one behind the other: one
- * for each edge, or one for each object of the set at each edge. An edge is valid up to its answer's t_lo.
- *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is neither edge_count nor that times set->count. Others as of
- * swiftprox_scene_cast; the message names the edge, and that and all edges behind it have answers that are reset.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_cast_batch(const struct swiftprox_scene *scene,
-                                            const struct swiftprox_object_set *set,
-                                            const struct swiftprox_motion *motions,
-                                            size_t motion_count,
-                                            const struct swiftprox_cast_config *config,
-                                            struct swiftprox_scratch *scratch,
-                                            struct swiftprox_scene_cast_answer *answers,
-                                            size_t edge_count);
-
-/**
- * The groups that something is in which is in no scene, and those that it is tested against, as of an object: it is asked about an
- * object if the mask of each has a bit of the other's groups.
- */
-typedef struct swiftprox_group_filter {
-  /** One bit for each group; the default is the first. */
-  uint32_t groups;
-  /** One bit for each group; the default is all. */
-  uint32_t mask;
-} swiftprox_group_filter;
-
-/** One contact of a piece, which is object 1, with a ground or a half-space. */
-typedef struct swiftprox_scene_ground_contact {
-  /** Whose piece it is. */
-  struct swiftprox_object_id object;
-  /** The caller's own number of the object. */
-  uint64_t user_data;
-  /** Which piece. */
-  uint32_t piece;
-  /** As of the pair; its points are among those of all contacts. Of a half-space all bits of the triangle are set. */
-  struct swiftprox_ground_contact contact;
-} swiftprox_scene_ground_contact;
-
-/** Where objects of a scene meet a ground or a half-space. Owned by the scratch and valid until its next use. */
-typedef struct swiftprox_scene_ground_answer {
-  /** By object, piece and triangle. Null when contact_count is 0. */
-  const struct swiftprox_scene_ground_contact *contacts;
-  /** How many. */
-  size_t contact_count;
-  /**
-   * Points of contact c are those from its contact.first_point on, as many as its contact.manifold.point_count. Null when
-   * point_count is 0.
-   */
-  const struct swiftprox_manifold_point *points;
-  /** How many. */
-  size_t point_count;
-} swiftprox_scene_ground_answer;
-
-/**
- * Where objects of a scene meet a ground that is in no scene, or are up to config->margin apart from it: piece by piece what
- * swiftprox_pair_ground_contacts says. set is who is asked; null: all objects, in order of creation. An object is asked if its
- * groups have a bit of filter->mask and its mask has a bit of filter->groups; a null filter has group 1 and all bits in its mask.
- * Activation and the scene's filter are about pairs of objects, and do not count. Fixed objects are left out, unless set->poses
- * says where they are; set->among is not looked at. config->rotation_limit is for the ground's pose. Threads as of
- * swiftprox_scene_least_distance; the scratch owns contacts and points and must not be null. Once it is large enough, only
- * integer arithmetic asks for memory.
- *
- * On failure the answer is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT, SWIFTPROX_ERROR_STRUCT_SIZE: as of swiftprox_pair_manifold.
- * SWIFTPROX_ERROR_POSE: a pose is refused. SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_BUSY: the
- * scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_POISONED.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_ground_contacts(const struct swiftprox_scene *scene,
-                                                 const struct swiftprox_object_set *set,
-                                                 const struct swiftprox_ground *ground,
-                                                 const double *ground_pose,
-                                                 const struct swiftprox_manifold_config *config,
-                                                 const struct swiftprox_group_filter *filter,
-                                                 struct swiftprox_scratch *scratch,
-                                                 struct swiftprox_scene_ground_answer *answer);
-
-/**
- * The same of a half-space: a contact for each piece that is within the margin, as swiftprox_pair_half_space_manifold says; its
- * triangle is UINT32_MAX. Errors as of swiftprox_scene_ground_contacts; SWIFTPROX_ERROR_INVALID_ARGUMENT also as of
- * swiftprox_pair_half_space_distance.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_half_space_contacts(const struct swiftprox_scene *scene,
-                                                     const struct swiftprox_object_set *set,
-                                                     const struct swiftprox_half_space *half_space,
-                                                     const struct swiftprox_manifold_config *config,
-                                                     const struct swiftprox_group_filter *filter,
-                                                     struct swiftprox_scratch *scratch,
-                                                     struct swiftprox_scene_ground_answer *answer);
 
 /** @} */
 
@@ -3634,312 +1862,6 @@ swiftprox_status swiftprox_pair_batch(swiftprox_query_kind kind,
                                       const struct swiftprox_pair_config *config,
                                       struct swiftprox_scene *scene,
                                       struct swiftprox_pair_answer *answers);
-
-/** @} */
-
-/**
- * @defgroup swiftprox_record What is done to a scene, written down and done again
- * @{
- */
-
-/**
- * Writes down what is done to a scene from now on, in a file, replacing what was there: a bug report and a benchmark in one. First
- * comes what the scene holds. `path` null: ends the recording, if there is one, as swiftprox_scene_destroy does. A recording that
- * is going on ends before another one begins. swiftprox-replay plays recordings back, and swiftprox_replay_open does.
- *
- * All that changes what queries answer is written down, and each query with a digest of its answer; workers and statistics are
- * not. Of the callback of swiftprox_scene_set_pair_filter the decisions are. Each shape is written down once. The file is brought
- * up to date before each query: one that ends the program is its last record. Record from the scene's beginning, before its first
- * object, for a replay that answers with the same bits; later on what pairs remember is not written down.
- *
- * Where the file cannot be written any more the recording ends, and the scene goes on. The log is told, and so is the call that
- * ends the recording.
- *
- * SWIFTPROX_ERROR_FILE: the file cannot be written, or is no regular file; or the recording before could not be written to its
- * end, and then no other is begun. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path.
- * SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED. The scene is not recorded then.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_record(struct swiftprox_scene *scene,
-                                        const char *path);
-
-/**
- * Plays back what swiftprox_scene_record has written. Make one with swiftprox_replay_open.
- *
- * A step is what was done up to a query, and the query. For each step call swiftprox_replay_read, which reads it,
- * swiftprox_replay_change, which does what was done in it, and swiftprox_replay_ask, which makes its query; or make queries of
- * your own of the scene instead. A file of any content is safe: it is an error, or does to the scene what a program could.
- */
-typedef struct swiftprox_replay swiftprox_replay;
-
-/** A step of a recording. Set struct_size to sizeof(swiftprox_replay_step_info) before asking for it. */
-typedef struct swiftprox_replay_step_info {
-  /** Set by the caller. */
-  size_t struct_size;
-  /** 1 if there is a step, 0 at the end of the recording. */
-  int32_t has_step;
-  /** 1 if the step ends in a query, else 0: at the end of the recording, and of a query that was refused. */
-  int32_t has_query;
-  /** The kind of the query. */
-  swiftprox_query_kind kind;
-  /** 1 at the end of a recording that was not ended, as when the program was, else 0. */
-  int32_t cut_off;
-  /** How much of the file is read, from 0 to 1. */
-  double fraction;
-} swiftprox_replay_step_info;
-
-/**
- * Opens a recording and makes a scene to play it back in, with the workers of `options`, which may be null for the defaults, and
- * the rotation limit of the recorded scene. The caller gives both back with swiftprox_replay_close. On failure `*replay` is null.
- *
- * SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file, no recording, of another version, or damaged at its
- * beginning. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path, or of enqueue_task and finish_task one is
- * null and the other is not. SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_replay_open(const char *path,
-                                       const struct swiftprox_scene_options *options,
-                                       struct swiftprox_replay **replay);
-
-/**
- * Ends a replay and its scene, which the caller owns. Null is ignored.
- *
- * SWIFTPROX_ERROR_BUSY: another call uses the scene, and both live on. Other errors as of swiftprox_scene_destroy.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_replay_close(struct swiftprox_replay *replay);
-
-/**
- * Gives the scene of a replay, which owns it: ask it what you like between the steps, change nothing, and do not destroy it. Null
- * for null.
- *
- * Stable.
- */
-struct swiftprox_scene *swiftprox_replay_scene(struct swiftprox_replay *replay);
-
-/**
- * Reads the next step. Set step->struct_size first. A recording that is cut off ends with its last whole record. On failure
- * `*step` says that there is no step.
- *
- * SWIFTPROX_ERROR_FILE: the recording is damaged here, the message says where; the steps before are good.
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the step before has not been done. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER,
- * SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_replay_read(struct swiftprox_replay *replay,
-                                       struct swiftprox_replay_step_info *step);
-
-/**
- * Does what was done in the step that was read, without its query.
- *
- * SWIFTPROX_ERROR_FILE: the scene refuses it, as the program has changed it or the recording is damaged; it cannot be gone on
- * with. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: replay is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_replay_change(struct swiftprox_replay *replay);
-
-/**
- * Makes the query of the step that was read and done, and holds its answer against the recorded one: the same pairs are to be
- * listed with the same outcomes, and the sums of their lower and of their upper ends are to be those of intervals that have a
- * number in common. That holds on every machine, except with a step budget: such answers are not checked. The answer is
- * as of the query itself; of a query about events it lists the pairs of pieces that are near. `*identical` is 1 if its distances,
- * intervals, points, normals and depths are bit for bit the recorded ones, else 0; `identical` may be null.
- *
- * With another `distance_tolerance` than SWIFTPROX_DEFAULT_TOLERANCE that is taken in place of the recorded one, and the answer is
- * not checked.
- *
- * SWIFTPROX_ERROR_UNVERIFIED: it is not the recorded answer; the message says what of it is not. The answer is there all the same;
- * on other failures it is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such query, or the step has not been done; or the
- * query is out of range, as the last of a recording that is cut off may be. SWIFTPROX_ERROR_FILE: the recording is damaged, its
- * query is about an object or a shape that it has not told of. SWIFTPROX_ERROR_HANDLE: the query is about an object that has been
- * removed. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: replay or answer is null. SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_replay_ask(struct swiftprox_replay *replay,
-                                      double distance_tolerance,
-                                      struct swiftprox_scene_answer *answer,
-                                      int32_t *identical);
-
-/**
- * Writes the number of an object of the replay's scene: how many there were before it in the recording. On failure it is 0.
- *
- * SWIFTPROX_ERROR_HANDLE: id names no object of the scene. SWIFTPROX_ERROR_NULL_POINTER: replay or number is null.
- * SWIFTPROX_ERROR_POISONED.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_replay_get_number(const struct swiftprox_replay *replay,
-                                             struct swiftprox_object_id id,
-                                             uint32_t *number);
-
-/** @} */
-
-/**
- * @defgroup swiftprox_process The log, the memory and the mesh readers of a process
- * @{
- */
-
-/**
- * Receives every failure as it happens, from the thread where it happens: its status, its message (valid during the call)
- * and the pointer given to swiftprox_library_set_log. It must return; a C++ exception that leaves it ends the program.
- */
-typedef void (*swiftprox_log_callback)(swiftprox_status status, const char *message, void *user);
-
-/**
- * Sets the process-wide log, which receives what the library would say if it printed: the message of every call that does
- * not return SWIFTPROX_OK. Null (the default) for none. The callback may be called from every thread that uses the library,
- * from several at once; calls already under way in other threads may still reach the old one for a moment.
- *
- * Stable.
- */
-void swiftprox_library_set_log(swiftprox_log_callback callback,
-                               void *user);
-
-/**
- * Gives memory of `size` bytes, not 0 and a multiple of `alignment`, at an address that is one, too. The alignment is a power of
- * two, at least a pointer's and sometimes more than malloc keeps (64, for one). Null if there is no memory, as where the system's
- * runs out: for what grows with the caller's input or a scene, and for integers, the call then ends in SWIFTPROX_ERROR_MEMORY; for
- * what else is small the program ends with a message (the head of this file says what that is). `user` is the pointer given to
- * swiftprox_library_set_allocator.
- */
-typedef void *(*swiftprox_allocate_callback)(void *user, size_t size, size_t alignment);
-
-/**
- * Takes back memory that the swiftprox_allocate_callback set with it gave for the same size and alignment. `user` is the pointer
- * given with both.
- */
-typedef void (*swiftprox_deallocate_callback)(void *user, void *memory, size_t size, size_t alignment);
-
-/**
- * Sets where the library takes all its memory from, in the whole process: both functions, or null for both (the default) for the
- * system's malloc. At any time: memory that the library holds goes back to the functions it came from, so that functions once
- * set, and `user`, must stay good until the process ends: they are called at the end of threads and after main, too.
- *
- * The functions may be called from every thread that uses the library, from several at once. They must return, must not call the
- * library, and a C++ exception that leaves them ends the program.
- *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: one of the functions is null and the other one is not. SWIFTPROX_ERROR_UNSUPPORTED: the
- * library was not built by CMake, nor with Cargo's feature `allocator`: inside a Rust program it has that program's allocator.
- * Nothing has changed then.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_library_set_allocator(swiftprox_allocate_callback allocate,
-                                                 swiftprox_deallocate_callback deallocate,
-                                                 void *user);
-
-/**
- * Receives the mesh that a swiftprox_mesh_reader_callback reads: vertices, faces, or why it has none. It is good during the call
- * of the callback, for its thread.
- */
-typedef struct swiftprox_mesh_sink swiftprox_mesh_sink;
-
-/**
- * Reads a mesh file: calls swiftprox_mesh_sink_add_vertices and swiftprox_mesh_sink_add_faces as often as it likes and returns 0;
- * or says what is wrong with the file by swiftprox_mesh_sink_fail. Anything but 0 refuses the file, too, and so does every call to
- * the sink that was refused, whether or not the callback has looked at its status.
- *
- * `user` is the pointer given with the callback. `data` holds the `size` bytes of the whole file without a UTF-8 byte order mark:
- * it begins with the white space before the magic, if there is any, and the magic itself, which are the callback's to skip. Behind
- * them is one zero byte more, where strtod and its like end. (What strtod takes for the decimal point depends on LC_NUMERIC, the
- * program's locale: where that wants a comma it reads 0.5 as 0. The library's own readers take the point in every locale.) Data
- * and sink are gone when the callback returns; what the sink was given it has copied. The callback may call the library: read
- * other files, and register readers. It must return, and a C++ exception that leaves it ends the program.
- */
-typedef int32_t (*swiftprox_mesh_reader_callback)(void *user,
-                                                  const char *data,
-                                                  size_t size,
-                                                  struct swiftprox_mesh_sink *sink);
-
-/**
- * Registers a reader of mesh files, which swiftprox_shape_create_from_file and swiftprox_scene_add_file call for every file that
- * begins with the bytes of `magic`, a string that is copied, behind white space and a UTF-8 byte order mark: whatever the
- * extension of the file is, and before the built-in readers for TRI, POLY, OFF, OBJ and STL, which a magic such as "OFF" replaces.
- * The first bytes alone count: "PLY" is the magic of a file that begins with PLYMOUTH, too. The callback is handed what was
- * skipped and the magic with the rest of the file, all but the byte order mark.
- *
- * The registry is the process's own; it may be changed at any time from any thread, from a callback as well. A reader registered
- * under a magic that has one replaces it, a null callback takes it back (and may do nothing). The callback may be
- * called from every thread that reads files, from several at once. `user` must be good until the reader is replaced or taken back
- * and no other thread is still reading a file by it.
- *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: magic is empty or begins with white space or a byte order mark, which are skipped in files; or
- * it begins with the magic of another reader, or that one with it: a file could be for both. SWIFTPROX_ERROR_MEMORY.
- * SWIFTPROX_ERROR_NULL_POINTER: magic is null.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_library_register_mesh_reader(const char *magic,
-                                                        swiftprox_mesh_reader_callback callback,
-                                                        void *user);
-
-/**
- * Adds `vertex_count` vertices, 3 coordinates each, to the mesh that a callback reads. They are numbered from 0 in the order in
- * which they are added. The array is copied.
- *
- * SWIFTPROX_ERROR_MESH: a coordinate is not finite; the message names the vertex. SWIFTPROX_ERROR_LIMIT: too many vertices.
- * SWIFTPROX_ERROR_MEMORY, which is then the status of what reads the file, too.
- * SWIFTPROX_ERROR_NULL_POINTER: sink is null, or vertices while vertex_count is not 0. Nothing is added, and the file is refused.
- *
- * Stable.
- */
-swiftprox_status swiftprox_mesh_sink_add_vertices(struct swiftprox_mesh_sink *sink,
-                                                  const double *vertices,
-                                                  size_t vertex_count);
-
-/**
- * Adds `face_count` faces to the mesh that a callback reads: `indices` holds the numbers of their vertices, one face after the
- * other, each counter-clockwise seen from outside; `valences` the number of vertices of each face, or null when all are triangles.
- * They are numbered from 0 in the order in which they are added. A face may name vertices that are added later: that they exist is
- * checked when the callback returns. The arrays are copied.
- *
- * SWIFTPROX_ERROR_LIMIT: too many faces or indices. SWIFTPROX_ERROR_MEMORY: as of swiftprox_mesh_sink_add_vertices.
- * SWIFTPROX_ERROR_NULL_POINTER: sink is null, or indices while there are any. Nothing is added, and the file is refused.
- *
- * Stable.
- */
-swiftprox_status swiftprox_mesh_sink_add_faces(struct swiftprox_mesh_sink *sink,
-                                               const uint32_t *indices,
-                                               const uint32_t *valences,
-                                               size_t face_count);
-
-/**
- * Says that the coordinates of the file went through single precision, as those of STL files have: how far a vertex may lie
- * outside a face is then 1e-6 of the bounding-box diagonal, not 1e-9, unless swiftprox_shape_options.convexity_tolerance says
- * otherwise.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: sink is null.
- *
- * Stable.
- */
-swiftprox_status swiftprox_mesh_sink_set_single_precision(struct swiftprox_mesh_sink *sink);
-
-/**
- * Refuses the file that a callback reads, whatever the callback returns. `message`, a string of which up to 4,096 bytes are
- * copied, says what is wrong, best with the line; the library adds which file and which reader. The first message holds, also
- * where a call to the sink was refused before, unless that was for memory.
- *
- * SWIFTPROX_ERROR_NULL_POINTER: sink or message is null; the file is refused all the same if sink is not.
- *
- * Stable.
- */
-swiftprox_status swiftprox_mesh_sink_fail(struct swiftprox_mesh_sink *sink,
-                                          const char *message);
 
 /** @} */
 

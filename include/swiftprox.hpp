@@ -8,9 +8,10 @@
  * throws nothing and returns a Result: a status and a value. With -fno-exceptions only these are there.
  *
  * Ownership. Shape is a share: copying one takes a share, and is cheap. Scene and Replay own theirs and can only be moved.
+ * Placed, Moving and Question own their poses and motions, and point at shapes: those from temporary shapes do not compile.
  * Ranges that a scene hands out are its own, valid as long as swiftprox.h says for that answer.
  *
- * Configs. Their members begin with the defaults of C. Other values are set by name: scene.contacts({.margin = 0.1}) by C++20.
+ * Configs. Their members begin with the defaults of C. By C++20 others are set by name: scene.query_contact({.distance_tolerance = 0.1}).
  */
 #ifndef SWIFTPROX_HPP
 #define SWIFTPROX_HPP

@@ -45,11 +45,11 @@ c++ -std=c++17 hello.cpp $(pkg-config --cflags --libs swiftprox) -o hello_cpp
 ./hello_cpp
 c++ legacy.cpp $(pkg-config --cflags --libs swiftprox-legacy) -o legacy
 ./legacy >/dev/null
-cmake -S consumer -B consumer/build -DLANGUAGE=C -DHELLO=/tmp/packages/hello.c -DVERSION=0.1 -DNEXT_VERSION=0.2 -DSTATIC_LIBC=ON >/dev/null
+cmake -S consumer -B consumer/build -DLANGUAGE=C -DHELLO=/tmp/packages/hello.c -DVERSION=0.2 -DNEXT_VERSION=0.3 -DSTATIC_LIBC=ON >/dev/null
 cmake --build consumer/build >/dev/null
 ctest --test-dir consumer/build --output-on-failure
 for tool in swiftprox-query swiftprox-replay swiftprox-tune; do $tool --version; done
-apt-get remove -y -qq -o Dpkg::Use-Pty=0 libswiftprox0.1 >/dev/null
+apt-get remove -y -qq -o Dpkg::Use-Pty=0 libswiftprox0.2 >/dev/null
 ! swiftprox-query --version 2>/dev/null
 '
 root=$(mktemp -d)

@@ -41,6 +41,7 @@ const SOURCES: [&str; 28] = [
 
 /// What stands before the declarations of swiftprox.h.
 const BEFORE: &str = "\
+#include <math.h>
 #include <stddef.h>
 #include <stdint.h>
 
@@ -72,11 +73,10 @@ const BEFORE: &str = "\
 #endif
 ";
 
-/// The head of swiftprox_tuning.h.
-const TUNING_HEAD: &str = "\
+/// The head of a side header.
+const SIDE_HEAD: &str = "\
 /*
- * swiftprox: levels of detail and look-up tables, for whoever measures. What is here changes how long making a shape and answering
- * a query take, and what they take of memory. It never changes a verdict. The conventions are those of swiftprox.h.
+WHAT
  */
 
 /* Generated from the Rust source by `BLESS=1 cargo test --test header`; do not edit. */
@@ -171,17 +171,34 @@ fn laid_out(head: &str, declared: &mut HashMap<String, String>) -> Vec<(String, 
     let contents = fs::read_to_string(root().join("include/contents.txt")).expect("the list of contents is there");
     let mut headers: Vec<(String, String)> = Vec::new();
     let mut is_open = false;
-    let mut mark = "";
+    let (mut mark, mut last) = ("", "");
     for line in contents.lines().filter(|line| !line.is_empty() && !line.starts_with('#')) {
         let (word, rest) = line.split_once(' ').unwrap_or((line, ""));
         match word {
             "header" => {
                 close(headers.last_mut(), &mut is_open);
-                let guard = rest.to_uppercase().replace('.', "_");
-                let (head, before) =
-                    if headers.is_empty() { (head, BEFORE) } else { (TUNING_HEAD, "#include \"swiftprox.h\"\n") };
-                let opening = format!("{head}\n#ifndef {guard}\n#define {guard}\n\n{before}\n{}", external("{"));
-                headers.push((rest.to_string(), opening));
+                let (name, what) = rest.split_once(' ').unwrap_or((rest, ""));
+                let side = SIDE_HEAD.replace("WHAT", &head_of(what));
+                let opening = if what.is_empty() {
+                    guarded(head, name) + BEFORE + &format!("\n{}", external("{"))
+                } else {
+                    guarded(&side, name)
+                };
+                headers.push((name.to_string(), opening));
+            }
+            "default" => {
+                let (_, text) = headers.last_mut().expect("a header before its declarations");
+                *text += &format!("{}\n", default_of(last, rest));
+            }
+            "include" => {
+                let (name, text) = headers.last_mut().expect("a header before what it includes");
+                let near = match name.rsplit_once('/') {
+                    Some((folder, _)) => {
+                        rest.strip_prefix(&format!("{folder}/")).map_or(format!("../{rest}"), str::to_string)
+                    }
+                    None => rest.to_string(),
+                };
+                *text += &format!("#include \"{near}\"\n\n{}", external("{"));
             }
             "group" => {
                 let (_, text) = headers.last_mut().expect("a header before its groups");
@@ -194,6 +211,7 @@ fn laid_out(head: &str, declared: &mut HashMap<String, String>) -> Vec<(String, 
             }
             _ => {
                 let (_, text) = headers.last_mut().expect("a header before its declarations");
+                last = line;
                 let declaration = declared.remove(line).unwrap_or_else(|| panic!("{line} is not declared"));
                 *text += &if is_function(&declaration) { marked(&declaration, mark) } else { declaration };
                 text.push('\n');
@@ -207,6 +225,33 @@ fn laid_out(head: &str, declared: &mut HashMap<String, String>) -> Vec<(String, 
     }
     close(headers.last_mut(), &mut is_open);
     headers
+}
+
+/// A head and the guard of a header.
+fn guarded(head: &str, name: &str) -> String {
+    let guard = name.to_uppercase().replace(['.', '/'], "_");
+    format!("{head}\n#ifndef {guard}\n#define {guard}\n\n")
+}
+
+/// What a side header is for, in the lines of a comment.
+fn head_of(what: &str) -> String {
+    let mut lines = vec![" *".to_string()];
+    for word in format!("swiftprox. {what} The conventions are those of swiftprox.h.").split(' ') {
+        if lines.last().expect("the first is there").len() + word.len() >= 132 {
+            lines.push(" *".to_string());
+        }
+        let last = lines.last_mut().expect("the first is there");
+        *last += &format!(" {word}");
+    }
+    lines.join("\n")
+}
+
+/// The constant that a struct begins with. tests/project/layout.rs compares it with the library's defaults.
+fn default_of(name: &str, members: &str) -> String {
+    let define = format!("#define {}_DEFAULT", name.to_uppercase());
+    let line = format!("{define} {{sizeof({name}), {members}}}");
+    let line = if line.len() <= 132 { line } else { format!("{define} \\\n  {{sizeof({name}), {members}}}") };
+    format!("/** Begins a {name}: the defaults. In C and C++, as an initialiser. */\n{line}\n")
 }
 
 /// What a function's comment says of its future.
@@ -249,7 +294,7 @@ fn external(brace: &str) -> String {
 }
 
 /// What C89 and C++98 want otherwise: enums without a comma behind the last enumerator, their size by a macro; no literal that
-/// begins with a minus in a macro. Before a status the attribute, behind an `_init_sized` the macro that hands over the size.
+/// begins with a minus in a macro. Before a status the attribute.
 fn old_standards(declaration: &str) -> String {
     let mut lines: Vec<String> = Vec::new();
     let mut skipping = false;
@@ -277,10 +322,6 @@ fn old_standards(declaration: &str) -> String {
             _ if line.starts_with("#define ") && line.contains(" -") => lines.push(line.replace(" -", " (-") + ")"),
             _ => lines.push(line.into()),
         }
-    }
-    let name = name_of(declaration);
-    if let Some(macro_name) = name.strip_suffix("_sized") {
-        lines.push(format!("#define {macro_name}(pointer) {name}((pointer), sizeof *(pointer))"));
     }
     lines.join("\n") + "\n"
 }
@@ -464,6 +505,7 @@ fn with_compilers(mut check: impl FnMut(&str, &str, &str)) {
 fn scratch(test: &str) -> PathBuf {
     let folder = Path::new(env!("CARGO_TARGET_TMPDIR")).join(test);
     fs::create_dir_all(&folder).expect("the scratch folder can be written");
+    fs::create_dir_all(folder.join("swiftprox")).expect("the scratch folder can be written");
     for (name, text) in generate() {
         fs::write(folder.join(name), text).expect("the scratch folder can be written");
     }
@@ -479,33 +521,45 @@ fn compile(folder: &Path, compiler: &str, extension: &str, standard: &str, sourc
     command.arg(folder).arg(&unit).arg("-o").arg(unit.with_extension("o")).output().expect("the compiler runs")
 }
 
+/// Alone, as the first that a program includes.
+#[test]
+fn each_header_compiles_alone() {
+    let folder = scratch("alone");
+    for (name, _) in generate() {
+        // A unit without declarations is no unit in C.
+        let source = format!("#include \"{name}\"\nextern int nothing;\n");
+        with_compilers(|compiler, extension, standard| {
+            let output = compile(&folder, compiler, extension, standard, &source);
+            assert!(output.status.success(), "{name}, {compiler} -std={standard}: {output:?}");
+        });
+    }
+}
+
 /// Included twice, so that guards are seen to work. What `create` gives goes to every call as it is, and sizes are the program's.
 #[test]
 fn headers_compile_in_every_standard() {
     let folder = scratch("every-standard");
     let source = r#"
-#include "swiftprox_tuning.h"
+#include "swiftprox/tuning.h"
 #include "swiftprox.h"
+#include "swiftprox/scene.h"
 #include "swiftprox.h"
-#include "swiftprox_tuning.h"
+#include "swiftprox/tuning.h"
 swiftprox_status unit(swiftprox_scene *scene, const double *points);
 swiftprox_status unit(swiftprox_scene *scene, const double *points)
 {
     swiftprox_pair_cache cache = {{0}};
     swiftprox_object_id id = {0};
-    swiftprox_shape_options options;
-    swiftprox_shape_tuning tuning;
-    swiftprox_pair_config config;
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
+    swiftprox_shape_tuning tuning = SWIFTPROX_SHAPE_TUNING_DEFAULT;
+    swiftprox_pair_config config = SWIFTPROX_PAIR_CONFIG_DEFAULT;
     swiftprox_pair_answer answer;
     const swiftprox_shape *shape;
     swiftprox_status status;
-    swiftprox_shape_tuning_init(&tuning);
-    swiftprox_shape_options_init(&options);
-    swiftprox_pair_config_init(&config);
     options.tuning = &tuning;
     status = swiftprox_shape_create_from_points(points, 4, &options, &shape);
     if (status == SWIFTPROX_OK) {
-        status = swiftprox_scene_add_shape(scene, shape, NULL, &id);
+        status = swiftprox_scene_add_object(scene, &shape, 1, NULL, &id);
     }
     if (status == SWIFTPROX_OK) {
         status = swiftprox_scene_add_object(scene, &shape, 1, NULL, &id);
@@ -527,15 +581,18 @@ swiftprox_status unit(swiftprox_scene *scene, const double *points)
 }
 
 /// A status that is ignored on purpose.
-const IGNORED: &str = "SWIFTPROX_IGNORE(swiftprox_scene_activate_all(scene));";
+const IGNORED: &str = "SWIFTPROX_IGNORE(swiftprox_scene_set_pair_active(scene, 0, 0, 1));";
 
 /// Each of these compiles no more, under usual warnings that are errors here.
 #[test]
 fn compilers_see_what_is_mixed_up_or_ignored() {
     let folder = scratch("mixed-up");
     for (what, line) in [
-        ("a status ignored", "swiftprox_scene_activate_all(scene);"),
-        ("what decided, compared with a status", "return answer->decided_by == swiftprox_scene_activate_all(scene);"),
+        ("a status ignored", "swiftprox_scene_set_pair_active(scene, 0, 0, 1);"),
+        (
+            "what decided, compared with a status",
+            "return answer->decided_by == swiftprox_scene_set_pair_active(scene, 0, 0, 1);",
+        ),
         ("what decided, compared with a status's name", "return answer->decided_by == SWIFTPROX_OK;"),
         ("an outcome, compared with what decided", "return answer->outcome == answer->decided_by;"),
         ("an id for a number", "return id == 0;"),

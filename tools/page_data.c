@@ -1,4 +1,5 @@
 #include "page_data.h"
+#include <swiftprox/scene.h>
 
 #include <math.h>
 #include <stdio.h>

@@ -1,4 +1,5 @@
 #include "page_file.h"
+#include <swiftprox/geometry.h>
 
 #include <math.h>
 #include <stdlib.h>

@@ -57,8 +57,7 @@ bool player_finds_recording(const char *path)
 
 static int load_shapes(struct player *player)
 {
-    swiftprox_shape_options options;
-    swiftprox_shape_options_init(&options);
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     options.input = player->options->input;
     options.tuning = player->options->shape_tuning;
     struct progress progress = progress_start();
@@ -79,7 +78,7 @@ static int load_shapes(struct player *player)
 int player_open(struct player *player, const struct player_options *options)
 {
     *player = (struct player){.options = options, .is_recording = player_finds_recording(options->path)};
-    swiftprox_scene_query_init(&player->query);
+    player->query = (swiftprox_scene_query)SWIFTPROX_SCENE_QUERY_DEFAULT;
     player->query.distance_tolerance = options->tolerance;
     player->query.absolute_error = options->error;
     player->query.error_budget = options->budget;
@@ -117,11 +116,10 @@ static int set_up(struct player *player)
 {
     for (size_t i = 0; i < player->file.object_count; i++) {
         const struct scene_object *const object = &player->file.objects[i];
-        swiftprox_object_options options;
-        swiftprox_object_options_init(&options);
+        swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
         options.user_data = i;
         options.fixed = object->fixed;
-        if (swiftprox_scene_add_shape(player->scene, player->shapes[object->shape], &options, &player->ids[i]) !=
+        if (swiftprox_scene_add_object(player->scene, &player->shapes[object->shape], 1, &options, &player->ids[i]) !=
             SWIFTPROX_OK) {
             return player_failed();
         }
@@ -131,8 +129,7 @@ static int set_up(struct player *player)
 
 int player_begin(struct player *player)
 {
-    swiftprox_scene_options options;
-    swiftprox_scene_options_init(&options);
+    swiftprox_scene_options options = SWIFTPROX_SCENE_OPTIONS_DEFAULT;
     options.worker_count = player->options->workers;
     player->step = 0;
     player->fraction = 0;

@@ -7,7 +7,8 @@
 #include <stdint.h>
 
 #include <swiftprox.h>
-#include <swiftprox_tuning.h>
+#include <swiftprox/replay.h>
+#include <swiftprox/tuning.h>
 
 #include "scene_file.h"
 

@@ -3,6 +3,8 @@
 #include <stdlib.h>
 
 #include <swiftprox.h>
+#include <swiftprox/scene.h>
+#include <swiftprox/replay.h>
 
 static void demand(swiftprox_status status)
 {
@@ -25,7 +27,7 @@ int main(int argc, char **argv)
     const swiftprox_shape *cube;
     swiftprox_object_id ids[4];
     swiftprox_scene *scene;
-    swiftprox_scene_query query;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer;
     if (argc < 2) {
         return EXIT_FAILURE;
@@ -34,9 +36,8 @@ int main(int argc, char **argv)
     demand(swiftprox_scene_create(NULL, &scene));
     demand(swiftprox_scene_record(scene, argv[1]));
     for (int i = 0; i < 3; i++) {
-        demand(swiftprox_scene_add_shape(scene, cube, NULL, &ids[i]));
+        demand(swiftprox_scene_add_object(scene, &cube, 1, NULL, &ids[i]));
     }
-    swiftprox_scene_query_init(&query);
 
     /* Two overlap by a quarter, the third is far from them. */
     move(scene, ids[1], 0.75);

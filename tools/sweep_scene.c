@@ -1,4 +1,7 @@
 #include "sweep_scene.h"
+#include <swiftprox/geometry.h>
+#include <swiftprox/scene.h>
+#include <swiftprox/motion.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -183,8 +186,7 @@ void sweep_scene_forget(struct sweep_scene *scene)
 
 static size_t ask_pose(struct sweep_scene *scene, const double *pose, char *text, struct sweep_tally *tally)
 {
-    swiftprox_pair_config config;
-    swiftprox_pair_config_init(&config);
+    swiftprox_pair_config config = SWIFTPROX_PAIR_CONFIG_DEFAULT;
     double lower = INFINITY, upper = INFINITY;
     uint32_t nearest = UINT32_MAX;
     for (size_t pair = 0; pair < scene->piece_count * scene->obstacle_count && upper > 0; pair++) {
@@ -235,8 +237,7 @@ static size_t ask_motion(struct sweep_scene *scene, const double *poses, double 
         player_failed();
         return 0;
     }
-    swiftprox_cast_config config;
-    swiftprox_cast_config_init(&config);
+    swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
     config.margin = margin;
     swiftprox_cast_answer first = {.outcome = SWIFTPROX_CAST_OUTCOME_FREE, .t_lo = 1, .t_hi = NAN, .clearance = INFINITY};
     uint32_t object = UINT32_MAX;

@@ -8,6 +8,7 @@
 
 #include "player.h"
 #include "sweep_items.h"
+#include <swiftprox/motion.h>
 
 struct sweep_obstacle {
     const swiftprox_shape *shape; /* the scene's */

@@ -8,7 +8,8 @@
 #include <string.h>
 
 #include <swiftprox.h>
-#include <swiftprox_tuning.h>
+#include <swiftprox/motion.h>
+#include <swiftprox/tuning.h>
 
 #include "input.h"
 #include "poses.h"
@@ -485,10 +486,8 @@ static bool load_shape(const char *path, char name, swiftprox_shape_options opti
 /* One shape for both objects when both are one file. */
 static bool load_shapes(const struct arguments *arguments, const swiftprox_shape *shapes[2])
 {
-    swiftprox_shape_options options;
-    swiftprox_shape_tuning tuning;
-    swiftprox_shape_options_init(&options);
-    swiftprox_shape_tuning_init(&tuning);
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
+    swiftprox_shape_tuning tuning = SWIFTPROX_SHAPE_TUNING_DEFAULT;
     options.input = arguments->input;
     options.tuning = &tuning;
     tuning.hierarchy = arguments->hierarchy;
@@ -508,17 +507,16 @@ static int run(const struct arguments *arguments)
     setvbuf(stdout, buffer, _IOFBF, sizeof buffer);
     const swiftprox_shape *shapes[2] = {NULL, NULL};
     struct job job = {.pose_path = arguments->files[2], .query = arguments->query, .cast = arguments->cast};
-    swiftprox_pair_tuning tuning;
-    swiftprox_pair_tuning_init(&tuning);
+    swiftprox_pair_tuning tuning = SWIFTPROX_PAIR_TUNING_DEFAULT;
     tuning.start = arguments->start;
     tuning.levels = arguments->levels;
-    swiftprox_pair_config_init(&job.config);
+    job.config = (swiftprox_pair_config)SWIFTPROX_PAIR_CONFIG_DEFAULT;
     job.config.tuning = &tuning;
     job.config.absolute_error = arguments->error;
     job.config.distance_tolerance = arguments->tolerance;
-    swiftprox_depth_config_init(&job.depth_config);
+    job.depth_config = (swiftprox_depth_config)SWIFTPROX_DEPTH_CONFIG_DEFAULT;
     job.depth_config.absolute_error = arguments->error;
-    swiftprox_cast_config_init(&job.cast_config);
+    job.cast_config = (swiftprox_cast_config)SWIFTPROX_CAST_CONFIG_DEFAULT;
     job.cast_config.time_tolerance = arguments->tolerance;
     job.cast_config.margin = arguments->margin;
 

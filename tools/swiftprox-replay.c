@@ -16,6 +16,8 @@
 #include "program.h"
 #include "progress.h"
 #include "text.h"
+#include <swiftprox/verify.h>
+#include <swiftprox/scene.h>
 
 static const char USAGE[] = "usage: swiftprox-replay FILE [--query intersection|distance|contact|approximate] [--tolerance T]\n"
                             "                        [--error E] [--budget B] [--input POLICY] [--workers K] [--verify]\n"

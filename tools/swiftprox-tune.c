@@ -10,6 +10,7 @@
 #include "progress.h"
 #include "tune_front.h"
 #include "tune_settings.h"
+#include <swiftprox/scene.h>
 
 static const char USAGE[] = "usage: swiftprox-tune FILE [--query intersection|distance|contact] [--tolerance T] [--error E]\n"
                             "                      [--input POLICY] [--workers K] [--passes N]\n";

@@ -76,8 +76,7 @@ size_t tune_settings(const struct tune_scene *scene, struct tune_setting setting
 
 swiftprox_pair_tuning tune_pair_tuning(const struct tune_setting *setting)
 {
-    swiftprox_pair_tuning tuning;
-    swiftprox_pair_tuning_init(&tuning);
+    swiftprox_pair_tuning tuning = SWIFTPROX_PAIR_TUNING_DEFAULT;
     tuning.start = setting->start;
     tuning.levels = setting->levels;
     return tuning;
@@ -85,8 +84,7 @@ swiftprox_pair_tuning tune_pair_tuning(const struct tune_setting *setting)
 
 swiftprox_shape_tuning tune_shape_tuning(const struct tune_setting *setting)
 {
-    swiftprox_shape_tuning tuning;
-    swiftprox_shape_tuning_init(&tuning);
+    swiftprox_shape_tuning tuning = SWIFTPROX_SHAPE_TUNING_DEFAULT;
     tuning.hierarchy = setting->hierarchy;
     tuning.lookup = setting->lookup;
     tuning.decimation = DEFAULT_DECIMATION;
@@ -185,30 +183,27 @@ void tune_print_c(const struct tune_scene *scene, const struct tune_setting *set
 {
     puts("#include <swiftprox.h>");
     if (tunes_pairs(setting) || tunes_shapes(setting)) {
-        puts("#include <swiftprox_tuning.h>");
+        puts("#include <swiftprox/tuning.h>");
     }
     if (tunes_shapes(setting)) {
         puts("\n/* where shapes are made: swiftprox_shape_create_from_mesh(..., &shape_options, ...) */\n"
-             "swiftprox_shape_tuning shape_tuning;\n"
-             "swiftprox_shape_tuning_init(&shape_tuning);");
+             "swiftprox_shape_tuning shape_tuning = SWIFTPROX_SHAPE_TUNING_DEFAULT;");
         print_tuning_of_shapes(setting, "shape_tuning");
-        puts("swiftprox_shape_options shape_options;\n"
-             "swiftprox_shape_options_init(&shape_options);\n"
+        puts("swiftprox_shape_options shape_options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;\n"
              "shape_options.tuning = &shape_tuning;");
     }
     if (setting->workers > 1) {
         printf("\n/* where the scene is made: swiftprox_scene_create(&options, &scene) */\n"
-               "swiftprox_scene_options options;\n"
-               "swiftprox_scene_options_init(&options);\n"
+               "swiftprox_scene_options options = SWIFTPROX_SCENE_OPTIONS_DEFAULT;\n"
                "options.worker_count = %" PRIu32 ";\n",
                setting->workers);
     }
     puts("\n/* in each step */");
     if (tunes_pairs(setting)) {
-        puts("swiftprox_pair_tuning tuning;\nswiftprox_pair_tuning_init(&tuning);");
+        puts("swiftprox_pair_tuning tuning = SWIFTPROX_PAIR_TUNING_DEFAULT;");
         print_tuning_of_pairs(setting);
     }
-    puts("swiftprox_scene_query query;\nswiftprox_scene_query_init(&query);");
+    puts("swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;");
     print_query(scene, setting);
     if (tunes_pairs(setting)) {
         puts("query.tuning = &tuning;");

@@ -7,7 +7,7 @@
 #include <stdint.h>
 
 #include <swiftprox.h>
-#include <swiftprox_tuning.h>
+#include <swiftprox/tuning.h>
 
 /* What is known of a scene before anything is tried. */
 struct tune_scene {

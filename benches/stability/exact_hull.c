@@ -6,6 +6,7 @@
 #include <stdlib.h>
 
 #include "runner.h"
+#include <swiftprox/geometry.h>
 
 static bool write_hull(const struct body *body)
 {

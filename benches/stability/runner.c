@@ -1,4 +1,5 @@
 #include "runner.h"
+#include <swiftprox/geometry.h>
 
 #include <stdint.h>
 #include <stdio.h>
@@ -6,9 +7,8 @@
 
 bool run_load_body(const char *path, struct body *body)
 {
-    swiftprox_shape_options options;
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     swiftprox_shape_info info;
-    swiftprox_shape_options_init(&options);
     options.input = SWIFTPROX_INPUT_HULL;
     info.struct_size = sizeof info;
     if (swiftprox_shape_create_from_file(path, &options, &body->shape) != SWIFTPROX_OK ||

@@ -1,6 +1,13 @@
 /* The C compiler lays structs out as layout.h says, which Rust has written. Compiling it is the test. */
 
-#include "swiftprox_tuning.h"
+#include "swiftprox/geometry.h"
+#include "swiftprox/ground.h"
+#include "swiftprox/process.h"
+#include "swiftprox/replay.h"
+#include "swiftprox/scene.h"
+#include "swiftprox/sets.h"
+#include "swiftprox/tuning.h"
+#include "swiftprox/verify.h"
 
 #if SIZE_MAX != 0xffffffffffffffff
 #error "layout.h is that of pointers with 64 bits"

@@ -8,7 +8,7 @@
 #include <stdlib.h>
 
 #include "check.h"
-#include "swiftprox_tuning.h"
+#include "swiftprox/tuning.h"
 
 enum { POSES = 180, MOST_POINTS = 2048, MOST_TRIANGLES = 2 * MOST_POINTS };
 
@@ -253,10 +253,8 @@ void measured(const swiftprox_shape *shape, const swiftprox_pair_config *config)
 int main(void)
 {
     size_t i;
-    swiftprox_pair_config config;
-    swiftprox_pair_tuning tuning;
-    swiftprox_pair_config_init(&config);
-    swiftprox_pair_tuning_init(&tuning);
+    swiftprox_pair_config config = SWIFTPROX_PAIR_CONFIG_DEFAULT;
+    swiftprox_pair_tuning tuning = SWIFTPROX_PAIR_TUNING_DEFAULT;
     config.tuning = &tuning;
     for (i = 0; i < sizeof cases / sizeof *cases; ++i) {
         const swiftprox_shape *shape = make(cases[i].of);

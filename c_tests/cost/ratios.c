@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "swiftprox/scene.h"
 
 enum { STEPS = 200, POINTS = 1002, BOXES = 40 };
 
@@ -124,7 +125,7 @@ static void make_scene(const swiftprox_shape *shape, int objects)
     int i;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     for (i = 0; i < objects; ++i) {
-        CHECK_OK(swiftprox_scene_add_shape(scene, shape, NULL, &ids[i]));
+        CHECK_OK(swiftprox_scene_add_object(scene, &shape, 1, NULL, &ids[i]));
     }
 }
 
@@ -136,7 +137,7 @@ static void count_near_boxes(const swiftprox_shape *box)
     int way;
     for (way = 0; way < 3; ++way) {
         make_scene(box, BOXES);
-        swiftprox_scene_query_init(&query);
+        query = (swiftprox_scene_query)SWIFTPROX_SCENE_QUERY_DEFAULT;
         query.distance_tolerance = 2.5;
         if (way > 0) {
             ask = swiftprox_scene_query_approximate;
@@ -156,14 +157,14 @@ int main(void)
 {
     const swiftprox_shape *ellipsoid = make_ellipsoid(), *box = make_box();
     int keeps;
-    swiftprox_scene_query_init(&query);
+    query = (swiftprox_scene_query)SWIFTPROX_SCENE_QUERY_DEFAULT;
     count("pair", BY_PAIR, ellipsoid);
     make_scene(ellipsoid, 2);
     count("scene", BY_SCENE, ellipsoid);
     query.distance_tolerance = 2.5;
     count("scene, tolerance", BY_SCENE, ellipsoid);
     CHECK_OK(swiftprox_scene_destroy(scene));
-    swiftprox_scene_query_init(&query);
+    query = (swiftprox_scene_query)SWIFTPROX_SCENE_QUERY_DEFAULT;
     for (keeps = 0; keeps < 2; ++keeps) {
         make_scene(box, BOXES);
         CHECK_OK(swiftprox_scene_set_kept_pair_limit(scene, keeps ? 1000000 : 0));

@@ -23,12 +23,8 @@ static const Member members[] = {
 };
 
 /* Defaults are those of C: each member but struct_size, which the compiler says. */
-template <class C, class Config>
-static void check_defaults(const Config &config, void (*init)(C *, std::size_t), const char *type)
+template <class C> static void check_defaults(const C &given, const C &expected, const char *type)
 {
-    C expected;
-    init(&expected, sizeof expected);
-    const C given = config;
     std::size_t count = 0;
     for (const Member &member : members) {
         if (std::strcmp(member.type, type) == 0) {
@@ -40,27 +36,31 @@ static void check_defaults(const Config &config, void (*init)(C *, std::size_t),
     }
     CHECK(count > 1);
 }
-#define CHECK_DEFAULTS(config, type) check_defaults(config, type##_init_sized, #type)
+#define CHECK_DEFAULTS(config, type, constant) \
+    do { \
+        const type expected = constant; \
+        check_defaults<type>(config, expected, #type); \
+    } while (false)
 
 static void defaults()
 {
     using namespace swiftprox;
-    CHECK_DEFAULTS(PairConfig{}.to_c(), swiftprox_pair_config);
-    CHECK_DEFAULTS(DepthConfig{}.to_c(), swiftprox_depth_config);
-    CHECK_DEFAULTS(ManifoldConfig{}.to_c(), swiftprox_manifold_config);
-    CHECK_DEFAULTS(SceneOptions{}.to_c(), swiftprox_scene_options);
-    CHECK_DEFAULTS(ObjectOptions{}.to_c(), swiftprox_object_options);
-    CHECK_DEFAULTS(SceneQuery{}.to_c(), swiftprox_scene_query);
-    CHECK_DEFAULTS(CastConfig{}.to_c(), swiftprox_cast_config);
-    CHECK_DEFAULTS(ClearanceConfig{}.to_c(), swiftprox_clearance_config);
-    CHECK_DEFAULTS(ShapeTuning{}.to_c(), swiftprox_shape_tuning);
-    CHECK_DEFAULTS(PairTuning{}.to_c(), swiftprox_pair_tuning);
+    CHECK_DEFAULTS(PairConfig{}.to_c(), swiftprox_pair_config, SWIFTPROX_PAIR_CONFIG_DEFAULT);
+    CHECK_DEFAULTS(DepthConfig{}.to_c(), swiftprox_depth_config, SWIFTPROX_DEPTH_CONFIG_DEFAULT);
+    CHECK_DEFAULTS(ManifoldConfig{}.to_c(), swiftprox_manifold_config, SWIFTPROX_MANIFOLD_CONFIG_DEFAULT);
+    CHECK_DEFAULTS(SceneOptions{}.to_c(), swiftprox_scene_options, SWIFTPROX_SCENE_OPTIONS_DEFAULT);
+    CHECK_DEFAULTS(ObjectOptions{}.to_c(), swiftprox_object_options, SWIFTPROX_OBJECT_OPTIONS_DEFAULT);
+    CHECK_DEFAULTS(SceneQuery{}.to_c(), swiftprox_scene_query, SWIFTPROX_SCENE_QUERY_DEFAULT);
+    CHECK_DEFAULTS(CastConfig{}.to_c(), swiftprox_cast_config, SWIFTPROX_CAST_CONFIG_DEFAULT);
+    CHECK_DEFAULTS(ClearanceConfig{}.to_c(), swiftprox_clearance_config, SWIFTPROX_CLEARANCE_CONFIG_DEFAULT);
+    CHECK_DEFAULTS(ShapeTuning{}.to_c(), swiftprox_shape_tuning, SWIFTPROX_SHAPE_TUNING_DEFAULT);
+    CHECK_DEFAULTS(PairTuning{}.to_c(), swiftprox_pair_tuning, SWIFTPROX_PAIR_TUNING_DEFAULT);
     swiftprox_shape_tuning tuning;
     const ShapeOptions options; // of which the C struct points into
     swiftprox_shape_options shape = options.to_c(tuning);
     shape.tuning = nullptr;
     shape.progress_user = nullptr;
-    CHECK_DEFAULTS(shape, swiftprox_shape_options);
+    CHECK_DEFAULTS(shape, swiftprox_shape_options, SWIFTPROX_SHAPE_OPTIONS_DEFAULT);
 }
 
 /* A unit cube about the origin. */
@@ -213,7 +213,8 @@ static void pairs()
     const auto ball = Shape::try_from_points(swiftprox::Range<const double>(centre), round);
     CHECK(ball && swiftprox::try_half_space_distance({ball.value, here}, {{0, 0, 1}, -2}).value.distance == 1.5);
     CHECK(swiftprox::try_distance({box, Pose(std::array<double, 12>{})}, {box, here}, cache).status == SWIFTPROX_ERROR_POSE);
-    CHECK(swiftprox::try_distance({Shape(), here}, {box, here}, cache).status == SWIFTPROX_ERROR_NULL_POINTER);
+    const Shape no_shape;
+    CHECK(swiftprox::try_distance({no_shape, here}, {box, here}, cache).status == SWIFTPROX_ERROR_NULL_POINTER);
 }
 
 /* A cube that flies at another: contact at time 2/3, where the gap of 2 is closed at a speed of 3. */
@@ -296,50 +297,122 @@ static void sets()
     const auto there = scene.try_add(box, options);
     auto scratch = swiftprox::SetScratch::try_create();
     CHECK(here && there && scratch);
-    CHECK(swiftprox::try_prepare(scene));
+    CHECK(scene.try_prepare());
     const std::array<swiftprox_object_id, 1> ids{here.value};
     swiftprox::ObjectSet set;
-    set.ids = ids;
-    const auto least = swiftprox::try_least_distance(scene, set, scratch.value);
+    set.ids.assign(ids.begin(), ids.end());
+    const auto least = scene.try_least_distance(set, scratch.value);
     CHECK(least && least.value.lower <= 4 && least.value.upper >= 4);
     const std::array<Pose, 2> poses{Pose::at(0, 3, 0), Pose::at(4.5, 0, 0)};
-    const auto hit = swiftprox::try_first_hit(scene, set, poses, scratch.value, SWIFTPROX_POSE_ORDER_IN_ORDER);
+    const auto hit = scene.try_first_hit(set, poses, scratch.value, SWIFTPROX_POSE_ORDER_IN_ORDER);
     CHECK(hit && hit.value.time == 1);
     const swiftprox_ray along{{-3, 0, 0}, {1, 0, 0}, 10};
-    const auto met = swiftprox::try_cast_ray(scene, along, scratch.value, SWIFTPROX_RAY_HITS_ALL);
+    const auto met = scene.try_cast_ray(along, scratch.value, SWIFTPROX_RAY_HITS_ALL);
     CHECK(met && swiftprox::hits(met.value).size() == 2 && swiftprox::hits(met.value).begin()->object == here.value);
     const auto motion = swiftprox::try_motion_between(Pose{}, Pose::at(8, 0, 0), {0, 0, 0}, 1);
     const std::array<swiftprox_motion, 1> motions{motion.value.motion};
-    const auto cast = swiftprox::try_cast(scene, set, motions, scratch.value);
+    const auto cast = scene.try_cast(set, motions, scratch.value);
     CHECK(cast && cast.value.outcome == SWIFTPROX_CAST_OUTCOME_HIT && cast.value.pair.object2 == there.value);
-    const auto edges = swiftprox::try_cast_batch(scene, set, motions, 1, scratch.value);
+    const auto edges = scene.try_cast_batch(set, motions, 1, scratch.value);
     CHECK(edges && edges.value.size() == 1 && edges.value[0].t_hi == cast.value.t_hi);
     const std::array<double, 4> heights{-0.25, -0.25, -0.25, -0.25};
     const auto level = swiftprox::Ground::try_from_heights(swiftprox::Range<const double>(heights), 2, 9, 9);
     const Pose under = Pose::at(-2, -2, 0);
-    const auto standing = swiftprox::try_ground_contacts(scene, {level.value, under}, scratch.value, {}, &set);
+    const auto standing = scene.try_ground_contacts({level.value, under}, scratch.value, {}, &set);
     CHECK(standing && swiftprox::contacts(standing.value).size() == 1);
     const swiftprox_scene_ground_contact &foot = *swiftprox::contacts(standing.value).begin();
     CHECK(foot.object == here.value && swiftprox::points(standing.value, foot).size() == swiftprox::points(standing.value).size());
     CHECK(foot.contact.manifold.normal[2] == 1 && foot.contact.manifold.point_count >= 4);
-    const auto floor = swiftprox::try_half_space_contacts(scene, {{0, 0, 1}, -0.25}, scratch.value);
+    const auto floor = scene.try_half_space_contacts({{0, 0, 1}, -0.25}, scratch.value);
     CHECK(floor && swiftprox::contacts(floor.value).size() == 2);
     const std::array<Pose, 1> few{Pose{}};
     const std::array<swiftprox_object_id, 2> both{here.value, there.value};
     swiftprox::ObjectSet uneven;
-    uneven.ids = both;
-    uneven.poses = few;
-    CHECK(swiftprox::try_least_distance(scene, uneven, scratch.value).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
-    CHECK(swiftprox::try_ground_contacts(scene, {level.value, under}, scratch.value, {}, &uneven).status ==
+    uneven.ids.assign(both.begin(), both.end());
+    uneven.poses.assign(few.begin(), few.end());
+    CHECK(scene.try_least_distance(uneven, scratch.value).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    CHECK(scene.try_ground_contacts({level.value, under}, scratch.value, {}, &uneven).status ==
           SWIFTPROX_ERROR_INVALID_ARGUMENT);
     std::array<swiftprox::PairCache, 2> caches;
     const Pose origin, beside = Pose::at(3, 0, 0);
-    const std::array<swiftprox_pair_question, 2> questions{swiftprox::question({box, origin}, {box, beside}, caches[0]),
-                                                           swiftprox::question({box, origin}, {box, origin}, caches[1])};
+    const std::array<swiftprox::Question, 2> questions{swiftprox::Question({box, origin}, {box, beside}, caches[0]),
+                                                        swiftprox::Question({box, origin}, {box, origin}, caches[1])};
     std::vector<swiftprox_pair_answer> answers;
     CHECK(swiftprox::try_batch(SWIFTPROX_QUERY_KIND_DISTANCE, questions, answers, {}, &scene));
     CHECK(answers.size() == 2 && answers[0].lower <= 2 && answers[0].upper >= 2);
     CHECK(answers[1].outcome == SWIFTPROX_OUTCOME_INTERSECTING);
+}
+
+/* Whether an expression with a T of any kind compiles. */
+template <class T, class = void> struct GivesPointer : std::false_type {
+};
+template <class T> struct GivesPointer<T, std::void_t<decltype(std::declval<T>().get())>> : std::true_type {
+};
+template <class T, class = void> struct GivesC : std::false_type {
+};
+template <class T> struct GivesC<T, std::void_t<decltype(std::declval<T>().to_c())>> : std::true_type {
+};
+template <class T, class = void> struct GivesScene : std::false_type {
+};
+template <class T> struct GivesScene<T, std::void_t<decltype(std::declval<T>().scene())>> : std::true_type {
+};
+
+// What would point at a temporary does not compile; what is named does.
+using swiftprox::Ground;
+using swiftprox::Moving;
+using swiftprox::PlacedGround;
+static_assert(std::is_constructible_v<Placed, const Shape &, Pose> && !std::is_constructible_v<Placed, Shape, Pose>);
+static_assert(!std::is_constructible_v<Placed, const Shape, Pose>);
+static_assert(std::is_constructible_v<PlacedGround, const Ground &, Pose> && !std::is_constructible_v<PlacedGround, Ground, Pose>);
+static_assert(std::is_constructible_v<Moving, const Shape &, swiftprox_motion>);
+static_assert(!std::is_constructible_v<Moving, Shape, swiftprox_motion>);
+static_assert(std::is_constructible_v<swiftprox::Question, Placed, Placed, swiftprox::PairCache &>);
+static_assert(!std::is_constructible_v<swiftprox::Question, Placed, Placed, swiftprox::PairCache>);
+static_assert(GivesPointer<Shape &>() && !GivesPointer<Shape>() && GivesPointer<const Ground &>() && !GivesPointer<Ground>());
+static_assert(GivesPointer<swiftprox::Listener &>() && !GivesPointer<swiftprox::Listener>());
+static_assert(GivesPointer<swiftprox::SetScratch &>() && !GivesPointer<swiftprox::SetScratch>());
+static_assert(GivesC<swiftprox::ObjectSet &>() && !GivesC<swiftprox::ObjectSet>());
+static_assert(GivesC<const swiftprox::Question &>() && !GivesC<swiftprox::Question>());
+static_assert(GivesScene<swiftprox::Replay &>() && !GivesScene<swiftprox::Replay>());
+
+/* Values own what they hold: what was written by temporaries is right after they are gone. */
+static void lifetimes()
+{
+    const auto made = cube();
+    const Shape &box = made.value;
+    std::vector<swiftprox::PairCache> caches(2);
+    std::vector<swiftprox::Question> questions;
+    questions.push_back({{box, Pose()}, {box, Pose::at(2, 0, 0)}, caches[0]});
+    questions.push_back({{box, Pose()}, {box, Pose::at(3, 0, 0)}, caches[1]});
+    std::vector<swiftprox_pair_answer> answers;
+    CHECK_OK(swiftprox::try_batch(SWIFTPROX_QUERY_KIND_DISTANCE, questions, answers).status);
+    CHECK(answers[0].lower <= 1 && answers[0].upper >= 1 && answers[1].lower <= 2 && answers[1].upper >= 2);
+
+    std::vector<Placed> placed;
+    for (int i = 0; i < 4; ++i) {
+        placed.emplace_back(box, Pose::at(3 * i, 0, 0));
+    }
+    const auto far = swiftprox::try_distance(placed[0], placed[3], caches[0]);
+    CHECK(far && far.value.lower <= 8 && far.value.upper >= 8);
+    std::vector<Moving> moving;
+    for (int i = 0; i < 2; ++i) {
+        moving.emplace_back(box, swiftprox::try_motion_between(Pose::at(4 * i, 0, 0), Pose::at(0, 0, 0), {}, 1).value.motion);
+    }
+    CHECK(swiftprox::try_cast(moving[0], moving[1], caches[0]).value.outcome == SWIFTPROX_CAST_OUTCOME_HIT);
+
+    auto created = swiftprox::Scene::try_create();
+    swiftprox::Scene &scene = created.value;
+    auto scratch = swiftprox::SetScratch::try_create();
+    CHECK_OK(scene.try_add(box).status);
+    const swiftprox::ObjectSet all{scene.try_object_ids().value};
+    swiftprox::ObjectOptions options;
+    options.pose = Pose::at(3, 0, 0);
+    CHECK_OK(scene.try_add(box, options).status);
+    const auto least = scene.try_least_distance(all, scratch.value);
+    CHECK(least && least.value.lower <= 2 && least.value.upper >= 2);
+    const swiftprox::ObjectSet elsewhere{all.ids, std::vector<Pose>{Pose::at(1, 0, 0)}};
+    const auto nearer = scene.try_least_distance(elsewhere, scratch.value);
+    CHECK(nearer && nearer.value.lower <= 1 && nearer.value.upper >= 1);
 }
 
 static void scenes(const std::string &folder)
@@ -367,7 +440,8 @@ static void scenes(const std::string &folder)
     const auto box_of_a = scene.try_object_box(a.value);
     CHECK(box_of_a && box_of_a.value.upper[0] - box_of_a.value.lower[0] >= 1);
     CHECK(scene.try_object_ids().value.size() == 3);
-    CHECK(scene.try_piece(c.value, 1).value.get() == made.value.get());
+    const auto piece = scene.try_piece(c.value, 1);
+    CHECK(piece.value.get() == made.value.get());
 
     swiftprox::SceneQuery query;
     query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
@@ -394,7 +468,7 @@ static void scenes(const std::string &folder)
     CHECK(scene.try_query_placed_pieces(pieces, placed, 1, SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 3);
     CHECK(scene.try_query_placed_pieces(pieces, placed, 2, SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 0);
     const std::array<swiftprox::ObjectOptions, 2> each{};
-    const auto more = scene.try_add_shapes(pieces, each);
+    const auto more = scene.try_add_objects(pieces, each);
     CHECK(more && more.value.size() == 2 && scene.try_object_ids().value.size() == 5);
     CHECK_OK(scene.try_set_piece_user_data(c.value, 1, 77).status);
     CHECK(scene.try_piece_user_data(c.value, 1).value == 77 && scene.try_piece_user_data(c.value).value == 0);
@@ -403,12 +477,12 @@ static void scenes(const std::string &folder)
     CHECK(SWIFTPROX_OBJECT_ID_NULL == swiftprox_object_id{} && !scene.try_is_object_valid(SWIFTPROX_OBJECT_ID_NULL).value);
     auto listener = swiftprox::Listener::try_create();
     CHECK_OK(listener.status);
-    const auto heard = swiftprox::try_listen(scene, listener.value, SWIFTPROX_QUERY_KIND_CONTACT, query);
+    const auto heard = scene.try_listen(listener.value, SWIFTPROX_QUERY_KIND_CONTACT, query);
     CHECK(heard && swiftprox::pairs(heard.value.answer).size() == 1 && swiftprox::pairs(heard.value.events).size() == 1);
     const swiftprox_pair_event &event = swiftprox::pairs(heard.value.events)[0];
     CHECK(event.state == SWIFTPROX_EVENT_STATE_BEGAN && swiftprox::points(heard.value.events, event).size() == 4);
     swiftprox::Listener none;
-    CHECK(swiftprox::try_listen(scene, none, SWIFTPROX_QUERY_KIND_CONTACT).status == SWIFTPROX_ERROR_NULL_POINTER);
+    CHECK(scene.try_listen(none, SWIFTPROX_QUERY_KIND_CONTACT).status == SWIFTPROX_ERROR_NULL_POINTER);
 
     // A filter goes with the scene, wherever that is moved.
     int asked = 0;
@@ -422,8 +496,8 @@ static void scenes(const std::string &folder)
     CHECK_OK(other.try_set_pairs({}).status);
     CHECK(other.try_query_intersection().value.count == 0);
     CHECK_OK(other.try_reset_pairs().status);
-    CHECK_OK(other.try_deactivate_pair(a.value, b.value).status);
-    CHECK(!other.try_is_pair_active(a.value, b.value).value && other.try_is_object_valid(a.value).value);
+    CHECK_OK(other.try_set_pair_active(a.value, b.value, false).status);
+    CHECK(!other.try_pair_active(a.value, b.value).value && other.try_is_object_valid(a.value).value);
     CHECK(other.try_query_intersection().value.count == 0);
     CHECK_OK(other.try_remove_object(a.value).status);
     CHECK(other.try_remove_object(a.value).status == SWIFTPROX_ERROR_HANDLE);
@@ -459,6 +533,16 @@ static void exceptions()
     const swiftprox_object_id id = scene.add(box);
     scene.set_pose(id, Pose::at(1, 2, 3));
     CHECK(scene.piece_pose(id).rows() == Pose::at(1, 2, 3).rows());
+#if __cplusplus >= 202002L
+    CHECK(scene.query_contact({.distance_tolerance = 0.1}).count == 0);
+#endif
+    swiftprox::SetScratch scratch = swiftprox::SetScratch::create();
+    swiftprox::Listener listener = swiftprox::Listener::create();
+    const swiftprox_object_id beside = scene.add(box);
+    scene.prepare();
+    CHECK(scene.least_distance({{id}}, scratch).lower <= scene.query_distance().pairs[0].answer.upper);
+    CHECK(swiftprox::pairs(scene.listen(listener, SWIFTPROX_QUERY_KIND_DISTANCE).events).size() == 1);
+    scene.remove_object(beside);
     swiftprox_status status = SWIFTPROX_OK;
     try {
         scene.set_pose(swiftprox_object_id{}, Pose());
@@ -515,6 +599,7 @@ int main(int argc, char **argv)
     poses();
     shapes();
     pairs();
+    lifetimes();
     motions();
     rays();
     points();

@@ -3,6 +3,7 @@
  * that intersect. What a scene without the broad phase says of all pairs, and boxes that are computed here, say which these are.
  */
 #include "legacy_test.h"
+#include "swiftprox/scene.h"
 
 namespace {
 

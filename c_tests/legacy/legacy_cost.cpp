@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "legacy_bodies.h"
+#include "swiftprox/scene.h"
 
 namespace {
 
@@ -94,18 +95,23 @@ double by_c(const Task& task, int steps)
     std::vector<uint32_t> triangles(task.body.triangles.begin(), task.body.triangles.end());
     std::vector<swiftprox_object_id> ids(static_cast<std::size_t>(task.count));
     for (std::size_t i = 0; i < ids.size(); ++i) {
-        swiftprox_object_options options;
-        swiftprox_object_options_init(&options);
+        swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
         if (i == 0) {
-            must(swiftprox_scene_add_mesh(scene, &task.body.vertices[0], task.body.vertices.size() / 3, &triangles[0], NULL,
-                                          triangles.size() / 3, NULL, &options, &ids[0]));
+            const swiftprox_shape *shape;
+            must(swiftprox_shape_create_from_mesh(&task.body.vertices[0], task.body.vertices.size() / 3, &triangles[0], NULL,
+                                                  triangles.size() / 3, NULL, &shape));
+            must(swiftprox_scene_add_object(scene, &shape, 1, &options, &ids[0]));
+            swiftprox_shape_release(shape);
         } else {
             must(swiftprox_scene_copy_object(scene, ids[0], &ids[i]));
-            must(swiftprox_scene_set_user_data(scene, ids[i], i));
+            swiftprox_object_info info;
+            info.struct_size = sizeof info;
+            must(swiftprox_scene_get_object_info(scene, ids[i], &info));
+            info.user_data = i;
+            must(swiftprox_scene_set_object_info(scene, ids[i], &info));
         }
     }
-    swiftprox_scene_query query;
-    swiftprox_scene_query_init(&query);
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     query.distance_tolerance = task.tolerance;
     double sum = 0;
     for (int step = 0; step < steps; ++step) {

@@ -8,7 +8,8 @@
 
 #include "legacy_test.h"
 
-#include <swiftprox_tuning.h>
+#include <swiftprox/tuning.h>
+#include <swiftprox/scene.h>
 
 namespace {
 

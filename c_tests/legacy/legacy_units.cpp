@@ -9,6 +9,7 @@
 
 #include <SWIFT.h>
 #include <swiftprox.h>
+#include <swiftprox/scene.h>
 
 #include "check.h"
 #include "legacy_units.h"

@@ -16,12 +16,11 @@ static swiftprox_pair_question pairs[COUNT];
 int main(void)
 {
     const swiftprox_shape *shapes[2];
-    swiftprox_scene_options options;
+    swiftprox_scene_options options = SWIFTPROX_SCENE_OPTIONS_DEFAULT;
     swiftprox_scene *scene = NULL;
     int i, k, round;
     shapes[0] = box(1, 0.5, 0.25);
     shapes[1] = box(0.5, 0.5, 2);
-    swiftprox_scene_options_init(&options);
     options.worker_count = 3;
     CHECK_OK(swiftprox_scene_create(&options, &scene));
     for (round = 0; round < 4; ++round) {

@@ -6,15 +6,18 @@
 #include <string.h>
 
 #include "check.h"
+#include "swiftprox/geometry.h"
+#include "swiftprox/scene.h"
+#include "swiftprox/ground.h"
+#include "swiftprox/verify.h"
 
 static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
 /* The points, with a ball of a radius swept over their hull. */
 static const swiftprox_shape *round_shape(const double *points, size_t count, double radius)
 {
-    swiftprox_shape_options options;
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     const swiftprox_shape *shape = NULL;
-    swiftprox_shape_options_init(&options);
     options.input = SWIFTPROX_INPUT_HULL;
     options.swept_radius = radius;
     CHECK_OK(swiftprox_shape_create_from_points(points, count, &options, &shape));
@@ -80,11 +83,10 @@ static void what_is_wrong_is_said(void)
 {
     const double origin[3] = {0, 0, 0}, mirror[12] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     const swiftprox_shape *sphere = round_shape(origin, 1, 1), *none = NULL;
-    swiftprox_shape_options options;
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     swiftprox_half_space ground = {{0, 0, 0}, 0};
     swiftprox_signed_distance answer;
     swiftprox_manifold manifold;
-    swiftprox_shape_options_init(&options);
     options.input = SWIFTPROX_INPUT_HULL;
     options.swept_radius = -1;
     CHECK(swiftprox_shape_create_from_points(origin, 1, &options, &none) == SWIFTPROX_ERROR_INVALID_ARGUMENT && none == NULL);
@@ -159,19 +161,18 @@ static void boxes(void)
     const double ends[6] = {-5, 0, 0, 5, 0, 0};
     const swiftprox_shape *capsule = round_shape(ends, 2, 0.5);
     swiftprox_scene *scene = NULL;
-    swiftprox_object_options options;
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     swiftprox_object_id id, none = {0};
     double lower[3], upper[3];
     int k;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
-    swiftprox_object_options_init(&options);
     options.pose[0] = options.pose[5] = 0.6;
     options.pose[1] = -0.8;
     options.pose[4] = 0.8;
     options.pose[3] = 1;
     options.pose[7] = 2;
     options.pose[11] = 3;
-    CHECK_OK(swiftprox_scene_add_shape(scene, capsule, &options, &id));
+    CHECK_OK(swiftprox_scene_add_object(scene, &capsule, 1, &options, &id));
     CHECK_OK(swiftprox_scene_get_object_box(scene, id, lower, upper));
     for (k = 0; k < 3; ++k) {
         CHECK(lower[k] <= least[k] && least[k] - lower[k] < 1e-4);

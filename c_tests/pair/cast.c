@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "swiftprox/motion.h"
+#include "swiftprox/verify.h"
 
 static void fixed(swiftprox_motion *motion, double x, double y, double z)
 {
@@ -32,7 +34,7 @@ static void fall_pose(void *user, double time, double *pose)
 static void known_casts(const swiftprox_shape *cube)
 {
     swiftprox_motion still, falling;
-    swiftprox_cast_config config;
+    swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
     swiftprox_cast_answer answer;
     swiftprox_pair_cache cache = {{0}};
     double start[12], end[12], error = -1;
@@ -51,7 +53,6 @@ static void known_casts(const swiftprox_shape *cube)
     CHECK(strcmp(swiftprox_library_cast_outcome_string(answer.outcome), "hit") == 0);
 
     /* Free before it comes there; and a margin. */
-    swiftprox_cast_config_init(&config);
     CHECK(config.t_begin == 0 && config.t_end == 1 && config.time_tolerance == 1e-9 && config.margin == 0);
     config.t_end = 0.25;
     config.margin = 0.75;
@@ -70,7 +71,7 @@ static void known_casts(const swiftprox_shape *cube)
 static void known_clearances(const swiftprox_shape *cube)
 {
     swiftprox_motion still, passing;
-    swiftprox_clearance_config config;
+    swiftprox_clearance_config config = SWIFTPROX_CLEARANCE_CONFIG_DEFAULT;
     swiftprox_clearance clearance;
     swiftprox_pair_cache cache = {{0}};
     double start[12], end[12];
@@ -78,7 +79,6 @@ static void known_clearances(const swiftprox_shape *cube)
     place(start, -4, 0, 1.25);
     place(end, 4, 0, 1.25);
     CHECK_OK(swiftprox_motion_between(start, end, NULL, 1, &passing, NULL));
-    swiftprox_clearance_config_init(&config);
     CHECK_OK(swiftprox_pair_clearance(cube, &passing, cube, &still, &cache, NULL, &clearance));
     CHECK(clearance.lower <= 0.25 && 0.25 <= clearance.upper && clearance.upper <= 1.01 * clearance.lower + 1e-15);
     config.relative_error = 0;
@@ -123,7 +123,7 @@ static void callbacks(const swiftprox_shape *cube)
 static void mistakes(const swiftprox_shape *cube)
 {
     swiftprox_motion still, other;
-    swiftprox_cast_config config;
+    swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
     swiftprox_cast_answer answer;
     swiftprox_pair_cache cache = {{0}}, before = {{0}};
     double pose[12], nowhere[12] = {0};
@@ -138,7 +138,6 @@ static void mistakes(const swiftprox_shape *cube)
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "motion", swiftprox_motion_between(pose, pose, NULL, 1, NULL, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "rotation", swiftprox_motion_between(pose, nowhere, NULL, 1, &other, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "reach", swiftprox_motion_between(pose, pose, NULL, -1, &other, NULL));
-    swiftprox_cast_config_init(&config);
     config.margin = NAN;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin",
                 swiftprox_pair_cast(cube, &other, cube, &still, &cache, &config, &answer));

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "swiftprox/ground.h"
+#include "swiftprox/sets.h"
 
 static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
@@ -20,7 +22,7 @@ static void a_cube_on_a_level_grid(void)
     swiftprox_ground_contact contacts[4];
     swiftprox_ground_count count;
     swiftprox_manifold_point points[16];
-    swiftprox_manifold_config config;
+    swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
     CHECK_OK(swiftprox_ground_create_from_heights(5, 5, 1, 1, heights, &ground));
     CHECK_OK(swiftprox_ground_get_info(ground, &info));
     CHECK(info.vertex_count == 25 && info.triangle_count == 32 && info.bytes < 200 * 32);
@@ -31,7 +33,6 @@ static void a_cube_on_a_level_grid(void)
     CHECK(answer.answer.lower <= 0.25 && 0.25 <= answer.answer.upper && answer.answer.normal[2] == 1);
     CHECK_OK(swiftprox_pair_ground_distance(SWIFTPROX_QUERY_KIND_INTERSECTION, body, in, ground, identity, NULL, &answer));
     CHECK(answer.answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING);
-    swiftprox_manifold_config_init(&config);
     config.reduces = 1;
     CHECK_OK(swiftprox_pair_ground_contacts(body, in, ground, identity, &config, contacts, 4, points, 16, &count));
     CHECK(count.contact_count == 1 && count.point_count == 4 && contacts[0].manifold.point_count == 4);
@@ -54,7 +55,7 @@ static void what_a_program_may_do_wrong(void)
     const swiftprox_ground *ground = NULL, *none = NULL;
     swiftprox_ground_distance answer;
     swiftprox_ground_count count;
-    swiftprox_manifold_config config;
+    swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
     CHECK_OK(swiftprox_ground_create_from_triangles(corners, 3, one, 1, &ground));
     CHECK(swiftprox_ground_create_from_triangles(corners, 3, absent, 1, &none) == SWIFTPROX_ERROR_MESH && none == NULL);
     CHECK(swiftprox_ground_create_from_triangles(corners, 3, thin, 1, &none) == SWIFTPROX_ERROR_MESH);
@@ -73,7 +74,6 @@ static void what_a_program_may_do_wrong(void)
           SWIFTPROX_ERROR_NULL_POINTER);
     CHECK(swiftprox_pair_ground_contacts(body, identity, NULL, identity, NULL, NULL, 0, NULL, 0, &count) ==
           SWIFTPROX_ERROR_NULL_POINTER);
-    swiftprox_manifold_config_init(&config);
     config.margin = -1;
     CHECK(swiftprox_pair_ground_contacts(body, identity, ground, identity, &config, NULL, 0, NULL, 0, &count) ==
           SWIFTPROX_ERROR_INVALID_ARGUMENT);
@@ -96,23 +96,22 @@ static void objects_of_a_scene(void)
     swiftprox_object_id ids[4], stale = SWIFTPROX_OBJECT_ID_NULL;
     swiftprox_object_set set = {0};
     swiftprox_object_options options;
-    swiftprox_manifold_config config;
+    swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
     swiftprox_scene_ground_answer answer;
     int i;
     CHECK_OK(swiftprox_ground_create_from_heights(5, 5, 1, 1, heights, &ground));
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     CHECK_OK(swiftprox_scratch_create(&scratch));
     for (i = 0; i < 4; ++i) {
-        swiftprox_object_options_init(&options);
+        options = (swiftprox_object_options)SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
         memcpy(options.pose, down, sizeof down);
         options.pose[3] = 0.75 + 0.75 * i;
         options.pose[11] = i == 3 ? 2 : 0.375;
         options.groups = i == 1 ? 2 : 1;
         options.fixed = i == 2;
         options.user_data = 10 + (uint64_t)i;
-        CHECK_OK(swiftprox_scene_add_shape(scene, body, &options, &ids[i]));
+        CHECK_OK(swiftprox_scene_add_object(scene, &body, 1, &options, &ids[i]));
     }
-    swiftprox_manifold_config_init(&config);
     config.reduces = 1;
     CHECK_OK(swiftprox_scene_ground_contacts(scene, NULL, ground, identity, &config, NULL, scratch, &answer));
     CHECK(answer.contact_count == 2 && answer.point_count == 8 && answer.contacts[1].contact.first_point == 4);

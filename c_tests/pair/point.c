@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "swiftprox/geometry.h"
 
 static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 

@@ -5,6 +5,8 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "swiftprox/geometry.h"
+#include "swiftprox/sets.h"
 
 static const double identity[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
 
@@ -34,11 +36,10 @@ static void round_bodies(void)
 {
     const double centre[3] = {0, 0, 0};
     const swiftprox_shape *shapes[2] = {box(1, 1, 1), NULL};
-    swiftprox_shape_options options;
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     swiftprox_ray ray = {{-5, 0.3, 0}, {1, 0, 0}, HUGE_VAL};
     swiftprox_ray_answer answer;
     int i, k, hits;
-    swiftprox_shape_options_init(&options);
     options.input = SWIFTPROX_INPUT_HULL;
     options.swept_radius = 0.5;
     CHECK_OK(swiftprox_shape_create_from_points(centre, 1, &options, &shapes[1]));
@@ -53,11 +54,10 @@ static void round_bodies(void)
         CHECK_OK(swiftprox_scene_create(NULL, &scene));
         CHECK_OK(swiftprox_scratch_create(&scratch));
         for (k = 0; k < 2; ++k) {
-            swiftprox_object_options placed;
+            swiftprox_object_options placed = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
             swiftprox_object_id id;
-            swiftprox_object_options_init(&placed);
             placed.pose[7] = (k ^ i) == 1 ? 100 : 0;
-            CHECK_OK(swiftprox_scene_add_shape(scene, shapes[k ^ i], &placed, &id));
+            CHECK_OK(swiftprox_scene_add_object(scene, &shapes[k ^ i], 1, &placed, &id));
         }
         for (hits = 0; hits < 3; ++hits) {
             CHECK_OK(swiftprox_scene_cast_ray(scene, &ray, (swiftprox_ray_hits)hits, UINT32_MAX, scratch, &met));

@@ -1,6 +1,7 @@
 #define _DEFAULT_SOURCE /* MAP_ANONYMOUS */
 
 #include "comparison.h"
+#include "swiftprox/verify.h"
 
 #include <math.h>
 #include <signal.h>

@@ -10,6 +10,7 @@
 #include <fcl/narrowphase/distance.h>
 
 #include "peers.h"
+#include "swiftprox/geometry.h"
 
 namespace {
 

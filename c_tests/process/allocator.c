@@ -8,6 +8,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "swiftprox/process.h"
 
 /* What a program gave and has not got back, and how many blocks it gave in all. */
 typedef struct {

@@ -12,7 +12,12 @@
 #include <string.h>
 
 #include "check.h"
-#include "swiftprox_tuning.h"
+#include "swiftprox/tuning.h"
+#include "swiftprox/process.h"
+#include "swiftprox/scene.h"
+#include "swiftprox/geometry.h"
+#include "swiftprox/ground.h"
+#include "swiftprox/verify.h"
 
 static const double CORNERS[12] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1};
 static const uint32_t FACES[12] = {0, 2, 1, 0, 1, 3, 1, 2, 3, 0, 3, 2};
@@ -33,6 +38,15 @@ static swiftprox_status mesh(const double *vertices, size_t vertex_count, const 
     const swiftprox_status status =
         swiftprox_shape_create_from_mesh(vertices, vertex_count, indices, valences, face_count, options, &shape);
     CHECK((status == SWIFTPROX_OK) == (shape != NULL));
+    swiftprox_shape_release(shape);
+    return status;
+}
+
+static swiftprox_status add_tetrahedron(swiftprox_scene *scene, const swiftprox_object_options *options, swiftprox_object_id *id)
+{
+    const swiftprox_shape *shape = NULL;
+    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
+    const swiftprox_status status = swiftprox_scene_add_object(scene, &shape, 1, options, id);
     swiftprox_shape_release(shape);
     return status;
 }
@@ -144,22 +158,16 @@ static void decompositions(void)
 
 static void shape_options(void)
 {
-    swiftprox_shape_options options;
-    /* Ignored, but not without a word. */
-    swiftprox_shape_options_init_sized(NULL, sizeof options);
-    CHECK(strstr(swiftprox_library_last_error_message(), "`swiftprox_shape_options` is null") != NULL);
-    memset(&options, 7, sizeof options);
-    swiftprox_shape_options_init_sized(&options, 8);
-    CHECK(strstr(swiftprox_library_last_error_message(), "struct_size is 8") != NULL && ((char *)&options)[0] == 7);
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     memset(&options, 0, sizeof options);
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_shape_options", mesh(CORNERS, 4, FACES, NULL, 4, &options));
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "begin with SWIFTPROX_SHAPE_OPTIONS_DEFAULT",
+                mesh(CORNERS, 4, FACES, NULL, 4, &options));
     memset(&options, 0xff, sizeof options);
     CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_shape_options", mesh(CORNERS, 4, FACES, NULL, 4, &options));
 
-    swiftprox_shape_options_init(&options);
     any_number(&options.input, INT32_MIN);
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "input", mesh(CORNERS, 4, FACES, NULL, 4, &options));
-    swiftprox_shape_options_init(&options);
+    options = (swiftprox_shape_options)SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     options.scale = 0;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "scale", mesh(CORNERS, 4, FACES, NULL, 4, &options));
     options.scale = NAN;
@@ -167,10 +175,10 @@ static void shape_options(void)
     options.scale = 1e308;
     options.translation[1] = 1.7e308;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "range", mesh(CORNERS, 4, FACES, NULL, 4, &options));
-    swiftprox_shape_options_init(&options);
+    options = (swiftprox_shape_options)SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     options.rotation[4] = 0;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "transform", mesh(CORNERS, 4, FACES, NULL, 4, &options));
-    swiftprox_shape_options_init(&options);
+    options = (swiftprox_shape_options)SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     options.convexity_tolerance = NAN;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "convexity", mesh(CORNERS, 4, FACES, NULL, 4, &options));
 }
@@ -242,8 +250,8 @@ static void pairs(void)
     static const double bad[] = {NAN, INFINITY, -INFINITY, 1e300, -1e300};
     const swiftprox_shape *shape = NULL;
     swiftprox_pair_cache cache = {{0}};
-    swiftprox_pair_config config;
-    swiftprox_pair_tuning tuning;
+    swiftprox_pair_config config = SWIFTPROX_PAIR_CONFIG_DEFAULT;
+    swiftprox_pair_tuning tuning = SWIFTPROX_PAIR_TUNING_DEFAULT;
     swiftprox_pair_answer answer;
     size_t i;
     int entry;
@@ -283,7 +291,6 @@ static void pairs(void)
     /* A shear within the limit is the caller's to use, unless a config says otherwise. */
     CHECK_OK(swiftprox_pair_distance(shape, with(1, 0.009), shape, THERE, &cache, NULL, &answer));
     CHECK_OK(swiftprox_pair_verify(shape, with(1, 0.009), shape, THERE, &answer));
-    swiftprox_pair_config_init(&config);
     config.rotation_limit = 1e-9;
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal",
                 swiftprox_pair_distance(shape, with(1, 0.009), shape, THERE, &cache, &config, &answer));
@@ -295,21 +302,20 @@ static void pairs(void)
     config.rotation_limit = 0.5;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "rotation_limit is 0.5, it must be from 0 to 0.01",
                 swiftprox_pair_intersection(shape, HERE, shape, THERE, &cache, &config, &answer));
-    swiftprox_pair_config_init(&config);
+    config = (swiftprox_pair_config)SWIFTPROX_PAIR_CONFIG_DEFAULT;
     config.distance_tolerance = -1;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "distance_tolerance",
                 swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
-    swiftprox_pair_config_init(&config);
-    swiftprox_pair_tuning_init(&tuning);
+    config = (swiftprox_pair_config)SWIFTPROX_PAIR_CONFIG_DEFAULT;
     any_number(&tuning.levels, 17);
     config.tuning = &tuning;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tuning->levels is 17",
                 swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
     memset(&tuning, 0, sizeof tuning);
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_pair_tuning_init",
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_PAIR_TUNING_DEFAULT",
                 swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
     memset(&config, 0, sizeof config);
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_pair_config_init",
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_PAIR_CONFIG_DEFAULT",
                 swiftprox_pair_distance(shape, HERE, shape, THERE, &cache, &config, &answer));
 
     /* After all that the pair is answered as ever. */
@@ -331,9 +337,8 @@ static void pairs(void)
 
     /* Tiny and vast bodies: whatever is accepted is answered. */
     for (i = 0; i < 2; ++i) {
-        swiftprox_shape_options options;
+        swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
         const swiftprox_shape *extreme = NULL;
-        swiftprox_shape_options_init(&options);
         options.scale = i == 0 ? 1e-300 : 1e300;
         CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, &options, &extreme));
         CHECK_OK(swiftprox_pair_distance(extreme, HERE, shape, THERE, &cache, NULL, &answer));
@@ -350,10 +355,10 @@ static void swept_shapes(void)
 {
     static const double bad[] = {NAN, INFINITY, -1};
     const swiftprox_shape *const before = (const swiftprox_shape *)(const void *)CORNERS, *shape;
-    swiftprox_shape_options options;
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     size_t i;
     for (i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
-        swiftprox_shape_options_init(&options);
+        options = (swiftprox_shape_options)SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
         options.swept_radius = bad[i];
         shape = before;
         CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "swept_radius",
@@ -361,11 +366,10 @@ static void swept_shapes(void)
         CHECK(shape == NULL);
         CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "swept_radius", mesh(CORNERS, 4, FACES, NULL, 4, &options));
     }
-    swiftprox_shape_options_init(&options);
     options.swept_radius = 1e300;
     options.scale = 1e10;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "swept_radius times scale", mesh(CORNERS, 4, FACES, NULL, 4, &options));
-    swiftprox_shape_options_init(&options);
+    options = (swiftprox_shape_options)SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     options.face_noise = INFINITY;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "face_noise", mesh(CORNERS, 4, FACES, NULL, 4, &options));
 }
@@ -376,15 +380,14 @@ static void half_spaces(void)
     static const double bad[] = {NAN, INFINITY, -INFINITY};
     const swiftprox_half_space ground = {{0, 0, 2}, 8};
     const double origin[3] = {0, 0, 0};
-    swiftprox_shape_options options;
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     const swiftprox_shape *shape = NULL;
     swiftprox_half_space other;
     swiftprox_signed_distance answer;
-    swiftprox_manifold_config config;
+    swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
     swiftprox_manifold manifold;
     swiftprox_manifold_point point, untouched;
     size_t i;
-    swiftprox_shape_options_init(&options);
     options.input = SWIFTPROX_INPUT_HULL;
     options.swept_radius = 0.5;
     CHECK_OK(swiftprox_shape_create_from_points(origin, 1, &options, &shape));
@@ -405,14 +408,13 @@ static void half_spaces(void)
                     swiftprox_pair_half_space_manifold(shape, HERE, &other, NULL, &point, 1, &manifold));
         CHECK(manifold.outcome == SWIFTPROX_OUTCOME_NONE && manifold.point_count == 0);
     }
-    swiftprox_manifold_config_init(&config);
     config.margin = NAN;
     memset(&point, 0x5a, sizeof point);
     memset(&untouched, 0x5a, sizeof untouched);
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin",
                 swiftprox_pair_half_space_manifold(shape, HERE, &ground, &config, &point, 1, &manifold));
     memset(&config, 0, sizeof config);
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_manifold_config_init",
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_MANIFOLD_CONFIG_DEFAULT",
                 swiftprox_pair_half_space_manifold(shape, HERE, &ground, &config, &point, 1, &manifold));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "points",
                 swiftprox_pair_half_space_manifold(shape, HERE, &ground, NULL, NULL, 1, &manifold));
@@ -494,12 +496,12 @@ static void grounds(void)
                 DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, with(5, 0), ground, HERE, NULL, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "reflection",
                 DISTANCE(SWIFTPROX_QUERY_KIND_INTERSECTION, shape, HERE, ground, with(0, -1), NULL, &answer));
-    swiftprox_pair_config_init(&distance);
+    distance = (swiftprox_pair_config)SWIFTPROX_PAIR_CONFIG_DEFAULT;
     distance.distance_tolerance = -1;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "distance_tolerance",
                 DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, HERE, ground, HERE, &distance, &answer));
     memset(&distance, 0, sizeof distance);
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_pair_config_init",
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_PAIR_CONFIG_DEFAULT",
                 DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, HERE, ground, HERE, &distance, &answer));
 #undef DISTANCE
 
@@ -514,11 +516,11 @@ static void grounds(void)
                 swiftprox_pair_ground_contacts(shape, HERE, ground, HERE, NULL, NULL, 0, NULL, 0, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "entry 3",
                 swiftprox_pair_ground_contacts(shape, with(3, NAN), ground, HERE, NULL, NULL, 0, NULL, 0, &count));
-    swiftprox_manifold_config_init(&config);
+    config = (swiftprox_manifold_config)SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
     config.margin = -1;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin", CONTACTS(&config, &contact, 1, &point, 1));
     memset(&config, 0, sizeof config);
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_manifold_config_init", CONTACTS(&config, &contact, 1, &point, 1));
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_MANIFOLD_CONFIG_DEFAULT", CONTACTS(&config, &contact, 1, &point, 1));
 
     /* After all that the tetrahedron stands on the triangle, with more points than there is room for. */
     CHECK_OK(CONTACTS(NULL, &contact, 1, &point, 1));
@@ -541,21 +543,20 @@ static void still_usable(swiftprox_scene *scene, int line)
 static void scenes(void)
 {
     swiftprox_scene *scene = NULL, *other = NULL;
-    swiftprox_scene_options options;
-    swiftprox_scene_query query;
+    swiftprox_scene_options options = SWIFTPROX_SCENE_OPTIONS_DEFAULT;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer;
-    swiftprox_object_options object_options;
+    swiftprox_object_options object_options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     swiftprox_object_info info;
     const swiftprox_shape *shape = NULL;
     const swiftprox_shape *pieces[2] = {NULL, NULL};
-    swiftprox_pair_tuning tuning;
+    swiftprox_pair_tuning tuning = SWIFTPROX_PAIR_TUNING_DEFAULT;
     const swiftprox_shape *piece = NULL;
     swiftprox_object_id here, there, stale, foreign, id = {7};
     int32_t active = 7, valid = 7;
     size_t i;
 
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_create(NULL, NULL));
-    swiftprox_scene_options_init(&options);
     options.rotation_limit = 0.5;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "rotation_limit is 0.5, it must be from 0 to 0.01",
                 swiftprox_scene_create(&options, &scene));
@@ -564,13 +565,12 @@ static void scenes(void)
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     CHECK_OK(swiftprox_scene_create(NULL, &other));
 
-    swiftprox_object_options_init(&object_options);
     memcpy(object_options.pose, THERE, sizeof THERE);
-    CHECK_OK(swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, NULL, NULL, &here));
-    CHECK_OK(swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, NULL, &object_options, &there));
+    CHECK_OK(add_tetrahedron(scene, NULL, &here));
+    CHECK_OK(add_tetrahedron(scene, &object_options, &there));
     CHECK_OK(swiftprox_scene_copy_object(scene, there, &stale));
     CHECK_OK(swiftprox_scene_remove_object(scene, stale));
-    CHECK_OK(swiftprox_scene_add_mesh(other, CORNERS, 4, FACES, NULL, 4, NULL, NULL, &foreign));
+    CHECK_OK(add_tetrahedron(other, NULL, &foreign));
     still_usable(scene, __LINE__);
 
     /* Ids: null, stale, another scene's, made up. */
@@ -583,12 +583,12 @@ static void scenes(void)
             CHECK(swiftprox_scene_copy_object(scene, wrong[i], &id) == SWIFTPROX_ERROR_HANDLE && id.bits == 0);
             CHECK_OK(swiftprox_scene_is_object_valid(scene, wrong[i], &valid));
             CHECK(valid == 0);
-            CHECK(swiftprox_scene_activate_object(scene, wrong[i]) == SWIFTPROX_ERROR_HANDLE);
-            CHECK(swiftprox_scene_deactivate_pair(scene, here, wrong[i]) == SWIFTPROX_ERROR_HANDLE);
-            CHECK(swiftprox_scene_set_user_data(scene, wrong[i], 1) == SWIFTPROX_ERROR_HANDLE);
-            CHECK(swiftprox_scene_is_pair_active(scene, wrong[i], there, &active) == SWIFTPROX_ERROR_HANDLE && active == 0);
+            CHECK(swiftprox_scene_set_pair_active(scene, &wrong[i], NULL, 1) == SWIFTPROX_ERROR_HANDLE);
+            CHECK(swiftprox_scene_set_pair_active(scene, &here, &wrong[i], 0) == SWIFTPROX_ERROR_HANDLE);
+                        CHECK(swiftprox_scene_get_pair_active(scene, wrong[i], there, &active) == SWIFTPROX_ERROR_HANDLE && active == 0);
             info.struct_size = sizeof info;
             CHECK(swiftprox_scene_get_object_info(scene, wrong[i], &info) == SWIFTPROX_ERROR_HANDLE);
+            CHECK(swiftprox_scene_set_object_info(scene, wrong[i], &info) == SWIFTPROX_ERROR_HANDLE);
             CHECK(swiftprox_scene_get_piece(scene, wrong[i], 0, &piece) == SWIFTPROX_ERROR_HANDLE && piece == NULL);
         }
     }
@@ -597,20 +597,25 @@ static void scenes(void)
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_is_object_valid(NULL, here, &valid));
     CHECK(valid == 0);
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "valid", swiftprox_scene_is_object_valid(scene, here, NULL));
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "twice", swiftprox_scene_deactivate_pair(scene, here, here));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "twice", swiftprox_scene_set_pair_active(scene, &here, &here, 0));
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "piece 1", swiftprox_scene_get_piece(scene, here, 1, &piece));
+    CHECK_OK(swiftprox_scene_get_object_info(scene, here, &info));
+    info.piece_count = 2;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "piece_count is 2", swiftprox_scene_set_object_info(scene, here, &info));
+    info.piece_count = 1;
+    info.pose[3] = NAN;
+    info.user_data = 7;
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "finite", swiftprox_scene_set_object_info(scene, here, &info));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "info", swiftprox_scene_set_object_info(scene, here, NULL));
+    CHECK_OK(swiftprox_scene_get_object_info(scene, here, &info));
+    CHECK(info.user_data == 0);
     still_usable(scene, __LINE__);
 
     /* Adding. */
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "id",
-                swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, NULL, NULL, NULL));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "vertices",
-                swiftprox_scene_add_mesh(scene, NULL, 4, FACES, NULL, 4, NULL, NULL, &id));
-    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "edge", swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 3, NULL, NULL, &id));
-    CHECK_FAILS(SWIFTPROX_ERROR_FILE, "no-such-file", swiftprox_scene_add_file(scene, "no-such-file", NULL, NULL, &id));
     CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
     pieces[0] = shape;
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape", swiftprox_scene_add_shape(scene, NULL, NULL, &id));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "id", swiftprox_scene_add_object(scene, pieces, 1, NULL, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pieces[0]", swiftprox_scene_add_object(scene, &pieces[1], 1, NULL, &id));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pieces[1]", swiftprox_scene_add_object(scene, pieces, 2, NULL, &id));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pieces", swiftprox_scene_add_object(scene, NULL, 2, NULL, &id));
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "piece", swiftprox_scene_add_object(scene, pieces, 0, NULL, &id));
@@ -631,30 +636,28 @@ static void scenes(void)
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "rotation", swiftprox_scene_set_transform(scene, here, NULL, CORNERS));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "translation", swiftprox_scene_set_transform(scene, here, CORNERS, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal", swiftprox_scene_set_transform(scene, here, CORNERS, CORNERS));
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "3 poses", swiftprox_scene_set_all_poses(scene, HERE, 3));
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "poses", swiftprox_scene_set_all_poses(scene, HERE, SIZE_MAX));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "poses", swiftprox_scene_set_all_poses(scene, NULL, 2));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "rotations", swiftprox_scene_set_all_transforms(scene, NULL, HERE, 2));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "3 poses", swiftprox_scene_set_poses(scene, NULL, HERE, 3));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "poses", swiftprox_scene_set_poses(scene, NULL, HERE, SIZE_MAX));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "poses", swiftprox_scene_set_poses(scene, NULL, NULL, 2));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "rotations", swiftprox_scene_set_transforms(scene, NULL, NULL, HERE, 2));
     {
         double poses[24];
         memcpy(poses, THERE, sizeof THERE);
         memcpy(poses + 12, with(0, 2), sizeof HERE);
-        CHECK_FAILS(SWIFTPROX_ERROR_POSE, "pose 1", swiftprox_scene_set_all_poses(scene, poses, 2));
+        CHECK_FAILS(SWIFTPROX_ERROR_POSE, "pose 1", swiftprox_scene_set_poses(scene, NULL, poses, 2));
     }
     still_usable(scene, __LINE__);
 
     /* Asking. */
-    swiftprox_scene_query_init(&query);
     query.distance_tolerance = -2;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tolerance", swiftprox_scene_query_distance(scene, &query, &answer));
     CHECK(answer.count == 0 && answer.pairs == NULL);
     query.distance_tolerance = NAN;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tolerance", swiftprox_scene_query_distance(scene, &query, &answer));
-    swiftprox_scene_query_init(&query);
+    query = (swiftprox_scene_query)SWIFTPROX_SCENE_QUERY_DEFAULT;
     query.step_budget = 0;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "step_budget", swiftprox_scene_query_intersection(scene, &query, &answer));
-    swiftprox_scene_query_init(&query);
-    swiftprox_pair_tuning_init(&tuning);
+    query = (swiftprox_scene_query)SWIFTPROX_SCENE_QUERY_DEFAULT;
     any_number(&tuning.refinement, -3);
     query.tuning = &tuning;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tuning->refinement is -3",

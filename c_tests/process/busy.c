@@ -9,6 +9,8 @@
 #include <string.h>
 
 #include "check.h"
+#include "swiftprox/process.h"
+#include "swiftprox/scene.h"
 
 enum { THREADS = 4, OBJECTS = 6 };
 
@@ -53,9 +55,9 @@ static swiftprox_status call(int which, int round)
         }
         return status;
     case 3:
-        return swiftprox_scene_deactivate_pair(scene, ids[0], ids[1 + round % (OBJECTS - 1)]);
+        return swiftprox_scene_set_pair_active(scene, &ids[0], &ids[1 + round % (OBJECTS - 1)], 0);
     case 4:
-        return swiftprox_scene_activate_all(scene);
+        return swiftprox_scene_set_pair_active(scene, NULL, NULL, 1);
     case 5:
         return swiftprox_scene_get_statistics(scene, &statistics);
     case 6:
@@ -63,7 +65,7 @@ static swiftprox_status call(int which, int round)
         info.struct_size = sizeof info;
         return swiftprox_scene_get_object_info(scene, ids[round % OBJECTS], &info);
     case 7:
-        return swiftprox_scene_is_pair_active(scene, ids[0], ids[1], &active);
+        return swiftprox_scene_get_pair_active(scene, ids[0], ids[1], &active);
     default:
         return swiftprox_scene_query_approximate(scene, NULL, &answer);
     }
@@ -98,7 +100,7 @@ static void test_threads(void)
         done += workers[i].done;
     }
     CHECK(done > 0);
-    CHECK_OK(swiftprox_scene_activate_all(scene));
+    CHECK_OK(swiftprox_scene_set_pair_active(scene, NULL, NULL, 1));
     CHECK_OK(swiftprox_scene_query_distance(scene, NULL, &answer));
     CHECK(answer.count == OBJECTS * (OBJECTS - 1) / 2);
 }
@@ -153,11 +155,13 @@ static int32_t on_progress(void *user, double fraction)
 
 static void test_progress(void)
 {
-    swiftprox_shape_options options;
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
+    const swiftprox_shape *made;
     swiftprox_object_id id;
-    swiftprox_shape_options_init(&options);
     options.progress = on_progress;
-    CHECK_OK(swiftprox_scene_add_mesh(scene, CORNERS, 4, FACES, NULL, 4, &options, NULL, &id));
+    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, &options, &made));
+    CHECK_OK(swiftprox_scene_add_object(scene, &made, 1, NULL, &id));
+    swiftprox_shape_release(made);
 }
 
 int main(int argc, char **argv)

@@ -11,7 +11,12 @@
 #include <stdlib.h>
 
 #include "check.h"
-#include "swiftprox_tuning.h"
+#include "swiftprox/tuning.h"
+#include "swiftprox/scene.h"
+#include "swiftprox/geometry.h"
+#include "swiftprox/ground.h"
+#include "swiftprox/process.h"
+#include "swiftprox/verify.h"
 
 /* ---- environments ---- */
 
@@ -281,13 +286,12 @@ static void ask_contact(const swiftprox_shape *shape1, const double *pose1, cons
                         contact_caches *caches)
 {
     swiftprox_depth_answer depth;
-    swiftprox_manifold_config config;
+    swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
     swiftprox_manifold manifold;
     swiftprox_manifold_point points[MOST_POINTS];
     CALL_OK(swiftprox_pair_depth(shape1, pose1, shape2, pose2, &caches->depth, NULL, &depth));
     tell(&depth, sizeof depth);
     CALL(swiftprox_pair_depth_verify(shape1, pose1, shape2, pose2, &caches->depth, &depth));
-    swiftprox_manifold_config_init(&config);
     config.margin = 0.25;
     CALL_OK(swiftprox_pair_manifold(shape1, pose1, shape2, pose2, &caches->manifold, &config, points, MOST_POINTS, &manifold));
     tell(&manifold, sizeof manifold);
@@ -351,14 +355,10 @@ static void build_and_ask(void)
 {
     static const swiftprox_hierarchy hierarchies[] = {SWIFTPROX_HIERARCHY_NONE, SWIFTPROX_HIERARCHY_QUADRIC,
                                           SWIFTPROX_HIERARCHY_DOBKIN_KIRKPATRICK, SWIFTPROX_HIERARCHY_OUTER_CUTS};
-    swiftprox_shape_options options;
-    swiftprox_pair_config config;
-    swiftprox_shape_tuning making;
-    swiftprox_pair_tuning asking;
-    swiftprox_shape_tuning_init(&making);
-    swiftprox_pair_tuning_init(&asking);
-    swiftprox_shape_options_init(&options);
-    swiftprox_pair_config_init(&config);
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
+    swiftprox_pair_config config = SWIFTPROX_PAIR_CONFIG_DEFAULT;
+    swiftprox_shape_tuning making = SWIFTPROX_SHAPE_TUNING_DEFAULT;
+    swiftprox_pair_tuning asking = SWIFTPROX_PAIR_TUNING_DEFAULT;
     options.progress = progress;
     options.scale = 0.7;
     config.relative_error = 0.01;
@@ -387,9 +387,8 @@ static void build_and_ask(void)
 
 static void read_files(void)
 {
-    swiftprox_shape_options options;
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     const swiftprox_shape *shape = NULL;
-    swiftprox_shape_options_init(&options);
     options.input = SWIFTPROX_INPUT_HULL;
     CALL_OK(swiftprox_shape_create_from_file(mesh_path, &options, &shape));
     tell_shape(shape);
@@ -407,7 +406,7 @@ static void ask_hard_questions(void)
     const double not_a_number[12] = {NAN};
     const swiftprox_shape *const unit = shape_of(cube, CORNERS, NULL), *const low = shape_of(low_cube, CORNERS, NULL);
     const swiftprox_shape *const huge = shape_of(huge_cube, CORNERS, NULL), *const tiny = shape_of(tiny_cube, CORNERS, NULL);
-    swiftprox_shape_options options;
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     swiftprox_pair_cache cache = {{0}};
     swiftprox_pair_answer answer;
     const swiftprox_shape *none = NULL;
@@ -423,7 +422,6 @@ static void ask_hard_questions(void)
     ask_once(huge, huge, 1e300);
     ask_once(huge, huge, 2e300);
     CHECK(CALL(swiftprox_pair_distance(unit, not_a_number, low, poses[0], &cache, NULL, &answer)) == SWIFTPROX_ERROR_POSE);
-    swiftprox_shape_options_init(&options);
     options.convexity_tolerance = NAN;
     CHECK(CALL(swiftprox_shape_create_from_points(cube, CORNERS, &options, &none)) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
     CHECK(CALL(swiftprox_shape_create_from_file("no such file", NULL, &none)) == SWIFTPROX_ERROR_FILE);
@@ -466,23 +464,24 @@ static void ask_a_scene(void)
                                     swiftprox_scene_query_contact, swiftprox_scene_query_approximate};
     const swiftprox_shape *const shapes[] = {shape_of(sphere, POINTS, NULL), shape_of(cube, CORNERS, NULL)};
     swiftprox_scene_statistics statistics;
-    swiftprox_scene_query query;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene *scene = NULL;
     swiftprox_object_id ids[5];
     CALL_OK(swiftprox_scene_create(NULL, &scene));
-    swiftprox_scene_query_init(&query);
     query.distance_tolerance = 2;
     query.relative_error = 0.05;
     query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
     for (int i = 0; i < 4; ++i) {
         const swiftprox_shape *const piece = shapes[i % 2];
-        swiftprox_object_options options;
-        swiftprox_object_options_init(&options);
+        swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
         memcpy(options.pose, poses[5 * i], sizeof poses[0]);
         options.user_data = (uint64_t)i;
         CALL_OK(swiftprox_scene_add_object(scene, &piece, 1, &options, &ids[i]));
     }
-    CALL_OK(swiftprox_scene_add_mesh(scene, TETRAHEDRON, 4, TETRAHEDRON_FACES, NULL, 4, NULL, NULL, &ids[4]));
+    const swiftprox_shape *tetrahedron;
+    CALL_OK(swiftprox_shape_create_from_mesh(TETRAHEDRON, 4, TETRAHEDRON_FACES, NULL, 4, NULL, &tetrahedron));
+    CALL_OK(swiftprox_scene_add_object(scene, &tetrahedron, 1, NULL, &ids[4]));
+    swiftprox_shape_release(tetrahedron);
     for (int i = 0; i < POSES; ++i) {
         CALL_OK(swiftprox_scene_set_pose(scene, ids[i % 5], poses[i]));
         for (size_t k = 0; k < sizeof queries / sizeof queries[0]; ++k) {
@@ -515,13 +514,12 @@ static void ask_ground(const swiftprox_shape *shape, const double *pose, const s
     swiftprox_ground_contact contacts[MOST_CONTACTS];
     swiftprox_ground_count count;
     swiftprox_manifold_point points[MOST_POINTS];
-    swiftprox_manifold_config config;
+    swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; ++i) {
         CALL_OK(swiftprox_pair_ground_distance(kinds[i], shape, pose, ground, poses[0], NULL, &answer));
         tell_answer(&answer.answer);
         tell(&answer.triangle, sizeof answer.triangle);
     }
-    swiftprox_manifold_config_init(&config);
     config.margin = margin;
     config.reduces = 1;
     CALL_OK(swiftprox_pair_ground_contacts(shape, pose, ground, poses[0], &config, contacts, MOST_CONTACTS, points, MOST_POINTS,
@@ -543,9 +541,8 @@ static void ask_round_bodies(void)
     const swiftprox_half_space half_space = {{0.3, -0.1, 0.9}, 0.2};
     const swiftprox_ground *grounds[2];
     const swiftprox_shape *round;
-    swiftprox_shape_options options;
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     contact_caches contact = {{{0}}, {{0}}};
-    swiftprox_shape_options_init(&options);
     options.swept_radius = 0.1;
     options.face_noise = 1e-6;
     round = shape_of(cube, CORNERS, &options);

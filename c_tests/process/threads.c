@@ -13,6 +13,11 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "swiftprox/geometry.h"
+#include "swiftprox/scene.h"
+#include "swiftprox/sets.h"
+#include "swiftprox/motion.h"
+#include "swiftprox/verify.h"
 
 enum { THREADS = 4, SHAPES = 3, STEPS = 16, SAID = 8, ROUND = 200 };
 
@@ -87,7 +92,7 @@ static void look_at_scene(worker *worker)
         info.struct_size = sizeof info;
         REQUIRE(swiftprox_scene_get_object_info(scene, ids[i], &info) == SWIFTPROX_OK && info.user_data == (uint64_t)i);
         REQUIRE(swiftprox_scene_get_piece(scene, ids[i], 0, &piece) == SWIFTPROX_OK && piece == shapes[i]);
-        REQUIRE(swiftprox_scene_is_pair_active(scene, ids[i], ids[(i + 1) % SHAPES], &active) == SWIFTPROX_OK && active == 1);
+        REQUIRE(swiftprox_scene_get_pair_active(scene, ids[i], ids[(i + 1) % SHAPES], &active) == SWIFTPROX_OK && active == 1);
     }
 }
 
@@ -126,9 +131,8 @@ static void use_own_scene(worker *worker)
     swiftprox_object_id id;
     REQUIRE(swiftprox_scene_create(NULL, &own) == SWIFTPROX_OK);
     for (int i = 0; i < SHAPES; ++i) {
-        swiftprox_object_options options;
+        swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
         const swiftprox_shape *piece = shapes[i];
-        swiftprox_object_options_init(&options);
         place(options.pose, 3.0 * i, worker->number, 0);
         REQUIRE(swiftprox_scene_add_object(own, &piece, 1, &options, &id) == SWIFTPROX_OK);
     }
@@ -165,12 +169,11 @@ int main(int argument_count, char **arguments)
     if (swiftprox_scene_create(NULL, &scene) != SWIFTPROX_OK)
         return 1;
     for (int i = 0; i < SHAPES; ++i) {
-        swiftprox_object_options options;
+        swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
         const swiftprox_shape *piece;
         if (!make_shape(i))
             return 1;
         piece = shapes[i];
-        swiftprox_object_options_init(&options);
         options.user_data = (uint64_t)i;
         place(options.pose, 3.0 * i, 0, 0);
         if (swiftprox_scene_add_object(scene, &piece, 1, &options, &ids[i]) != SWIFTPROX_OK)

@@ -71,10 +71,9 @@ static swiftprox_scene *make_scene(const swiftprox_shape *shape, const swiftprox
     CHECK(swiftprox_scene_create(options, &scene) == SWIFTPROX_OK);
     for (uint64_t k = 0; k < BODIES; k++) {
         swiftprox_object_id id;
-        swiftprox_object_options object;
-        swiftprox_object_options_init(&object);
+        swiftprox_object_options object = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
         object.user_data = k;
-        CHECK(swiftprox_scene_add_shape(scene, shape, &object, &id) == SWIFTPROX_OK);
+        CHECK(swiftprox_scene_add_object(scene, &shape, 1, &object, &id) == SWIFTPROX_OK);
     }
     return scene;
 }
@@ -90,13 +89,12 @@ static void move(swiftprox_scene *scene, int step)
         for (int i = 0; i < 3; i++)
             poses[k][4 * i + 3] = 1.1 * place[i] + 0.01 * step * ((7 * k + 3 * i) % 11 - 5);
     }
-    CHECK(swiftprox_scene_set_all_poses(scene, &poses[0][0], BODIES) == SWIFTPROX_OK);
+    CHECK(swiftprox_scene_set_poses(scene, NULL, &poses[0][0], BODIES) == SWIFTPROX_OK);
 }
 
 static swiftprox_scene_answer ask(swiftprox_scene *scene)
 {
-    swiftprox_scene_query query;
-    swiftprox_scene_query_init(&query);
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     query.distance_tolerance = 0.15;
     swiftprox_scene_answer answer;
     CHECK(swiftprox_scene_query_distance(scene, &query, &answer) == SWIFTPROX_OK);
@@ -136,14 +134,13 @@ int main(int argument_count, char **arguments)
 {
     const int with_pool = argument_count < 2 || strcmp(arguments[1], "callbacks") != 0;
     const swiftprox_shape *shape;
-    swiftprox_scene_options options;
+    swiftprox_scene_options options = SWIFTPROX_SCENE_OPTIONS_DEFAULT;
     task shared;
     CHECK(swiftprox_shape_create_from_points(CORNERS, 8, NULL, &shape) == SWIFTPROX_OK);
     swiftprox_scene *const single = make_scene(shape, NULL);
     /* The first query finds out which vector units there are. Helgrind does not know its way: here are no threads yet. */
     move(single, 0);
     ask(single);
-    swiftprox_scene_options_init(&options);
     options.worker_count = WORKERS;
     swiftprox_scene *const pool = with_pool ? make_scene(shape, &options) : NULL;
     options.enqueue_task = enqueue;
@@ -166,7 +163,7 @@ int main(int argument_count, char **arguments)
         CHECK(swiftprox_scene_destroy(pool) == SWIFTPROX_OK);
         /* More than there will be threads. */
         options = (swiftprox_scene_options){0};
-        swiftprox_scene_options_init(&options);
+        options = (swiftprox_scene_options)SWIFTPROX_SCENE_OPTIONS_DEFAULT;
         options.worker_count = UINT32_MAX;
         swiftprox_scene *many;
         CHECK(swiftprox_scene_create(&options, &many) == SWIFTPROX_OK && swiftprox_scene_destroy(many) == SWIFTPROX_OK);

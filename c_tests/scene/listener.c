@@ -13,15 +13,14 @@ static void make(void)
 {
     const double half[2][3] = {{2, 2, 0.5}, {0.5, 0.5, 0.5}}, height[2] = {-0.5, 0.5};
     swiftprox_object_id *ids[2] = {&slab, &cube};
-    swiftprox_object_options options;
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     int body;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
-    swiftprox_object_options_init(&options);
     for (body = 0; body < 2; ++body) {
         const swiftprox_shape *const shape = box(half[body][0], half[body][1], half[body][2]);
         place(options.pose, 0, 0, height[body]);
         options.user_data = 10 + (uint64_t)body;
-        CHECK_OK(swiftprox_scene_add_shape(scene, shape, &options, ids[body]));
+        CHECK_OK(swiftprox_scene_add_object(scene, &shape, 1, &options, ids[body]));
         swiftprox_shape_release(shape);
     }
 }
@@ -46,11 +45,10 @@ static size_t count(const swiftprox_listener_events *events, swiftprox_event_sta
 static void what_changes(void)
 {
     swiftprox_listener *listener = NULL, *late = NULL;
-    swiftprox_scene_query query;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer;
     swiftprox_scene_contacts contacts;
     swiftprox_listener_events events;
-    swiftprox_scene_query_init(&query);
     query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
     CHECK_OK(swiftprox_listener_create(&listener));
     CHECK_OK(swiftprox_listener_create(&late));
@@ -84,11 +82,10 @@ static void what_changes(void)
 static void mistakes(void)
 {
     swiftprox_listener *listener = NULL;
-    swiftprox_scene_query query;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer;
     swiftprox_listener_events events;
     const swiftprox_query_kind kind = SWIFTPROX_QUERY_KIND_DISTANCE;
-    swiftprox_scene_query_init(&query);
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "listener", swiftprox_listener_create(NULL));
     CHECK_OK(swiftprox_listener_create(&listener));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_listen(NULL, listener, kind, NULL, &answer, &events));

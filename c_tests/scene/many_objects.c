@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "swiftprox/scene.h"
 
 enum { COUNT = 10 };
 
@@ -21,7 +22,7 @@ static void make(void)
     cube = box(0.5, 0.5, 0.5);
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     for (i = 0; i < COUNT; ++i) {
-        swiftprox_object_options_init(&options[i]);
+        options[i] = (swiftprox_object_options)SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
         options[i].pose[3] = 2 * i;
         options[i].user_data = (uint64_t)i;
         options[i].groups = 1u << i % 2;
@@ -42,28 +43,28 @@ static void all_or_none(void)
     int i;
     memset(none, 1, sizeof none);
     options[7].pose[0] = NAN;
-    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "options[7]", swiftprox_scene_add_shapes(scene, shapes, options, COUNT, none));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "options[7]", swiftprox_scene_add_objects(scene, shapes, options, COUNT, none));
     options[7].pose[0] = 1;
     for (i = 0; i < COUNT; ++i) {
         CHECK(none[i].bits == 0);
     }
     options[3].struct_size = 16;
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "options[3]", swiftprox_scene_add_shapes(scene, shapes, options, COUNT, none));
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "options[3]", swiftprox_scene_add_objects(scene, shapes, options, COUNT, none));
     options[3].struct_size = sizeof options[3];
     options[0].struct_size = 17;
-    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "options", swiftprox_scene_add_shapes(scene, shapes, options, COUNT, none));
+    CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "options", swiftprox_scene_add_objects(scene, shapes, options, COUNT, none));
     options[0].struct_size = sizeof options[0];
     shapes[5] = NULL;
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shapes[5]", swiftprox_scene_add_shapes(scene, shapes, options, COUNT, none));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shapes[5]", swiftprox_scene_add_objects(scene, shapes, options, COUNT, none));
     shapes[5] = cube;
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shapes", swiftprox_scene_add_shapes(scene, NULL, options, COUNT, none));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ids", swiftprox_scene_add_shapes(scene, shapes, options, COUNT, NULL));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_add_shapes(NULL, shapes, options, COUNT, none));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shapes", swiftprox_scene_add_objects(scene, NULL, options, COUNT, none));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ids", swiftprox_scene_add_objects(scene, shapes, options, COUNT, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_add_objects(NULL, shapes, options, COUNT, none));
     CHECK(object_count() == 0);
 
-    CHECK_OK(swiftprox_scene_add_shapes(scene, shapes, options, COUNT, ids));
-    CHECK_OK(swiftprox_scene_add_shapes(scene, shapes, NULL, 2, twice));
-    CHECK_OK(swiftprox_scene_add_shapes(scene, NULL, NULL, 0, NULL));
+    CHECK_OK(swiftprox_scene_add_objects(scene, shapes, options, COUNT, ids));
+    CHECK_OK(swiftprox_scene_add_objects(scene, shapes, NULL, 2, twice));
+    CHECK_OK(swiftprox_scene_add_objects(scene, NULL, NULL, 0, NULL));
     CHECK(object_count() == COUNT + 2 && ids[9].bits != 0);
     CHECK_OK(swiftprox_scene_remove_objects(scene, twice, 2));
     CHECK_FAILS(SWIFTPROX_ERROR_HANDLE, "ids[0]", swiftprox_scene_remove_objects(scene, twice, 2));

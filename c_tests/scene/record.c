@@ -10,6 +10,9 @@
 #include <sys/resource.h>
 
 #include "bodies.h"
+#include "swiftprox/process.h"
+#include "swiftprox/scene.h"
+#include "swiftprox/replay.h"
 
 enum { CUBES = 12, STEPS = 30 };
 
@@ -47,18 +50,16 @@ static size_t session(swiftprox_scene *scene, double *sums)
     size_t asked = 0;
     CHECK_OK(swiftprox_shape_create_from_points(CORNERS, 8, NULL, &shape));
     for (int i = 0; i < CUBES; ++i) {
-        swiftprox_object_options options;
-        swiftprox_object_options_init(&options);
+        swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
         set_pose(options.pose);
         options.user_data = (uint64_t)i;
         options.fixed = i < 2;
-        CHECK_OK(swiftprox_scene_add_shape(scene, shape, &options, &ids[i]));
+        CHECK_OK(swiftprox_scene_add_object(scene, &shape, 1, &options, &ids[i]));
     }
     for (int step = 0; step < STEPS; ++step) {
-        swiftprox_scene_query query;
+        swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
         swiftprox_scene_answer answer;
         swiftprox_scene_events events;
-        swiftprox_scene_query_init(&query);
         query.distance_tolerance = 0.5;
         set_pose(pose);
         CHECK_OK(swiftprox_scene_set_pose(scene, ids[step % CUBES], pose));
@@ -66,7 +67,7 @@ static size_t session(swiftprox_scene *scene, double *sums)
         if (step == 4)
             CHECK_OK(swiftprox_scene_set_pair_filter(scene, likes, NULL));
         if (step == 8)
-            CHECK_OK(swiftprox_scene_deactivate_object(scene, ids[3]));
+            CHECK_OK(swiftprox_scene_set_pair_active(scene, &ids[3], NULL, 0));
         if (step == 12)
             CHECK_OK(swiftprox_scene_set_pairs(scene, ids, CUBES / 2));
         if (step == 16)

@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "swiftprox/process.h"
+#include "swiftprox/scene.h"
 
 enum { OBJECTS = 60, PAIRS = OBJECTS * (OBJECTS - 1) / 2 };
 
@@ -31,12 +33,11 @@ static void give_back(void *user, void *memory, size_t size, size_t alignment)
 
 static swiftprox_object_id add(swiftprox_scene *scene, const swiftprox_shape *shape, double x)
 {
-    swiftprox_object_options options;
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     swiftprox_object_id id;
     int32_t valid = 0;
-    swiftprox_object_options_init(&options);
     place(options.pose, x, 0, 0);
-    CHECK_OK(swiftprox_scene_add_shape(scene, shape, &options, &id));
+    CHECK_OK(swiftprox_scene_add_object(scene, &shape, 1, &options, &id));
     CHECK_OK(swiftprox_scene_is_object_valid(scene, id, &valid));
     CHECK(valid == 1);
     return id;
@@ -61,7 +62,7 @@ static void results_stay(const swiftprox_shape *shape)
 {
     swiftprox_scene *scene;
     swiftprox_object_id ids[OBJECTS];
-    swiftprox_scene_query query;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer, found, none;
     double pose[12];
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
@@ -81,12 +82,16 @@ static void results_stay(const swiftprox_shape *shape)
         }
         place(pose, pair->answer.distance, 0, 0);
         CHECK_OK(swiftprox_scene_set_pose(scene, pair->object1, pose));
-        CHECK_OK(swiftprox_scene_set_user_data(scene, pair->object1, i));
+        swiftprox_object_info info;
+        info.struct_size = sizeof info;
+        CHECK_OK(swiftprox_scene_get_object_info(scene, pair->object1, &info));
+        info.user_data = i;
+        CHECK_OK(swiftprox_scene_set_object_info(scene, pair->object1, &info));
         if (i % 8 == 0) {
             swiftprox_object_id twin;
             CHECK_OK(swiftprox_scene_copy_object(scene, pair->object1, &twin));
             add(scene, shape, 0);
-            CHECK_OK(swiftprox_scene_deactivate_object(scene, twin));
+            CHECK_OK(swiftprox_scene_set_pair_active(scene, &twin, NULL, 0));
         }
         if (i % 64 == 0) {
             CHECK_OK(swiftprox_scene_remove_object(scene, pair->object1));
@@ -99,7 +104,6 @@ static void results_stay(const swiftprox_shape *shape)
     free(copy);
 
     /* So does the pair at which a query stopped. */
-    swiftprox_scene_query_init(&query);
     query.early_exit = 1;
     CHECK_OK(swiftprox_scene_query_distance(scene, &query, &found));
     CHECK(found.found != NULL);
@@ -118,12 +122,11 @@ static void results_stay(const swiftprox_shape *shape)
 static void contacts_touch(const swiftprox_shape *shape)
 {
     swiftprox_scene *scene;
-    swiftprox_scene_query query;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     const swiftprox_object_id a = add(scene, shape, 0), b = add(scene, shape, 1);
     add(scene, shape, 1.5);
-    swiftprox_scene_query_init(&query);
     for (int i = 0; i < 2; ++i) {
         CHECK_OK(swiftprox_scene_query_contact(scene, i == 0 ? NULL : &query, &answer));
         /* a touches b, b overlaps the third, which a is away from. */

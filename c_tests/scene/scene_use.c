@@ -5,7 +5,8 @@
 #include <string.h>
 
 #include "bodies.h"
-#include "swiftprox_tuning.h"
+#include "swiftprox/tuning.h"
+#include "swiftprox/scene.h"
 
 static const double CORNERS[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
 static const uint32_t FACES[24] = {0, 2, 3, 1, 4, 5, 7, 6, 0, 1, 5, 4, 2, 6, 7, 3, 0, 4, 6, 2, 1, 3, 7, 5};
@@ -22,12 +23,14 @@ static int is(swiftprox_object_id id, swiftprox_object_id other)
 /* Adds a cube whose lower corner is at x, its user data ten times x. */
 static swiftprox_object_id add_cube(swiftprox_scene *scene, double x)
 {
-    swiftprox_object_options options;
+    const swiftprox_shape *cube;
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     swiftprox_object_id id;
-    swiftprox_object_options_init(&options);
     options.user_data = (uint64_t)(10 * x);
     place(options.pose, x, 0, 0);
-    CHECK_OK(swiftprox_scene_add_mesh(scene, CORNERS, 8, FACES, VALENCES, 6, NULL, &options, &id));
+    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 8, FACES, VALENCES, 6, NULL, &cube));
+    CHECK_OK(swiftprox_scene_add_object(scene, &cube, 1, &options, &id));
+    swiftprox_shape_release(cube);
     return id;
 }
 
@@ -45,7 +48,7 @@ static int lists(swiftprox_scene *scene, size_t count, const double *distances)
 static void queries(void)
 {
     swiftprox_scene *scene;
-    swiftprox_scene_query query;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 0.5), c = add_cube(scene, 3);
@@ -56,7 +59,6 @@ static void queries(void)
     CHECK(is(answer.pairs[0].object1, a) && is(answer.pairs[0].object2, b));
     CHECK(answer.pairs[0].user_data1 == 0 && answer.pairs[0].user_data2 == 5);
 
-    swiftprox_scene_query_init(&query);
     query.distance_tolerance = 1.75;
     CHECK_OK(swiftprox_scene_query_distance(scene, &query, &answer));
     CHECK(answer.count == 2 && is(answer.pairs[1].object1, b) && is(answer.pairs[1].object2, c));
@@ -113,12 +115,12 @@ static void motion(void)
 
     place(poses, 1, 0, 0);
     place(poses + 12, 6, 0, 0);
-    CHECK_OK(swiftprox_scene_set_all_poses(scene, poses, 2));
+    CHECK_OK(swiftprox_scene_set_poses(scene, NULL, poses, 2));
     CHECK(lists(scene, 1, (const double[]){4}));
 
     const double identity_and_quarter[18] = {1, 0, 0, 0, 1, 0, 0, 0, 1, 0, -1, 0, 1, 0, 0, 0, 0, 1};
     const double translations[6] = {-1, 0, 0, 4, 0, 0};
-    CHECK_OK(swiftprox_scene_set_all_transforms(scene, identity_and_quarter, translations, 2));
+    CHECK_OK(swiftprox_scene_set_transforms(scene, NULL, identity_and_quarter, translations, 2));
     CHECK(lists(scene, 1, (const double[]){3}));
 
     /* A copy stands where its original does. */
@@ -138,20 +140,20 @@ static void activation(void)
     const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 2), c = add_cube(scene, 5);
     CHECK(lists(scene, 3, (const double[]){1, 4, 2}));
 
-    CHECK_OK(swiftprox_scene_deactivate_pair(scene, c, a));
-    CHECK_OK(swiftprox_scene_is_pair_active(scene, a, c, &active));
+    CHECK_OK(swiftprox_scene_set_pair_active(scene, &c, &a, 0));
+    CHECK_OK(swiftprox_scene_get_pair_active(scene, a, c, &active));
     CHECK(active == 0 && lists(scene, 2, (const double[]){1, 2}));
-    CHECK_OK(swiftprox_scene_activate_pair(scene, a, c));
-    CHECK_OK(swiftprox_scene_is_pair_active(scene, a, c, &active));
+    CHECK_OK(swiftprox_scene_set_pair_active(scene, &a, &c, 1));
+    CHECK_OK(swiftprox_scene_get_pair_active(scene, a, c, &active));
     CHECK(active == 1 && lists(scene, 3, (const double[]){1, 4, 2}));
 
-    CHECK_OK(swiftprox_scene_deactivate_object(scene, b));
+    CHECK_OK(swiftprox_scene_set_pair_active(scene, &b, NULL, 0));
     CHECK(lists(scene, 1, (const double[]){4}));
-    CHECK_OK(swiftprox_scene_deactivate_all(scene));
+    CHECK_OK(swiftprox_scene_set_pair_active(scene, NULL, NULL, 0));
     CHECK(lists(scene, 0, NULL));
-    CHECK_OK(swiftprox_scene_activate_object(scene, b));
+    CHECK_OK(swiftprox_scene_set_pair_active(scene, &b, NULL, 1));
     CHECK(lists(scene, 2, (const double[]){1, 2}));
-    CHECK_OK(swiftprox_scene_activate_all(scene));
+    CHECK_OK(swiftprox_scene_set_pair_active(scene, NULL, NULL, 1));
     CHECK(lists(scene, 3, (const double[]){1, 4, 2}));
     CHECK_OK(swiftprox_scene_destroy(scene));
 }
@@ -162,15 +164,12 @@ static void levels(void)
 {
     enum { COUNT = 500 };
     double points[3 * COUNT], pose[12];
-    swiftprox_shape_options options;
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     const swiftprox_shape *shape;
     swiftprox_shape_info info = {sizeof info};
     swiftprox_shape_tuning_info has = {sizeof has};
-    swiftprox_shape_tuning making;
-    swiftprox_pair_tuning asking;
-    swiftprox_shape_tuning_init(&making);
-    swiftprox_pair_tuning_init(&asking);
-    swiftprox_shape_options_init(&options);
+    swiftprox_shape_tuning making = SWIFTPROX_SHAPE_TUNING_DEFAULT;
+    swiftprox_pair_tuning asking = SWIFTPROX_PAIR_TUNING_DEFAULT;
     making.hierarchy = SWIFTPROX_HIERARCHY_QUADRIC;
     options.tuning = &making;
     for (int i = 0; i < COUNT; ++i) { /* a spiral around the sphere */
@@ -197,19 +196,17 @@ static void levels(void)
     swiftprox_shape_release(prepared);
 
     swiftprox_scene *scene;
-    swiftprox_scene_query query;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer;
     swiftprox_scene_statistics statistics;
-    swiftprox_object_options where;
+    swiftprox_object_options where = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     swiftprox_object_id id;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
-    swiftprox_object_options_init(&where);
     for (int i = 0; i < 3; ++i) {
         place(pose, 4.0 * i, 0, 0);
         memcpy(where.pose, pose, sizeof pose);
-        CHECK_OK(swiftprox_scene_add_shape(scene, shape, &where, &id));
+        CHECK_OK(swiftprox_scene_add_object(scene, &shape, 1, &where, &id));
     }
-    swiftprox_scene_query_init(&query);
     asking.levels = SWIFTPROX_LEVELS_ALL;
     query.tuning = &asking;
     query.error_budget = 3;
@@ -253,6 +250,25 @@ static int32_t refuse(swiftprox_object_id object1, swiftprox_object_id object2, 
     return !is(object1, refusal->id) && !is(object2, refusal->id);
 }
 
+static void set_groups(swiftprox_scene *scene, swiftprox_object_id id, uint32_t groups, uint32_t mask)
+{
+    swiftprox_object_info info;
+    info.struct_size = sizeof info;
+    CHECK_OK(swiftprox_scene_get_object_info(scene, id, &info));
+    info.groups = groups;
+    info.mask = mask;
+    CHECK_OK(swiftprox_scene_set_object_info(scene, id, &info));
+}
+
+static void set_fixed(swiftprox_scene *scene, swiftprox_object_id id, int32_t fixed)
+{
+    swiftprox_object_info info;
+    info.struct_size = sizeof info;
+    CHECK_OK(swiftprox_scene_get_object_info(scene, id, &info));
+    info.fixed = fixed;
+    CHECK_OK(swiftprox_scene_set_object_info(scene, id, &info));
+}
+
 /* What decides which pairs are tested, beside activation: groups, fixed objects, a filter and pairs of the program's own. */
 static void filters(void)
 {
@@ -264,17 +280,17 @@ static void filters(void)
     CHECK_OK(swiftprox_scene_get_object_info(scene, a, &info));
     CHECK(info.groups == 1 && info.mask == UINT32_MAX);
 
-    CHECK_OK(swiftprox_scene_set_filter(scene, a, 2, 1));
+    set_groups(scene, a, 2, 1);
     CHECK(lists(scene, 3, (const double[]){0, 2, 1.5}));
-    CHECK_OK(swiftprox_scene_set_filter(scene, b, 1, 4));
+    set_groups(scene, b, 1, 4);
     CHECK(lists(scene, 1, (const double[]){2}));
-    CHECK_OK(swiftprox_scene_set_filter(scene, b, 0, 0));
+    set_groups(scene, b, 0, 0);
     CHECK(lists(scene, 3, (const double[]){0, 2, 1.5}));
 
-    CHECK_OK(swiftprox_scene_set_fixed(scene, a, 1));
-    CHECK_OK(swiftprox_scene_set_fixed(scene, b, 1));
+    set_fixed(scene, a, 1);
+    set_fixed(scene, b, 1);
     CHECK(lists(scene, 2, (const double[]){2, 1.5}));
-    CHECK_OK(swiftprox_scene_set_fixed(scene, b, 0));
+    set_fixed(scene, b, 0);
     CHECK(lists(scene, 3, (const double[]){0, 2, 1.5}));
 
     struct refusal refusal = {b, 0};
@@ -282,7 +298,7 @@ static void filters(void)
     CHECK(lists(scene, 1, (const double[]){2}) && lists(scene, 1, (const double[]){2}) && refusal.calls == 3);
     refusal.id = c;
     CHECK(lists(scene, 1, (const double[]){2}) && refusal.calls == 3);
-    CHECK_OK(swiftprox_scene_filter_again(scene));
+    CHECK_OK(swiftprox_scene_set_pair_filter(scene, refuse, &refusal));
     CHECK(lists(scene, 1, (const double[]){0}) && refusal.calls == 6);
     CHECK_OK(swiftprox_scene_set_pair_filter(scene, NULL, NULL));
 
@@ -344,13 +360,12 @@ static void near_objects(void)
 {
     swiftprox_scene *scene;
     const swiftprox_shape *shape;
-    swiftprox_scene_query query;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer;
     swiftprox_scene_events events;
     double pose[12];
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 0.5), c = add_cube(scene, 3);
-    swiftprox_scene_query_init(&query);
     query.distance_tolerance = 1.75;
     CHECK_OK(swiftprox_scene_query_object(scene, c, SWIFTPROX_QUERY_KIND_DISTANCE, &query, &answer));
     CHECK(answer.count == 1 && is(answer.pairs[0].object1, b) && is(answer.pairs[0].object2, c));
@@ -417,12 +432,11 @@ static void workers(void)
 {
     struct waiting waiting = {NULL, NULL, 0, 0};
     swiftprox_scene *scenes[3];
-    swiftprox_scene_options options;
+    swiftprox_scene_options options = SWIFTPROX_SCENE_OPTIONS_DEFAULT;
     swiftprox_scene_answer answers[3];
     const swiftprox_shape *shape;
-    swiftprox_object_options where;
+    swiftprox_object_options where = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     swiftprox_object_id id;
-    swiftprox_scene_options_init(&options);
     options.worker_count = 2;
     CHECK_OK(swiftprox_scene_create(NULL, &scenes[0]));
     CHECK_OK(swiftprox_scene_create(&options, &scenes[1]));
@@ -432,11 +446,10 @@ static void workers(void)
     options.task_user = &waiting;
     CHECK_OK(swiftprox_scene_create(&options, &scenes[2]));
     CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 8, FACES, VALENCES, 6, NULL, &shape));
-    swiftprox_object_options_init(&where);
     for (int s = 0; s < 3; ++s) {
         for (int i = 0; i < 80; ++i) {
             place(where.pose, 0.25 * i, 0, 0);
-            CHECK_OK(swiftprox_scene_add_shape(scenes[s], shape, &where, &id));
+            CHECK_OK(swiftprox_scene_add_object(scenes[s], &shape, 1, &where, &id));
         }
         CHECK_OK(swiftprox_scene_query_distance(scenes[s], NULL, &answers[s]));
         CHECK(answers[s].count == 80 * 79 / 2 && answers[s].intersecting);

@@ -5,6 +5,9 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "swiftprox/geometry.h"
+#include "swiftprox/sets.h"
+#include "swiftprox/motion.h"
 
 static swiftprox_scene *scene;
 static swiftprox_object_id arm[2], posts[20];
@@ -14,17 +17,16 @@ static void make(void)
 {
     int i;
     const swiftprox_shape *const shape = box(0.5, 0.5, 0.5);
-    swiftprox_object_options options;
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
-    swiftprox_object_options_init(&options);
     for (i = 0; i < 2; ++i) {
         place(options.pose, 0, 2.0 * i, 0);
-        CHECK_OK(swiftprox_scene_add_shape(scene, shape, &options, &arm[i]));
+        CHECK_OK(swiftprox_scene_add_object(scene, &shape, 1, &options, &arm[i]));
     }
     options.fixed = 1;
     for (i = 0; i < 20; ++i) {
         place(options.pose, 10 + 3.0 * i, 0, 0);
-        CHECK_OK(swiftprox_scene_add_shape(scene, shape, &options, &posts[i]));
+        CHECK_OK(swiftprox_scene_add_object(scene, &shape, 1, &options, &posts[i]));
     }
     swiftprox_shape_release(shape);
 }

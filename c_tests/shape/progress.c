@@ -8,7 +8,9 @@
 #include <stddef.h>
 
 #include "check.h"
-#include "swiftprox_tuning.h"
+#include "swiftprox/tuning.h"
+#include "swiftprox/geometry.h"
+#include "swiftprox/verify.h"
 
 enum { COUNT = 30001 };
 

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include <swiftprox.h>
+#include <swiftprox/geometry.h>
 
 #include "../outline.h"
 #include "report.h"

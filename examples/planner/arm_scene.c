@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "arm.h"
+#include <swiftprox/sets.h>
 
 enum { STATES = 64 };
 
@@ -20,12 +21,11 @@ struct arm_scene {
 
 static swiftprox_object_id add(swiftprox_scene *scene, const swiftprox_shape *shape, const double *pose, int32_t fixed)
 {
-    swiftprox_object_options options;
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     swiftprox_object_id id;
-    swiftprox_object_options_init(&options);
     memcpy(options.pose, pose, sizeof options.pose);
     options.fixed = fixed;
-    cell_demand(swiftprox_scene_add_shape(scene, shape, &options, &id));
+    cell_demand(swiftprox_scene_add_object(scene, &shape, 1, &options, &id));
     return id;
 }
 
@@ -40,7 +40,7 @@ static void build(struct arm_scene *world)
         world->links[i] = add(world->scene, world->cell.bodies[i], poses + 12 * i, 0);
         /* Neighbours in the chain always meet. */
         if (i > 0) {
-            cell_demand(swiftprox_scene_deactivate_pair(world->scene, world->links[i - 1], world->links[i]));
+            cell_demand(swiftprox_scene_set_pair_active(world->scene, &world->links[i - 1], &world->links[i], 0));
         }
     }
     for (size_t i = 0; i < world->cell.obstacle_count; i++) {
@@ -95,8 +95,7 @@ static double free_up_to(const struct arm_scene *world, const double *from, cons
     swiftprox_motion motions[MOST_JOINTS];
     arm_motions(&world->arm, from, to, &edge, motions);
     const swiftprox_object_set set = {.ids = world->links, .count = world->arm.joint_count, .among = 1};
-    swiftprox_cast_config config;
-    swiftprox_cast_config_init(&config);
+    swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
     config.margin = world->cell.margin;
     config.time_tolerance = 1e-6;
     swiftprox_scene_cast_answer answer;

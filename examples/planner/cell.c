@@ -1,4 +1,5 @@
 #include "cell.h"
+#include <swiftprox/verify.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -71,8 +72,7 @@ static const swiftprox_shape *second_shape(const struct cell *cell, const struct
 static double distance(struct cell *cell, struct cell_pair *pair, const double *poses, double enough)
 {
     const double *const second = pair->is_obstacle ? cell->places[pair->second].start : poses + 12 * pair->second;
-    swiftprox_pair_config config;
-    swiftprox_pair_config_init(&config);
+    swiftprox_pair_config config = SWIFTPROX_PAIR_CONFIG_DEFAULT;
     config.distance_tolerance = enough;
     swiftprox_pair_answer answer;
     cell_demand(swiftprox_pair_distance(cell->bodies[pair->first], poses + 12 * pair->first, second_shape(cell, pair), second,
@@ -101,8 +101,7 @@ double cell_clearance(struct cell *cell, const double *poses)
 
 static swiftprox_cast_config cast_config(const struct cell *cell)
 {
-    swiftprox_cast_config config;
-    swiftprox_cast_config_init(&config);
+    swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
     config.margin = cell->margin;
     config.time_tolerance = 1e-6;
     return config;

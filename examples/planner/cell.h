@@ -6,6 +6,7 @@
 #include <stddef.h>
 
 #include <swiftprox.h>
+#include <swiftprox/motion.h>
 
 #ifdef __cplusplus
 extern "C" {

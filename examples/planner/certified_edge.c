@@ -77,8 +77,7 @@ static void build(struct cell *cell)
 /* The smallest distance over a part of the time. */
 static swiftprox_clearance clearance(struct cell *cell, const swiftprox_motion *motion, double begin, double end)
 {
-    swiftprox_clearance_config config;
-    swiftprox_clearance_config_init(&config);
+    swiftprox_clearance_config config = SWIFTPROX_CLEARANCE_CONFIG_DEFAULT;
     config.t_begin = begin;
     config.t_end = end;
     swiftprox_clearance least = {.lower = INFINITY, .upper = INFINITY};

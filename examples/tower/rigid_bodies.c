@@ -1,4 +1,5 @@
 #include "rigid_bodies.h"
+#include <swiftprox/replay.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -146,12 +147,11 @@ void world_add(struct world *world, const swiftprox_shape *shape, const double p
         }
         invert(inertia, body->inverse_inertia);
     }
-    swiftprox_object_options options;
-    swiftprox_object_options_init(&options);
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     options.user_data = world->count;
     options.fixed = fixed;
     memcpy(options.pose, body->pose, sizeof options.pose);
-    demand(swiftprox_scene_add_shape(world->scene, shape, &options, &body->id));
+    demand(swiftprox_scene_add_object(world->scene, &shape, 1, &options, &body->id));
     world->count++;
 }
 
@@ -165,8 +165,7 @@ static struct pair *pair_of(struct world *world, size_t a, size_t b)
 /* Asks for the pair's manifold; impulses of points that are still there are carried on. */
 static void find_contacts(struct world *world, struct pair *pair)
 {
-    swiftprox_manifold_config config;
-    swiftprox_manifold_config_init(&config);
+    swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
     config.margin = MARGIN;
     config.reduces = 1;
     swiftprox_manifold manifold;
@@ -214,8 +213,7 @@ void world_count_points(const struct world *world, size_t last, size_t *known, s
 /* Of all pairs that are near. */
 static void find_all_contacts(struct world *world)
 {
-    swiftprox_scene_query query;
-    swiftprox_scene_query_init(&query);
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     query.distance_tolerance = MARGIN;
     swiftprox_scene_answer answer;
     demand(swiftprox_scene_query_distance(world->scene, &query, &answer));

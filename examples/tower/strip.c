@@ -1,4 +1,5 @@
 #include "strip.h"
+#include <swiftprox/geometry.h>
 
 #include <stdarg.h>
 #include <stdio.h>

@@ -48,8 +48,7 @@ static const swiftprox_shape *box(double x, double y, double z, double noise)
             corners[i][k] = (i >> k & 1 ? half[k] : -half[k]) + noise * next_random();
         }
     }
-    swiftprox_shape_options options;
-    swiftprox_shape_options_init(&options);
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     if (noise > 1e-6) {
         options.face_noise = noise; /* less is found by default */
     }
@@ -68,8 +67,7 @@ static const swiftprox_shape *model(const char *folder, const char *name)
     swiftprox_shape_info info;
     info.struct_size = sizeof info;
     demand(swiftprox_shape_get_info(there, &info));
-    swiftprox_shape_options options;
-    swiftprox_shape_options_init(&options);
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     for (int k = 0; k < 3; k++) {
         options.translation[k] = -info.centre_of_mass[k];
     }

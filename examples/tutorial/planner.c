@@ -6,6 +6,8 @@
 #include <string.h>
 
 #include <swiftprox.h>
+#include <swiftprox/motion.h>
+#include <swiftprox/verify.h>
 
 enum { OBSTACLES = 5, MOST_STATES = 2000 };
 
@@ -55,11 +57,10 @@ static void add_obstacle(struct world *world, size_t index, double width, double
     obstacle->motion = (swiftprox_motion){.kind = SWIFTPROX_MOTION_KIND_FIXED};
     memcpy(obstacle->motion.start, pose, sizeof pose);
 
-    swiftprox_object_options options;
-    swiftprox_object_options_init(&options);
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     memcpy(options.pose, pose, sizeof pose);
     swiftprox_object_id id;
-    demand(swiftprox_scene_add_shape(world->scene, obstacle->shape, &options, &id));
+    demand(swiftprox_scene_add_object(world->scene, &obstacle->shape, 1, &options, &id));
 }
 
 /* A wall from y = -4 to 4 with a gap of 0.6, and three pillars about it. */
@@ -90,8 +91,7 @@ static int is_free(struct world *world, struct state state)
 {
     double pose[12];
     pose_of(state, pose);
-    swiftprox_scene_query query;
-    swiftprox_scene_query_init(&query);
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     query.distance_tolerance = MARGIN; /* who is farther apart is not listed */
     swiftprox_scene_answer answer;
     demand(swiftprox_scene_query_placed(world->scene, world->plank, pose, SWIFTPROX_QUERY_KIND_DISTANCE, &query, &answer));
@@ -124,8 +124,7 @@ struct edge {
 static struct edge cast_edge(struct world *world, struct state from, struct state to)
 {
     const swiftprox_motion motion = motion_between(from, to);
-    swiftprox_cast_config config;
-    swiftprox_cast_config_init(&config);
+    swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
     config.margin = MARGIN;
     config.time_tolerance = 1e-6;
 

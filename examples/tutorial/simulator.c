@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include <swiftprox.h>
+#include <swiftprox/replay.h>
 
 enum { ROWS = 4, BODIES = 1 + ROWS * (ROWS + 1) / 2, MOST_CONTACTS = 400, ITERATIONS = 20, STEPS = 600 };
 
@@ -51,12 +52,11 @@ static void add_body(swiftprox_scene *scene, struct body *bodies, size_t index, 
         body->inverse_mass = 1;
         body->inverse_inertia = 6;
     }
-    swiftprox_object_options options;
-    swiftprox_object_options_init(&options);
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     options.user_data = index; /* comes back in each result */
     options.fixed = index == 0;
     memcpy(options.pose, body->pose, sizeof options.pose);
-    demand(swiftprox_scene_add_shape(scene, shape, &options, &body->id));
+    demand(swiftprox_scene_add_object(scene, &shape, 1, &options, &body->id));
 }
 
 static double dot(const double a[3], const double b[3])
@@ -144,8 +144,7 @@ static struct contact contact_of(struct body *body1, struct body *body2, const d
 /* Where all bodies meet, or will within a moment. */
 static void find_contacts(swiftprox_scene *scene, struct body *bodies, struct contacts *found)
 {
-    swiftprox_scene_query query;
-    swiftprox_scene_query_init(&query);
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     query.distance_tolerance = MARGIN;
     query.detail = SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD;
 

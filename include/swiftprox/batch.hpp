@@ -8,29 +8,43 @@
 namespace swiftprox
 {
 
-/** A pair to be asked; what it refers to lives as long as the call. */
-inline swiftprox_pair_question question(Placed a, Placed b, PairCache &cache) noexcept
+/** A pair to be asked. The poses are its own; shares of the shapes, and the cache, must live on. */
+class Question
 {
-    return {a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache};
-}
+  public:
+    Question(Placed a, Placed b, PairCache &cache) noexcept : a_(a), b_(b), cache_(&cache) {}
+    /** Good while this question is. */
+    swiftprox_pair_question to_c() const & noexcept { return {a_.shape(), a_.pose(), b_.shape(), b_.pose(), cache_}; }
+    swiftprox_pair_question to_c() const && = delete;
+
+  private:
+    Placed a_;
+    Placed b_;
+    PairCache *cache_;
+};
 
 /** An answer for each pair, in order: bit for bit those of single calls. The scene's workers share the work, if there is one. */
-inline Result<void> try_batch(swiftprox_query_kind kind, Range<const swiftprox_pair_question> pairs,
+inline Result<void> try_batch(swiftprox_query_kind kind, Range<const Question> questions,
                               std::vector<swiftprox_pair_answer> &answers, const PairConfig &config = {},
                               const SceneView *scene = nullptr)
 {
     const swiftprox_pair_config c = config.to_c();
+    std::vector<swiftprox_pair_question> pairs;
+    pairs.reserve(questions.size());
+    for (const Question &question : questions) {
+        pairs.push_back(question.to_c());
+    }
     answers.resize(pairs.size());
     return detail::status(
         swiftprox_pair_batch(kind, pairs.data(), pairs.size(), &c, scene ? scene->get() : nullptr, answers.data()));
 }
 
 #if SWIFTPROX_HAS_EXCEPTIONS
-inline std::vector<swiftprox_pair_answer> batch(swiftprox_query_kind kind, Range<const swiftprox_pair_question> pairs,
+inline std::vector<swiftprox_pair_answer> batch(swiftprox_query_kind kind, Range<const Question> questions,
                                                 const PairConfig &config = {}, const SceneView *scene = nullptr)
 {
     std::vector<swiftprox_pair_answer> answers;
-    take(try_batch(kind, pairs, answers, config, scene));
+    take(try_batch(kind, questions, answers, config, scene));
     return answers;
 }
 #endif

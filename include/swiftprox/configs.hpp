@@ -1,10 +1,11 @@
-/* Configs: what the _init functions of C fill in, as member initialisers. tests/header.rs compares. */
+/* Configs: the defaults of C as member initialisers. c_tests/cpp/cpp.cpp compares. */
 #ifndef SWIFTPROX_CONFIGS_HPP
 #define SWIFTPROX_CONFIGS_HPP
 
 #include "../swiftprox.h"
-#include "../swiftprox_tuning.h"
+#include "motion.h"
 #include "pose.hpp"
+#include "tuning.h"
 
 #include <array>
 #include <cstddef>

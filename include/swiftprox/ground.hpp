@@ -20,7 +20,9 @@ class Ground
         return *this;
     }
     ~Ground() { swiftprox_ground_release(ground_); }
-    const swiftprox_ground *get() const noexcept { return ground_; }
+    const swiftprox_ground *get() const & noexcept { return ground_; }
+    /** The ground would be gone before its pointer. */
+    const swiftprox_ground *get() const && = delete;
     explicit operator bool() const noexcept { return ground_ != nullptr; }
 
     /** 3 coordinates a vertex, 3 vertex numbers a triangle. */
@@ -69,10 +71,19 @@ class Ground
     const swiftprox_ground *ground_ = nullptr;
 };
 
-/** A ground where it is, for the time of a call. */
-struct PlacedGround {
-    const Ground &ground;
-    const Pose &pose;
+/** A ground where it is. The pose is its own; a share of the ground must live on, so that a temporary Ground is refused. */
+class PlacedGround
+{
+  public:
+    PlacedGround(const Ground &ground, const Pose &pose) noexcept : ground_(ground.get()), pose_(pose) {}
+    PlacedGround(const Ground &&, const Pose &) = delete;
+    const swiftprox_ground *ground() const noexcept { return ground_; }
+    const double *pose() const & noexcept { return pose_.data(); }
+    const double *pose() const && = delete;
+
+  private:
+    const swiftprox_ground *ground_;
+    Pose pose_;
 };
 
 /** SWIFTPROX_QUERY_KIND_DISTANCE or SWIFTPROX_QUERY_KIND_INTERSECTION. */
@@ -81,8 +92,8 @@ inline Result<swiftprox_ground_distance> try_ground_distance(swiftprox_query_kin
 {
     const swiftprox_pair_config c = config.to_c();
     Result<swiftprox_ground_distance> result;
-    result.status = swiftprox_pair_ground_distance(kind, body.shape.get(), body.pose.data(), ground.ground.get(),
-                                                   ground.pose.data(), &c, &result.value);
+    result.status = swiftprox_pair_ground_distance(kind, body.shape(), body.pose(), ground.ground(),
+                                                   ground.pose(), &c, &result.value);
     return result;
 }
 /** Writes as many contacts and points as there is room for. */
@@ -93,7 +104,7 @@ inline Result<swiftprox_ground_count> try_ground_contacts(Placed body, PlacedGro
 {
     const swiftprox_manifold_config c = config.to_c();
     Result<swiftprox_ground_count> result;
-    result.status = swiftprox_pair_ground_contacts(body.shape.get(), body.pose.data(), ground.ground.get(), ground.pose.data(), &c,
+    result.status = swiftprox_pair_ground_contacts(body.shape(), body.pose(), ground.ground(), ground.pose(), &c,
                                                    contacts.data(), contacts.size(), points.data(), points.size(),
                                                    &result.value);
     return result;

@@ -2,6 +2,9 @@
 #ifndef SWIFTPROX_LIBRARY_HPP
 #define SWIFTPROX_LIBRARY_HPP
 
+#include "geometry.h"
+#include "motion.h"
+#include "process.h"
 #include "result.hpp"
 
 #include <cstddef>

@@ -2,7 +2,9 @@
 #ifndef SWIFTPROX_LISTENER_HPP
 #define SWIFTPROX_LISTENER_HPP
 
-#include "scene.hpp"
+#include "result.hpp"
+
+#include <memory>
 
 namespace swiftprox
 {
@@ -26,9 +28,13 @@ class Listener
         result.value.owned_.reset(made);
         return result;
     }
+#if SWIFTPROX_HAS_EXCEPTIONS
+    static Listener create() { return take(try_create()); }
+#endif
     /** None yet: a question by it is refused. */
     Listener() noexcept = default;
-    swiftprox_listener *get() const noexcept { return owned_.get(); }
+    swiftprox_listener *get() const & noexcept { return owned_.get(); }
+    swiftprox_listener *get() const && = delete;
 
   private:
     std::unique_ptr<swiftprox_listener, detail::DestroyListener> owned_;
@@ -49,22 +55,6 @@ inline Range<const swiftprox_point_event> points(const swiftprox_listener_events
 {
     return {events.points + pair.first_point, pair.point_count};
 }
-
-inline Result<Heard> try_listen(SceneView &scene, Listener &listener, swiftprox_query_kind kind, const SceneQuery &query = {})
-{
-    const swiftprox_scene_query c = query.to_c();
-    Result<Heard> result;
-    result.status =
-        swiftprox_scene_listen(scene.get(), listener.get(), kind, &c, &result.value.answer, &result.value.events);
-    return result;
-}
-
-#if SWIFTPROX_HAS_EXCEPTIONS
-inline Heard listen(SceneView &scene, Listener &listener, swiftprox_query_kind kind, const SceneQuery &query = {})
-{
-    return take(try_listen(scene, listener, kind, query));
-}
-#endif
 
 } // namespace swiftprox
 

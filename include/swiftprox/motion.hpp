@@ -13,10 +13,19 @@ struct MotionBetween {
     double end_error = 0;
 };
 
-/** A shape and how it moves, for the time of a call. */
-struct Moving {
-    const Shape &shape;
-    const swiftprox_motion &motion;
+/** A shape and how it moves. The motion is its own; a share of the shape must live on, so that a temporary Shape is refused. */
+class Moving
+{
+  public:
+    Moving(const Shape &shape, const swiftprox_motion &motion) noexcept : shape_(shape.get()), motion_(motion) {}
+    Moving(const Shape &&, const swiftprox_motion &) = delete;
+    const swiftprox_shape *shape() const noexcept { return shape_; }
+    const swiftprox_motion *motion() const & noexcept { return &motion_; }
+    const swiftprox_motion *motion() const && = delete;
+
+  private:
+    const swiftprox_shape *shape_;
+    swiftprox_motion motion_;
 };
 
 /** `centre` is in the object's frame, no point of the object farther from it than `reach`. */
@@ -32,20 +41,20 @@ inline Result<swiftprox_cast_answer> try_cast(Moving a, Moving b, PairCache &cac
 {
     const swiftprox_cast_config c = config.to_c();
     Result<swiftprox_cast_answer> result;
-    result.status = swiftprox_pair_cast(a.shape.get(), &a.motion, b.shape.get(), &b.motion, &cache, &c, &result.value);
+    result.status = swiftprox_pair_cast(a.shape(), a.motion(), b.shape(), b.motion(), &cache, &c, &result.value);
     return result;
 }
 /** SWIFTPROX_ERROR_UNVERIFIED where the answer does not hold. */
 inline Result<void> try_cast_verify(Moving a, Moving b, const swiftprox_cast_answer &answer, const CastConfig &config = {}) noexcept
 {
     const swiftprox_cast_config c = config.to_c();
-    return detail::status(swiftprox_cast_verify(a.shape.get(), &a.motion, b.shape.get(), &b.motion, &c, &answer));
+    return detail::status(swiftprox_cast_verify(a.shape(), a.motion(), b.shape(), b.motion(), &c, &answer));
 }
 inline Result<swiftprox_clearance> try_clearance(Moving a, Moving b, PairCache &cache, const ClearanceConfig &config = {}) noexcept
 {
     const swiftprox_clearance_config c = config.to_c();
     Result<swiftprox_clearance> result;
-    result.status = swiftprox_pair_clearance(a.shape.get(), &a.motion, b.shape.get(), &b.motion, &cache, &c, &result.value);
+    result.status = swiftprox_pair_clearance(a.shape(), a.motion(), b.shape(), b.motion(), &cache, &c, &result.value);
     return result;
 }
 

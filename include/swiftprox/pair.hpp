@@ -2,7 +2,9 @@
 #ifndef SWIFTPROX_PAIR_HPP
 #define SWIFTPROX_PAIR_HPP
 
+#include "ground.h"
 #include "shape.hpp"
+#include "verify.h"
 
 namespace swiftprox
 {
@@ -18,10 +20,19 @@ struct ManifoldCache : swiftprox_manifold_cache {
     ManifoldCache() noexcept : swiftprox_manifold_cache{} {}
 };
 
-/** A shape where it is, for the time of a call. */
-struct Placed {
-    const Shape &shape;
-    const Pose &pose;
+/** A shape where it is. The pose is its own; a share of the shape must live on, so that a temporary Shape is refused. */
+class Placed
+{
+  public:
+    Placed(const Shape &shape, const Pose &pose) noexcept : shape_(shape.get()), pose_(pose) {}
+    Placed(const Shape &&, const Pose &) = delete;
+    const swiftprox_shape *shape() const noexcept { return shape_; }
+    const double *pose() const & noexcept { return pose_.data(); }
+    const double *pose() const && = delete;
+
+  private:
+    const swiftprox_shape *shape_;
+    Pose pose_;
 };
 
 namespace detail
@@ -32,7 +43,7 @@ inline Result<swiftprox_pair_answer> pair(PairCall call, Placed a, Placed b, Pai
 {
     const swiftprox_pair_config c = config.to_c();
     Result<swiftprox_pair_answer> result;
-    result.status = call(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache, &c, &result.value);
+    result.status = call(a.shape(), a.pose(), b.shape(), b.pose(), &cache, &c, &result.value);
     return result;
 }
 } // namespace detail
@@ -66,7 +77,7 @@ inline Result<swiftprox_depth_answer> try_depth(Placed a, Placed b, DepthCache &
 {
     const swiftprox_depth_config c = config.to_c();
     Result<swiftprox_depth_answer> result;
-    result.status = swiftprox_pair_depth(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache, &c, &result.value);
+    result.status = swiftprox_pair_depth(a.shape(), a.pose(), b.shape(), b.pose(), &cache, &c, &result.value);
     return result;
 }
 /** The distance, or minus the depth; the cache is that of the pair's manifolds. */
@@ -76,7 +87,7 @@ inline Result<swiftprox_signed_distance> try_signed_distance(Placed a, Placed b,
     const swiftprox_pair_config c = config.to_c();
     Result<swiftprox_signed_distance> result;
     result.status =
-        swiftprox_pair_signed_distance(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache, &c, &result.value);
+        swiftprox_pair_signed_distance(a.shape(), a.pose(), b.shape(), b.pose(), &cache, &c, &result.value);
     return result;
 }
 /** Writes the points into `points`, as many as there is room for. */
@@ -85,7 +96,7 @@ inline Result<swiftprox_manifold> try_manifold(Placed a, Placed b, ManifoldCache
 {
     const swiftprox_manifold_config c = config.to_c();
     Result<swiftprox_manifold> result;
-    result.status = swiftprox_pair_manifold(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache, &c, points.data(),
+    result.status = swiftprox_pair_manifold(a.shape(), a.pose(), b.shape(), b.pose(), &cache, &c, points.data(),
                                             points.size(), &result.value);
     return result;
 }
@@ -100,7 +111,7 @@ inline Result<ManifoldWithDistance> try_manifold_with_distance(Placed a, Placed 
 {
     const swiftprox_manifold_config c = config.to_c();
     Result<ManifoldWithDistance> result;
-    result.status = swiftprox_pair_manifold_with_distance(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache, &c,
+    result.status = swiftprox_pair_manifold_with_distance(a.shape(), a.pose(), b.shape(), b.pose(), &cache, &c,
                                                           points.data(), points.size(), &result.value.manifold,
                                                           &result.value.distance);
     return result;
@@ -108,12 +119,12 @@ inline Result<ManifoldWithDistance> try_manifold_with_distance(Placed a, Placed 
 /** The best estimate of a point's gap. */
 inline double gap(const swiftprox_manifold_point &point) noexcept
 {
-    return swiftprox_manifold_point_gap(&point);
+    return point.gap_lower + (point.gap_upper - point.gap_lower) / 2;
 }
 inline Result<swiftprox_signed_distance> try_half_space_distance(Placed body, const swiftprox_half_space &half_space) noexcept
 {
     Result<swiftprox_signed_distance> result;
-    result.status = swiftprox_pair_half_space_distance(body.shape.get(), body.pose.data(), &half_space, &result.value);
+    result.status = swiftprox_pair_half_space_distance(body.shape(), body.pose(), &half_space, &result.value);
     return result;
 }
 /** Writes the points into `points`, as many as there is room for. */
@@ -123,7 +134,7 @@ inline Result<swiftprox_manifold> try_half_space_manifold(Placed body, const swi
 {
     const swiftprox_manifold_config c = config.to_c();
     Result<swiftprox_manifold> result;
-    result.status = swiftprox_pair_half_space_manifold(body.shape.get(), body.pose.data(), &half_space, &c, points.data(),
+    result.status = swiftprox_pair_half_space_manifold(body.shape(), body.pose(), &half_space, &c, points.data(),
                                                        points.size(), &result.value);
     return result;
 }
@@ -131,18 +142,18 @@ inline Result<swiftprox_manifold> try_half_space_manifold(Placed body, const swi
 inline Result<void> try_verify(Placed a, Placed b, const swiftprox_pair_answer &answer) noexcept
 {
     return detail::status(
-        swiftprox_pair_verify(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &answer));
+        swiftprox_pair_verify(a.shape(), a.pose(), b.shape(), b.pose(), &answer));
 }
 inline Result<void> try_depth_verify(Placed a, Placed b, const DepthCache &cache, const swiftprox_depth_answer &answer) noexcept
 {
     return detail::status(
-        swiftprox_pair_depth_verify(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache, &answer));
+        swiftprox_pair_depth_verify(a.shape(), a.pose(), b.shape(), b.pose(), &cache, &answer));
 }
 inline Result<void> try_manifold_verify(Placed a, Placed b, const ManifoldCache &cache, const swiftprox_manifold &manifold,
                                         Range<const swiftprox_manifold_point> points, const ManifoldConfig &config = {}) noexcept
 {
     const swiftprox_manifold_config c = config.to_c();
-    return detail::status(swiftprox_pair_manifold_verify(a.shape.get(), a.pose.data(), b.shape.get(), b.pose.data(), &cache, &c,
+    return detail::status(swiftprox_pair_manifold_verify(a.shape(), a.pose(), b.shape(), b.pose(), &cache, &c,
                                                          points.data(), points.size(), &manifold));
 }
 

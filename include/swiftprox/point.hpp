@@ -12,14 +12,14 @@ namespace swiftprox
 inline Result<swiftprox_point_answer> try_locate_point(Placed body, const std::array<double, 3> &point) noexcept
 {
     Result<swiftprox_point_answer> result;
-    result.status = swiftprox_shape_locate_point(body.shape.get(), body.pose.data(), point.data(), &result.value);
+    result.status = swiftprox_shape_locate_point(body.shape(), body.pose(), point.data(), &result.value);
     return result;
 }
 
 inline Result<swiftprox_support_vertex> try_support(Placed body, const std::array<double, 3> &direction) noexcept
 {
     Result<swiftprox_support_vertex> result;
-    result.status = swiftprox_shape_support(body.shape.get(), body.pose.data(), direction.data(), &result.value);
+    result.status = swiftprox_shape_support(body.shape(), body.pose(), direction.data(), &result.value);
     return result;
 }
 

@@ -10,7 +10,7 @@ namespace swiftprox
 inline Result<swiftprox_ray_answer> try_cast_ray(Placed body, const swiftprox_ray &ray) noexcept
 {
     Result<swiftprox_ray_answer> result;
-    result.status = swiftprox_shape_cast_ray(body.shape.get(), body.pose.data(), &ray, &result.value);
+    result.status = swiftprox_shape_cast_ray(body.shape(), body.pose(), &ray, &result.value);
     return result;
 }
 

@@ -29,7 +29,9 @@ class Replay
         return *this;
     }
     ~Replay() { static_cast<void>(swiftprox_replay_close(replay_)); }
-    SceneView scene() const noexcept { return SceneView(swiftprox_replay_scene(replay_)); }
+    SceneView scene() const & noexcept { return SceneView(swiftprox_replay_scene(replay_)); }
+    /** The scene would be gone with its replay. */
+    SceneView scene() const && = delete;
     Result<swiftprox_replay_step_info> try_read()
     {
         return detail::asked<swiftprox_replay_step_info>([&](swiftprox_replay_step_info *step) {

@@ -2,12 +2,18 @@
 #ifndef SWIFTPROX_SCENE_HPP
 #define SWIFTPROX_SCENE_HPP
 
+#include "ground.hpp"
+#include "listener.hpp"
+#include "replay.h"
+#include "scene.h"
+#include "sets.hpp"
 #include "shape.hpp"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -28,18 +34,11 @@ namespace swiftprox
 
 namespace detail
 {
-// A Pose is its 12 doubles, so that an array of poses is what C takes.
-static_assert(std::is_standard_layout_v<Pose> && sizeof(Pose) == 12 * sizeof(double), "poses are 12 doubles each");
-inline const double *rows_of(Range<const Pose> poses) noexcept
-{
-    return poses.data() ? poses.data()->data() : nullptr;
-}
-
-/** An id to point at where there are no pairs: C takes no null pointer there. */
-inline const swiftprox_object_id *no_pairs() noexcept
+/** Ids to point at, where there are none, too: a null pointer means all. */
+inline const swiftprox_object_id *ids_of(Range<const swiftprox_object_id> ids) noexcept
 {
     static const swiftprox_object_id none{};
-    return &none;
+    return ids.data() ? ids.data() : &none;
 }
 
 template <class Call> Result<bool> flag(Call &&call)
@@ -93,7 +92,8 @@ class SceneView
     {
         const swiftprox_object_options c = options.to_c();
         return detail::asked<swiftprox_object_id>([&](swiftprox_object_id *id) {
-            return swiftprox_scene_add_shape(scene_, shape.get(), &c, id);
+            const swiftprox_shape *piece = shape.get();
+            return swiftprox_scene_add_object(scene_, &piece, 1, &c, id);
         });
     }
     /** An object of several convex pieces in one local frame. */
@@ -108,32 +108,6 @@ class SceneView
             return swiftprox_scene_add_object(scene_, shapes.data(), shapes.size(), &c, id);
         });
     }
-    Result<swiftprox_object_id> try_add_mesh(Range<const double> vertices, Range<const std::uint32_t> indices,
-                                             Range<const std::uint32_t> valences = {}, const ShapeOptions &shape_options = {},
-                                             const ObjectOptions &options = {})
-    {
-        if (const char *fault = detail::mesh_fault(vertices, indices, valences)) {
-            return detail::refused<swiftprox_object_id>(fault);
-        }
-        swiftprox_shape_tuning tuning;
-        const swiftprox_shape_options shape_c = shape_options.to_c(tuning);
-        const swiftprox_object_options c = options.to_c();
-        const std::size_t faces = valences.empty() ? indices.size() / 3 : valences.size();
-        return detail::asked<swiftprox_object_id>([&](swiftprox_object_id *id) {
-            return swiftprox_scene_add_mesh(scene_, vertices.data(), vertices.size() / 3, indices.data(),
-                                            valences.empty() ? nullptr : valences.data(), faces, &shape_c, &c, id);
-        });
-    }
-    Result<swiftprox_object_id> try_add_file(const std::string &path, const ShapeOptions &shape_options = {},
-                                             const ObjectOptions &options = {})
-    {
-        swiftprox_shape_tuning tuning;
-        const swiftprox_shape_options shape_c = shape_options.to_c(tuning);
-        const swiftprox_object_options c = options.to_c();
-        return detail::asked<swiftprox_object_id>([&](swiftprox_object_id *id) {
-            return swiftprox_scene_add_file(scene_, path.c_str(), &shape_c, &c, id);
-        });
-    }
     Result<swiftprox_object_id> try_copy_object(swiftprox_object_id original)
     {
         return detail::asked<swiftprox_object_id>([&](swiftprox_object_id *id) {
@@ -141,7 +115,7 @@ class SceneView
         });
     }
     /** An object of one convex piece for each shape: all or none. `options`: as many, or none for the defaults. */
-    Result<std::vector<swiftprox_object_id>> try_add_shapes(Range<const Shape> shapes, Range<const ObjectOptions> options = {})
+    Result<std::vector<swiftprox_object_id>> try_add_objects(Range<const Shape> shapes, Range<const ObjectOptions> options = {})
     {
         Result<std::vector<swiftprox_object_id>> result;
         if (!options.empty() && options.size() != shapes.size()) {
@@ -156,7 +130,7 @@ class SceneView
             c.push_back(each.to_c());
         }
         result.value.resize(shapes.size());
-        result.status = swiftprox_scene_add_shapes(scene_, pointers.data(), c.empty() ? nullptr : c.data(), shapes.size(),
+        result.status = swiftprox_scene_add_objects(scene_, pointers.data(), c.empty() ? nullptr : c.data(), shapes.size(),
                                                    result.value.data());
         return result;
     }
@@ -199,21 +173,31 @@ class SceneView
         if (ids.size() != poses.size()) {
             return detail::refused<void>("poses: there are not as many as ids");
         }
-        return detail::status(swiftprox_scene_set_poses(scene_, ids.data(), detail::rows_of(poses), poses.size()));
+        return detail::status(swiftprox_scene_set_poses(scene_, detail::ids_of(ids), detail::rows_of(poses), poses.size()));
     }
     /** Of all objects that are not fixed, in order of creation. */
-    Result<void> try_set_all_poses(Range<const Pose> poses)
+    Result<void> try_set_poses(Range<const Pose> poses)
     {
-        return detail::status(swiftprox_scene_set_all_poses(scene_, detail::rows_of(poses), poses.size()));
+        return detail::status(swiftprox_scene_set_poses(scene_, nullptr, detail::rows_of(poses), poses.size()));
     }
-    /** 9 numbers of rotations and 3 of translations an object. */
-    Result<void> try_set_all_transforms(Range<const double> rotations, Range<const double> translations)
+    /** 9 numbers of rotations and 3 of translations for each of the ids. */
+    Result<void> try_set_transforms(Range<const swiftprox_object_id> ids, Range<const double> rotations,
+                                    Range<const double> translations)
+    {
+        if (rotations.size() != 9 * ids.size() || translations.size() != 3 * ids.size()) {
+            return detail::refused<void>("rotations, translations: they are not 9 and 3 numbers an id");
+        }
+        return detail::status(
+            swiftprox_scene_set_transforms(scene_, detail::ids_of(ids), rotations.data(), translations.data(), ids.size()));
+    }
+    /** Of all objects that are not fixed, in order of creation. */
+    Result<void> try_set_transforms(Range<const double> rotations, Range<const double> translations)
     {
         if (rotations.size() % 9 != 0 || translations.size() % 3 != 0 || rotations.size() / 9 != translations.size() / 3) {
             return detail::refused<void>("rotations, translations: they are not 9 and 3 numbers an object");
         }
         const std::size_t count = translations.size() / 3;
-        return detail::status(swiftprox_scene_set_all_transforms(scene_, rotations.data(), translations.data(), count));
+        return detail::status(swiftprox_scene_set_transforms(scene_, nullptr, rotations.data(), translations.data(), count));
     }
     Result<void> try_set_piece_pose(swiftprox_object_id id, std::uint32_t piece, const Pose &pose)
     {
@@ -226,14 +210,6 @@ class SceneView
         result.status = swiftprox_scene_get_piece_pose(scene_, id, piece, rows.data());
         result.value = Pose(rows);
         return result;
-    }
-    Result<void> try_set_fixed(swiftprox_object_id id, bool fixed)
-    {
-        return detail::status(swiftprox_scene_set_fixed(scene_, id, fixed ? 1 : 0));
-    }
-    Result<void> try_set_user_data(swiftprox_object_id id, std::uint64_t user_data)
-    {
-        return detail::status(swiftprox_scene_set_user_data(scene_, id, user_data));
     }
     Result<void> try_set_piece_user_data(swiftprox_object_id id, std::uint32_t piece, std::uint64_t user_data)
     {
@@ -251,6 +227,11 @@ class SceneView
             info->struct_size = sizeof *info;
             return swiftprox_scene_get_object_info(scene_, id, info);
         });
+    }
+    /** Makes an object what an info says, which object_info() gave and the program has changed. */
+    Result<void> try_set_object_info(swiftprox_object_id id, const swiftprox_object_info &info)
+    {
+        return detail::status(swiftprox_scene_set_object_info(scene_, id, &info));
     }
     /** A box along the world's axes that contains the object. */
     Result<Box> try_object_box(swiftprox_object_id id) const
@@ -360,41 +341,129 @@ class SceneView
         return detail::status(swiftprox_scene_set_kept_pair_limit(scene_, limit));
     }
     Result<void> try_shrink() { return detail::status(swiftprox_scene_shrink(scene_)); }
-    Result<void> try_activate_pair(swiftprox_object_id id1, swiftprox_object_id id2)
+    Result<void> try_set_pair_active(swiftprox_object_id id1, swiftprox_object_id id2, bool active)
     {
-        return detail::status(swiftprox_scene_activate_pair(scene_, id1, id2));
+        return detail::status(swiftprox_scene_set_pair_active(scene_, &id1, &id2, active ? 1 : 0));
     }
-    Result<void> try_deactivate_pair(swiftprox_object_id id1, swiftprox_object_id id2)
+    /** All pairs that an object is in now. */
+    Result<void> try_set_pairs_active(swiftprox_object_id id, bool active)
     {
-        return detail::status(swiftprox_scene_deactivate_pair(scene_, id1, id2));
+        return detail::status(swiftprox_scene_set_pair_active(scene_, &id, nullptr, active ? 1 : 0));
     }
-    Result<void> try_activate_object(swiftprox_object_id id)
+    /** All pairs that there are now. */
+    Result<void> try_set_pairs_active(bool active)
     {
-        return detail::status(swiftprox_scene_activate_object(scene_, id));
+        return detail::status(swiftprox_scene_set_pair_active(scene_, nullptr, nullptr, active ? 1 : 0));
     }
-    Result<void> try_deactivate_object(swiftprox_object_id id)
-    {
-        return detail::status(swiftprox_scene_deactivate_object(scene_, id));
-    }
-    Result<void> try_activate_all() { return detail::status(swiftprox_scene_activate_all(scene_)); }
-    Result<void> try_deactivate_all() { return detail::status(swiftprox_scene_deactivate_all(scene_)); }
-    Result<bool> try_is_pair_active(swiftprox_object_id id1, swiftprox_object_id id2) const
+    Result<bool> try_pair_active(swiftprox_object_id id1, swiftprox_object_id id2) const
     {
         return detail::flag([&](std::int32_t *flag) {
-            return swiftprox_scene_is_pair_active(scene_, id1, id2, flag);
+            return swiftprox_scene_get_pair_active(scene_, id1, id2, flag);
         });
     }
-    Result<void> try_set_filter(swiftprox_object_id id, std::uint32_t groups, std::uint32_t mask)
-    {
-        return detail::status(swiftprox_scene_set_filter(scene_, id, groups, mask));
-    }
-    Result<void> try_filter_again() { return detail::status(swiftprox_scene_filter_again(scene_)); }
     Result<void> try_set_pairs(Range<const std::array<swiftprox_object_id, 2>> pairs)
     {
-        const swiftprox_object_id *ids = pairs.empty() ? detail::no_pairs() : pairs.data()->data();
+        const swiftprox_object_id *first = pairs.empty() ? nullptr : pairs.data()->data();
+        const swiftprox_object_id *ids = detail::ids_of({first, pairs.size()});
         return detail::status(swiftprox_scene_set_pairs(scene_, ids, pairs.size()));
     }
     Result<void> try_reset_pairs() { return detail::status(swiftprox_scene_reset_pairs(scene_)); }
+    /** What began, goes on and has ended since the listener last asked. */
+    Result<Heard> try_listen(Listener &listener, swiftprox_query_kind kind, const SceneQuery &query = {})
+    {
+        const swiftprox_scene_query c = query.to_c();
+        Result<Heard> result;
+        result.status =
+            swiftprox_scene_listen(scene_, listener.get(), kind, &c, &result.value.answer, &result.value.events);
+        return result;
+    }
+    /** Makes the questions below fast after changes. */
+    Result<void> try_prepare() { return detail::status(swiftprox_scene_prepare(scene_)); }
+    /** Without a second set: against all others. */
+    Result<swiftprox_least_distance> try_least_distance(const ObjectSet &set, SetScratch &scratch,
+                                                        const ObjectSet *against = nullptr,
+                                                        double cut_off = std::numeric_limits<double>::infinity()) const
+    {
+        if (set.is_uneven() || (against && against->is_uneven())) {
+            return detail::uneven<swiftprox_least_distance>();
+        }
+        const swiftprox_object_set c = set.to_c();
+        const swiftprox_object_set second = against ? against->to_c() : swiftprox_object_set{};
+        return detail::asked<swiftprox_least_distance>([&](swiftprox_least_distance *answer) {
+            return swiftprox_scene_least_distance(scene_, &c, against ? &second : nullptr, cut_off, scratch.get(), answer);
+        });
+    }
+    /** `poses`: those of all objects at the first time, then at the second, and so on. */
+    Result<swiftprox_first_hit> try_first_hit(const ObjectSet &set, Range<const Pose> poses,
+                                              SetScratch &scratch,
+                                              swiftprox_pose_order order = SWIFTPROX_POSE_ORDER_BISECTION, double margin = 0) const
+    {
+        if (set.ids.empty() || poses.size() % set.ids.size() != 0) {
+            return detail::refused<swiftprox_first_hit>("poses: there is not one for each object at each time");
+        }
+        const swiftprox_object_set c = set.to_c();
+        const std::size_t times = poses.size() / set.ids.size();
+        return detail::asked<swiftprox_first_hit>([&](swiftprox_first_hit *answer) {
+            return swiftprox_scene_first_hit(scene_, &c, detail::rows_of(poses), times, order, margin, scratch.get(), answer);
+        });
+    }
+    /** The scratch owns the hits, until its next use. */
+    Result<swiftprox_scene_ray_answer> try_cast_ray(const swiftprox_ray &ray, SetScratch &scratch,
+                                                    swiftprox_ray_hits hits = SWIFTPROX_RAY_HITS_FIRST,
+                                                    std::uint32_t mask = UINT32_MAX) const
+    {
+        return detail::asked<swiftprox_scene_ray_answer>([&](swiftprox_scene_ray_answer *answer) {
+            return swiftprox_scene_cast_ray(scene_, &ray, hits, mask, scratch.get(), answer);
+        });
+    }
+    /** One motion for all objects together, or one for each. */
+    Result<swiftprox_scene_cast_answer> try_cast(const ObjectSet &set,
+                                                 Range<const swiftprox_motion> motions, SetScratch &scratch,
+                                                 const CastConfig &config = {}) const
+    {
+        const swiftprox_object_set c = set.to_c();
+        const swiftprox_cast_config of_cast = config.to_c();
+        return detail::asked<swiftprox_scene_cast_answer>([&](swiftprox_scene_cast_answer *answer) {
+            return swiftprox_scene_cast(scene_, &c, motions.data(), motions.size(), &of_cast, scratch.get(), answer);
+        });
+    }
+    /** One motion for each edge, or one for each object at each edge. */
+    Result<std::vector<swiftprox_scene_cast_answer>> try_cast_batch(const ObjectSet &set,
+                                                                    Range<const swiftprox_motion> motions,
+                                                                    std::size_t edge_count, SetScratch &scratch,
+                                                                    const CastConfig &config = {}) const
+    {
+        const swiftprox_object_set c = set.to_c();
+        const swiftprox_cast_config of_cast = config.to_c();
+        Result<std::vector<swiftprox_scene_cast_answer>> result;
+        result.value.resize(edge_count);
+        result.status = swiftprox_scene_cast_batch(scene_, &c, motions.data(), motions.size(), &of_cast, scratch.get(),
+                                                   result.value.data(), edge_count);
+        return result;
+    }
+    /** Without a set: of all objects. The scratch owns contacts and points, until its next use. */
+    Result<swiftprox_scene_ground_answer> try_ground_contacts(PlacedGround ground, SetScratch &scratch,
+                                                              const ManifoldConfig &config = {},
+                                                              const ObjectSet *set = nullptr,
+                                                              const swiftprox_group_filter *filter = nullptr) const
+    {
+        return detail::floor_contacts(set, config, [&](const swiftprox_object_set *of, const swiftprox_manifold_config *c,
+                                                       swiftprox_scene_ground_answer *answer) {
+            return swiftprox_scene_ground_contacts(scene_, of, ground.ground(), ground.pose(), c, filter,
+                                                   scratch.get(), answer);
+        });
+    }
+    /** A contact for each piece. */
+    Result<swiftprox_scene_ground_answer> try_half_space_contacts(const swiftprox_half_space &half_space,
+                                                                  SetScratch &scratch, const ManifoldConfig &config = {},
+                                                                  const ObjectSet *set = nullptr,
+                                                                  const swiftprox_group_filter *filter = nullptr) const
+    {
+        return detail::floor_contacts(set, config, [&](const swiftprox_object_set *of, const swiftprox_manifold_config *c,
+                                                       swiftprox_scene_ground_answer *answer) {
+            return swiftprox_scene_half_space_contacts(scene_, of, &half_space, c, filter, scratch.get(), answer);
+        });
+    }
     Result<void> try_record(const std::string &path) { return detail::status(swiftprox_scene_record(scene_, path.c_str())); }
     Result<void> try_end_recording() { return detail::status(swiftprox_scene_record(scene_, nullptr)); }
 
@@ -404,20 +473,10 @@ class SceneView
     {
         return take(try_add(pieces, options));
     }
-    swiftprox_object_id add_mesh(Range<const double> vertices, Range<const std::uint32_t> indices,
-                                 Range<const std::uint32_t> valences = {}, const ShapeOptions &shape_options = {},
-                                 const ObjectOptions &options = {})
-    {
-        return take(try_add_mesh(vertices, indices, valences, shape_options, options));
-    }
-    swiftprox_object_id add_file(const std::string &path, const ShapeOptions &shape_options = {}, const ObjectOptions &options = {})
-    {
-        return take(try_add_file(path, shape_options, options));
-    }
     swiftprox_object_id copy_object(swiftprox_object_id original) { return take(try_copy_object(original)); }
-    std::vector<swiftprox_object_id> add_shapes(Range<const Shape> shapes, Range<const ObjectOptions> options = {})
+    std::vector<swiftprox_object_id> add_objects(Range<const Shape> shapes, Range<const ObjectOptions> options = {})
     {
-        return take(try_add_shapes(shapes, options));
+        return take(try_add_objects(shapes, options));
     }
     void remove_objects(Range<const swiftprox_object_id> ids) { take(try_remove_objects(ids)); }
     void remove_object(swiftprox_object_id id) { take(try_remove_object(id)); }
@@ -429,18 +488,20 @@ class SceneView
         take(try_set_transform(id, rotation, translation));
     }
     void set_poses(Range<const swiftprox_object_id> ids, Range<const Pose> poses) { take(try_set_poses(ids, poses)); }
-    void set_all_poses(Range<const Pose> poses) { take(try_set_all_poses(poses)); }
-    void set_all_transforms(Range<const double> rotations, Range<const double> translations)
+    void set_poses(Range<const Pose> poses) { take(try_set_poses(poses)); }
+    void set_transforms(Range<const swiftprox_object_id> ids, Range<const double> rotations, Range<const double> translations)
     {
-        take(try_set_all_transforms(rotations, translations));
+        take(try_set_transforms(ids, rotations, translations));
+    }
+    void set_transforms(Range<const double> rotations, Range<const double> translations)
+    {
+        take(try_set_transforms(rotations, translations));
     }
     void set_piece_pose(swiftprox_object_id id, std::uint32_t piece, const Pose &pose)
     {
         take(try_set_piece_pose(id, piece, pose));
     }
     Pose piece_pose(swiftprox_object_id id, std::uint32_t piece = 0) const { return take(try_piece_pose(id, piece)); }
-    void set_fixed(swiftprox_object_id id, bool fixed) { take(try_set_fixed(id, fixed)); }
-    void set_user_data(swiftprox_object_id id, std::uint64_t user_data) { take(try_set_user_data(id, user_data)); }
     void set_piece_user_data(swiftprox_object_id id, std::uint32_t piece, std::uint64_t user_data)
     {
         take(try_set_piece_user_data(id, piece, user_data));
@@ -450,6 +511,7 @@ class SceneView
         return take(try_piece_user_data(id, piece));
     }
     swiftprox_object_info object_info(swiftprox_object_id id) const { return take(try_object_info(id)); }
+    void set_object_info(swiftprox_object_id id, const swiftprox_object_info &info) { take(try_set_object_info(id, info)); }
     Box object_box(swiftprox_object_id id) const { return take(try_object_box(id)); }
     Shape piece(swiftprox_object_id id, std::size_t piece = 0) const { return take(try_piece(id, piece)); }
     swiftprox_scene_answer query_intersection(const SceneQuery &query = {}) { return take(try_query_intersection(query)); }
@@ -480,20 +542,60 @@ class SceneView
     void reset_statistics() { take(try_reset_statistics()); }
     void set_kept_pair_limit(std::uint64_t limit) { take(try_set_kept_pair_limit(limit)); }
     void shrink() { take(try_shrink()); }
-    void activate_pair(swiftprox_object_id id1, swiftprox_object_id id2) { take(try_activate_pair(id1, id2)); }
-    void deactivate_pair(swiftprox_object_id id1, swiftprox_object_id id2) { take(try_deactivate_pair(id1, id2)); }
-    void activate_object(swiftprox_object_id id) { take(try_activate_object(id)); }
-    void deactivate_object(swiftprox_object_id id) { take(try_deactivate_object(id)); }
-    void activate_all() { take(try_activate_all()); }
-    void deactivate_all() { take(try_deactivate_all()); }
-    bool is_pair_active(swiftprox_object_id id1, swiftprox_object_id id2) const { return take(try_is_pair_active(id1, id2)); }
-    void set_filter(swiftprox_object_id id, std::uint32_t groups, std::uint32_t mask)
+    void set_pair_active(swiftprox_object_id id1, swiftprox_object_id id2, bool active)
     {
-        take(try_set_filter(id, groups, mask));
+        take(try_set_pair_active(id1, id2, active));
     }
-    void filter_again() { take(try_filter_again()); }
+    void set_pairs_active(swiftprox_object_id id, bool active) { take(try_set_pairs_active(id, active)); }
+    void set_pairs_active(bool active) { take(try_set_pairs_active(active)); }
+    bool pair_active(swiftprox_object_id id1, swiftprox_object_id id2) const { return take(try_pair_active(id1, id2)); }
     void set_pairs(Range<const std::array<swiftprox_object_id, 2>> pairs) { take(try_set_pairs(pairs)); }
     void reset_pairs() { take(try_reset_pairs()); }
+    Heard listen(Listener &listener, swiftprox_query_kind kind, const SceneQuery &query = {})
+    {
+        return take(try_listen(listener, kind, query));
+    }
+    void prepare() { take(try_prepare()); }
+    swiftprox_least_distance least_distance(const ObjectSet &set, SetScratch &scratch,
+                                            const ObjectSet *against = nullptr,
+                                            double cut_off = std::numeric_limits<double>::infinity()) const
+    {
+        return take(try_least_distance(set, scratch, against, cut_off));
+    }
+    swiftprox_first_hit first_hit(const ObjectSet &set, Range<const Pose> poses, SetScratch &scratch,
+                                  swiftprox_pose_order order = SWIFTPROX_POSE_ORDER_BISECTION, double margin = 0) const
+    {
+        return take(try_first_hit(set, poses, scratch, order, margin));
+    }
+    swiftprox_scene_ray_answer cast_ray(const swiftprox_ray &ray, SetScratch &scratch,
+                                        swiftprox_ray_hits hits = SWIFTPROX_RAY_HITS_FIRST, std::uint32_t mask = UINT32_MAX) const
+    {
+        return take(try_cast_ray(ray, scratch, hits, mask));
+    }
+    swiftprox_scene_cast_answer cast(const ObjectSet &set, Range<const swiftprox_motion> motions,
+                                     SetScratch &scratch, const CastConfig &config = {}) const
+    {
+        return take(try_cast(set, motions, scratch, config));
+    }
+    std::vector<swiftprox_scene_cast_answer> cast_batch(const ObjectSet &set,
+                                                        Range<const swiftprox_motion> motions, std::size_t edge_count,
+                                                        SetScratch &scratch, const CastConfig &config = {}) const
+    {
+        return take(try_cast_batch(set, motions, edge_count, scratch, config));
+    }
+    swiftprox_scene_ground_answer ground_contacts(PlacedGround ground, SetScratch &scratch,
+                                                  const ManifoldConfig &config = {}, const ObjectSet *set = nullptr,
+                                                  const swiftprox_group_filter *filter = nullptr) const
+    {
+        return take(try_ground_contacts(ground, scratch, config, set, filter));
+    }
+    swiftprox_scene_ground_answer half_space_contacts(const swiftprox_half_space &half_space,
+                                                      SetScratch &scratch, const ManifoldConfig &config = {},
+                                                      const ObjectSet *set = nullptr,
+                                                      const swiftprox_group_filter *filter = nullptr) const
+    {
+        return take(try_half_space_contacts(half_space, scratch, config, set, filter));
+    }
     void record(const std::string &path) { take(try_record(path)); }
     void end_recording() { take(try_end_recording()); }
 #endif

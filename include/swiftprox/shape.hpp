@@ -3,16 +3,28 @@
 #define SWIFTPROX_SHAPE_HPP
 
 #include "configs.hpp"
+#include "geometry.h"
 #include "result.hpp"
 
 #include <cstddef>
 #include <cstdint>
 #include <string>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
 namespace swiftprox
 {
+
+namespace detail
+{
+// A Pose is its 12 doubles, so that an array of poses is what C takes.
+static_assert(std::is_standard_layout_v<Pose> && sizeof(Pose) == 12 * sizeof(double), "poses are 12 doubles each");
+inline const double *rows_of(Range<const Pose> poses) noexcept
+{
+    return poses.data() ? poses.data()->data() : nullptr;
+}
+} // namespace detail
 
 /** A face of a shape's hull. */
 struct Face {
@@ -43,7 +55,9 @@ class Shape
         result.shape_ = shape;
         return result;
     }
-    const swiftprox_shape *get() const noexcept { return shape_; }
+    const swiftprox_shape *get() const & noexcept { return shape_; }
+    /** The shape would be gone before its pointer. */
+    const swiftprox_shape *get() const && = delete;
     explicit operator bool() const noexcept { return shape_ != nullptr; }
 
     /** 3 coordinates a vertex; the faces' vertex numbers, one face after the other; their sides, empty if all are triangles. */

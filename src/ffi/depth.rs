@@ -5,7 +5,7 @@ use super::failure::{Checked, Failure, StatusCode};
 use super::guard::guard;
 use super::pair::{CPairConfig, read_config};
 use super::pointers::{array, exclusive, input, output};
-use super::structs::{Versioned, init_struct, read_struct};
+use super::structs::{Versioned, read_struct};
 use crate::base::math::{Pose, ROTATION_LIMIT};
 use crate::pair::verify::{verify_depth, verify_manifold};
 use crate::pair::{
@@ -17,11 +17,11 @@ use std::ffi::c_char;
 
 // --- Depth ---------------------------------------------------------------------------------------------------------------
 
-/// What a depth query is asked for. Fill it with swiftprox_depth_config_init, then change what should differ.
+/// What a depth query is asked for. Begin with SWIFTPROX_DEPTH_CONFIG_DEFAULT, then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CDepthConfig {
-    /// Set by swiftprox_depth_config_init.
+    /// Set by SWIFTPROX_DEPTH_CONFIG_DEFAULT.
     pub struct_size: usize,
     /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
@@ -40,7 +40,8 @@ unsafe impl Versioned for CDepthConfig {
 }
 
 impl CDepthConfig {
-    const DEFAULT: CDepthConfig = CDepthConfig {
+    /// What the header calls its default.
+    pub const DEFAULT: CDepthConfig = CDepthConfig {
         struct_size: size_of::<CDepthConfig>(),
         rotation_limit: ROTATION_LIMIT,
         absolute_error: 0.0,
@@ -63,14 +64,6 @@ const _: () = {
     assert!(size_of::<DepthCache>() <= size_of::<CDepthCache>());
     assert!(align_of::<DepthCache>() <= align_of::<CDepthCache>());
 };
-
-/// Fills `config` with the defaults. Call it as swiftprox_depth_config_init(&config), which hands over the size that the program
-/// was compiled with. Null is ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_depth_config_init_sized(config: *mut CDepthConfig, struct_size: usize) {
-    // SAFETY: the header's pointer rules.
-    unsafe { init_struct(config, struct_size, &CDepthConfig::DEFAULT) }
-}
 
 /// How deep two objects are in each other: the least translation that parts them, with a rigorous interval, unit normal, witness
 /// points and features. Touching is a depth of 0, decided in integers. Of separated objects only that is said, and a normal that
@@ -215,11 +208,11 @@ unsafe fn read_depth<'a>(answer: *const DepthAnswer) -> Checked<&'a DepthAnswer>
 
 // --- Manifolds -----------------------------------------------------------------------------------------------------------
 
-/// What a manifold query is asked for. Fill it with swiftprox_manifold_config_init, then change what should differ.
+/// What a manifold query is asked for. Begin with SWIFTPROX_MANIFOLD_CONFIG_DEFAULT, then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CManifoldConfig {
-    /// Set by swiftprox_manifold_config_init.
+    /// Set by SWIFTPROX_MANIFOLD_CONFIG_DEFAULT.
     pub struct_size: usize,
     /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
@@ -238,7 +231,8 @@ unsafe impl Versioned for CManifoldConfig {
 }
 
 impl CManifoldConfig {
-    const DEFAULT: CManifoldConfig = CManifoldConfig {
+    /// What the header calls its default.
+    pub const DEFAULT: CManifoldConfig = CManifoldConfig {
         struct_size: size_of::<CManifoldConfig>(),
         rotation_limit: ROTATION_LIMIT,
         margin: 0.0,
@@ -260,14 +254,6 @@ const _: () = {
     assert!(size_of::<ManifoldCache>() <= size_of::<CManifoldCache>());
     assert!(align_of::<ManifoldCache>() <= align_of::<CManifoldCache>());
 };
-
-/// Fills `config` with the defaults. Call it as swiftprox_manifold_config_init(&config), which hands over the size that the program
-/// was compiled with. Null is ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_manifold_config_init_sized(config: *mut CManifoldConfig, struct_size: usize) {
-    // SAFETY: the header's pointer rules.
-    unsafe { init_struct(config, struct_size, &CManifoldConfig::DEFAULT) }
-}
 
 /// The distance of objects that are apart, minus the depth of those that overlap, with one rigorous interval through zero, unit
 /// normal, witness points and features: as certain as swiftprox_pair_distance and swiftprox_pair_depth. Touching is 0.
@@ -456,19 +442,6 @@ pub unsafe extern "C" fn swiftprox_pair_manifold_verify(
         };
         Ok(verify_manifold([shape1.at(pose1), shape2.at(pose2)], cache, &config, manifold, points)?)
     })
-}
-
-/// The best estimate of a point's gap: the middle of gap_lower and gap_upper. NaN of null, which the message and the log tell.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_manifold_point_gap(point: *const ManifoldPoint) -> f64 {
-    let mut gap = f64::NAN;
-    // The status is in the message and the log.
-    let _: StatusCode = guard(|| {
-        // SAFETY: the header's pointer rules.
-        gap = unsafe { input(point, "point") }?.gap();
-        Ok(())
-    });
-    gap
 }
 
 /// The caller's manifold to read, its enumerator checked.

@@ -12,7 +12,7 @@ pub enum StatusCode {
     ErrorNullPointer = 1,
     /// An argument is out of range, not finite or unknown: the message names it.
     ErrorInvalidArgument = 2,
-    /// A struct_size is unknown: the struct was not initialised by its _init macro. Or the struct comes from a newer header and
+    /// A struct_size is unknown: the struct was not begun with its SWIFTPROX_..._DEFAULT. Or the struct comes from a newer header and
     /// sets what this library does not know.
     ErrorStructSize = 3,
     /// A pose is refused: an entry is not finite, an entry of R^T R - I is beyond the limit, or det R is not positive.

@@ -26,7 +26,7 @@ unsafe impl Sync for User {}
 
 /// Asks `filter` of each pair of objects whether it is to be tested, once for each of its pairs of pieces when that comes near, and
 /// of many objects without a tolerance in each query. Null: none is asked, as before the first call. All pairs that are near are
-/// asked anew. The callback may be called from every thread that queries the scene.
+/// asked anew: set the same filter again when it has changed its mind. The callback may be called from every thread that queries the scene.
 ///
 /// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
@@ -46,20 +46,6 @@ pub unsafe extern "C" fn swiftprox_scene_set_pair_filter(
                     must_return(|| callback(object1, object2, *pointer)) != 0
                 })
             }));
-            Ok(())
-        })
-    }
-}
-
-/// Asks the filter anew of all pairs that are near, in the next query.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_filter_again(scene: *mut SceneHandle) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    unsafe {
-        change(scene, |scene| {
-            scene.filter_again();
             Ok(())
         })
     }

@@ -13,7 +13,7 @@ use crate::pair::{DecidedBy, FeatureKind, Outcome};
 /// Major version of this header: programs compiled with another one do not go with this library.
 pub const VERSION_MAJOR: i32 = 0;
 /// Minor version of this header. While the major version is 0, another minor version is another interface.
-pub const VERSION_MINOR: i32 = 1;
+pub const VERSION_MINOR: i32 = 2;
 /// Patch version of this header.
 pub const VERSION_PATCH: i32 = 0;
 

@@ -9,14 +9,14 @@ use crate::base::memory::with_capacity;
 use crate::scene::object::{ObjectId, ObjectOptions};
 use crate::shape::Shape;
 
-/// Adds an object of one convex piece for each of `count` shapes, in their order, as swiftprox_scene_add_shape does: all or none.
-/// `options` are as many, one behind the other, each filled with swiftprox_object_options_init; null for the defaults of all. `ids`
+/// Adds an object of one convex piece for each of `count` shapes, in their order, as swiftprox_scene_add_object does: all or none.
+/// `options` are as many, one behind the other, each begun with SWIFTPROX_OBJECT_OPTIONS_DEFAULT; null for the defaults of all. `ids`
 /// receives the ids.
 ///
 /// On failure nothing is added, and all ids are null. The message names the first place that is refused. Errors as of
-/// swiftprox_scene_add_shape; SWIFTPROX_ERROR_STRUCT_SIZE also where the options have different sizes.
+/// swiftprox_scene_add_object; SWIFTPROX_ERROR_STRUCT_SIZE also where the options have different sizes.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_add_shapes(
+pub unsafe extern "C" fn swiftprox_scene_add_objects(
     scene: *mut SceneHandle,
     shapes: *const *const Shape,
     options: *const CObjectOptions,
@@ -72,7 +72,7 @@ unsafe fn all_object_options(options: *const CObjectOptions, count: usize) -> Ch
     // SAFETY: by the caller; struct_size is the first member.
     let size = if options.is_null() || count == 0 { 0 } else { unsafe { options.cast::<usize>().read() } };
     if !size.is_multiple_of(align_of::<CObjectOptions>()) {
-        let message = format!("options[0]: struct_size is {size}; call swiftprox_object_options_init first");
+        let message = format!("options[0]: struct_size is {size}; begin with SWIFTPROX_OBJECT_OPTIONS_DEFAULT");
         return Err(Failure::new(StatusCode::ErrorStructSize, message));
     }
     for k in 0..count {
@@ -80,7 +80,9 @@ unsafe fn all_object_options(options: *const CObjectOptions, count: usize) -> Ch
         let place = unsafe { options.byte_add(k * size) };
         // SAFETY: as above.
         if !place.is_null() && unsafe { place.cast::<usize>().read() } != size {
-            let message = format!("options[{k}] has another struct_size than the first: fill each by its init");
+            let message = format!(
+                "options[{k}] has another struct_size than the first: begin each with SWIFTPROX_OBJECT_OPTIONS_DEFAULT"
+            );
             return Err(Failure::new(StatusCode::ErrorStructSize, message));
         }
         // SAFETY: by the caller.

@@ -86,7 +86,7 @@ impl MeshSink {
     }
 }
 
-/// Registers a reader of mesh files, which swiftprox_shape_create_from_file and swiftprox_scene_add_file call for every file that
+/// Registers a reader of mesh files, which swiftprox_shape_create_from_file calls for every file that
 /// begins with the bytes of `magic`, a string that is copied, behind white space and a UTF-8 byte order mark: whatever the
 /// extension of the file is, and before the built-in readers for TRI, POLY, OFF, OBJ and STL, which a magic such as "OFF" replaces.
 /// The first bytes alone count: "PLY" is the magic of a file that begins with PLYMOUTH, too. The callback is handed what was

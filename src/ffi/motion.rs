@@ -7,7 +7,7 @@ use super::failure::{Checked, Failure, StatusCode};
 use super::guard::{call_out, guard};
 use super::pair::CPairCache;
 use super::pointers::{exclusive, input, output};
-use super::structs::{Versioned, init_struct, read_struct};
+use super::structs::{Versioned, read_struct};
 use crate::base::enumerator::enumerator;
 use crate::base::math::{Pose, Vector};
 use crate::base::memory::{collected, with_capacity};
@@ -68,11 +68,11 @@ pub struct CMotion {
     pub rounding: f64,
 }
 
-/// What a cast is asked for. Fill it with swiftprox_cast_config_init, then change what should differ.
+/// What a cast is asked for. Begin with SWIFTPROX_CAST_CONFIG_DEFAULT, then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CCastConfig {
-    /// Set by swiftprox_cast_config_init.
+    /// Set by SWIFTPROX_CAST_CONFIG_DEFAULT.
     pub struct_size: usize,
     /// Where the range of times begins. Default: 0.
     pub t_begin: f64,
@@ -92,17 +92,18 @@ unsafe impl Versioned for CCastConfig {
 }
 
 impl CCastConfig {
-    fn defaults() -> CCastConfig {
+    /// What the header calls its default.
+    pub fn defaults() -> CCastConfig {
         let CastConfig { t_begin, t_end, time_tolerance, margin, step_budget } = CastConfig::default();
         CCastConfig { struct_size: size_of::<CCastConfig>(), t_begin, t_end, time_tolerance, margin, step_budget }
     }
 }
 
-/// What a clearance is asked for. Fill it with swiftprox_clearance_config_init, then change what should differ.
+/// What a clearance is asked for. Begin with SWIFTPROX_CLEARANCE_CONFIG_DEFAULT, then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CClearanceConfig {
-    /// Set by swiftprox_clearance_config_init.
+    /// Set by SWIFTPROX_CLEARANCE_CONFIG_DEFAULT.
     pub struct_size: usize,
     /// Where the range of times begins. Default: 0.
     pub t_begin: f64,
@@ -122,7 +123,8 @@ unsafe impl Versioned for CClearanceConfig {
 }
 
 impl CClearanceConfig {
-    fn defaults() -> CClearanceConfig {
+    /// What the header calls its default.
+    pub fn defaults() -> CClearanceConfig {
         let ClearanceConfig { t_begin, t_end, absolute_error, relative_error, step_budget } =
             ClearanceConfig::default();
         let struct_size = size_of::<CClearanceConfig>();
@@ -182,14 +184,6 @@ fn row_major(pose: &Pose) -> [f64; 12] {
     std::array::from_fn(|k| pose.rows[k / 4][k % 4])
 }
 
-/// Fills `config` with the defaults. Call it as swiftprox_cast_config_init(&config), which hands over the size that the program was
-/// compiled with. Null is ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_cast_config_init_sized(config: *mut CCastConfig, struct_size: usize) {
-    // SAFETY: the header's pointer rules.
-    unsafe { init_struct(config, struct_size, &CCastConfig::defaults()) }
-}
-
 /// Whether two moving objects stay farther apart than config->margin, or when they first do not: certain for the motions exactly as
 /// they are described, at all times of the range and not only at some of them. Rounding of poses is accounted for.
 ///
@@ -219,14 +213,6 @@ pub unsafe extern "C" fn swiftprox_pair_cast(
             Ok(cast(bodies, cache, &config, answer)?)
         })
     }
-}
-
-/// Fills `config` with the defaults. Call it as swiftprox_clearance_config_init(&config), which hands over the size that the
-/// program was compiled with. Null is ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_clearance_config_init_sized(config: *mut CClearanceConfig, struct_size: usize) {
-    // SAFETY: the header's pointer rules.
-    unsafe { init_struct(config, struct_size, &CClearanceConfig::defaults()) }
 }
 
 /// The smallest distance of two moving objects over the range of times, as an interval [lower, upper]: as narrow as asked for, or

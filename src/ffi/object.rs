@@ -1,26 +1,24 @@
 //! Objects of a scene: added, removed, moved, and asked what they are.
 
-use std::ffi::c_char;
 use std::sync::Arc;
 
-use super::arrays::{check_capacity, read_arrays, read_path};
+use super::arrays::check_capacity;
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::guard;
-use super::pointers::{array, output};
+use super::pointers::{array, input, output};
 use super::scene::{SceneHandle, change, look};
-use super::shape_options::{CShapeOptions, read_options};
-use super::structs::{Versioned, init_struct, read_struct, write_struct};
+use super::structs::{Versioned, read_struct, write_struct};
 use crate::base::math::Pose;
 use crate::base::memory::with_capacity;
 use crate::scene::Object;
 use crate::scene::object::{ObjectId, ObjectOptions};
 use crate::shape::Shape;
 
-/// How an object begins. Fill it with swiftprox_object_options_init, then change what should differ.
+/// How an object begins. Begin with SWIFTPROX_OBJECT_OPTIONS_DEFAULT, then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CObjectOptions {
-    /// Set by swiftprox_object_options_init.
+    /// Set by SWIFTPROX_OBJECT_OPTIONS_DEFAULT.
     pub struct_size: usize,
     /// The caller's own; it comes back in every result. Default: 0.
     pub user_data: u64,
@@ -41,7 +39,8 @@ unsafe impl Versioned for CObjectOptions {
 }
 
 impl CObjectOptions {
-    const DEFAULT: CObjectOptions = CObjectOptions {
+    /// What the header calls its default.
+    pub const DEFAULT: CObjectOptions = CObjectOptions {
         struct_size: size_of::<CObjectOptions>(),
         user_data: 0,
         pose: [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0],
@@ -91,30 +90,6 @@ impl ObjectInfo {
 
 // --- Objects -------------------------------------------------------------------------------------------------------------
 
-/// Fills `options` with the defaults. Call it as swiftprox_object_options_init(&options), which hands over the size that the
-/// program was compiled with. Null is ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_object_options_init_sized(options: *mut CObjectOptions, struct_size: usize) {
-    // SAFETY: the header's pointer rules.
-    unsafe { init_struct(options, struct_size, &CObjectOptions::DEFAULT) }
-}
-
-/// Adds an object of one convex piece. All its pairs are active. The scene takes a share of the shape: the caller's own may be
-/// released at once. On failure nothing is added and `*id` is null. `options` may be null for the defaults.
-///
-/// SWIFTPROX_ERROR_POSE: the pose is refused. SWIFTPROX_ERROR_LIMIT: more objects than a scene holds. SWIFTPROX_ERROR_MEMORY.
-/// SWIFTPROX_ERROR_NULL_POINTER, SWIFTPROX_ERROR_STRUCT_SIZE: the message names the argument. SWIFTPROX_ERROR_POISONED.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_add_shape(
-    scene: *mut SceneHandle,
-    shape: *const Shape,
-    options: *const CObjectOptions,
-    id: *mut ObjectId,
-) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    unsafe { add(scene, options, id, || Ok(vec![share(shape, "shape")?])) }
-}
-
 /// Adds an object of one or several convex pieces in one local frame. All its pairs are active. The scene takes a share of each
 /// shape: the caller's own may be released at once. On failure nothing is added and `*id` is null.
 /// `options` may be null for the defaults.
@@ -139,52 +114,6 @@ pub unsafe extern "C" fn swiftprox_scene_add_object(
                 shares.push(share(piece, format_args!("pieces[{i}]"))?);
             }
             Ok(shares)
-        })
-    }
-}
-
-/// Makes a shape as swiftprox_shape_create_from_mesh does and adds an object of that one piece as swiftprox_scene_add_object does,
-/// with the arguments and the errors of both. Both options may be null for the defaults.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_add_mesh(
-    scene: *mut SceneHandle,
-    vertices: *const f64,
-    vertex_count: usize,
-    indices: *const u32,
-    valences: *const u32,
-    face_count: usize,
-    shape_options: *const CShapeOptions,
-    object_options: *const CObjectOptions,
-    id: *mut ObjectId,
-) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    unsafe {
-        add(scene, object_options, id, || {
-            let making = read_options(shape_options)?;
-            let mesh = read_arrays(vertices, vertex_count, indices, valences, face_count)?;
-            let shape = making.run(|options, progress| Shape::from_mesh_in_steps(&mesh, options, progress))?;
-            Ok(vec![Arc::new(shape)])
-        })
-    }
-}
-
-/// Makes a shape as swiftprox_shape_create_from_file does and adds an object of that one piece as swiftprox_scene_add_object does,
-/// with the arguments and the errors of both. Both options may be null for the defaults.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_add_file(
-    scene: *mut SceneHandle,
-    path: *const c_char,
-    shape_options: *const CShapeOptions,
-    object_options: *const CObjectOptions,
-    id: *mut ObjectId,
-) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    unsafe {
-        add(scene, object_options, id, || {
-            let making = read_options(shape_options)?;
-            let path = read_path(path)?;
-            let shape = making.run(|options, progress| Shape::from_file_in_steps(path, options, progress))?;
-            Ok(vec![Arc::new(shape)])
         })
     }
 }
@@ -241,31 +170,7 @@ pub unsafe extern "C" fn swiftprox_scene_is_object_valid(
     })
 }
 
-/// Fixes an object (`fixed` not 0) or lets it move again: pairs of two fixed objects are never tested. What its other pairs
-/// remember stays.
-///
-/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_set_fixed(scene: *mut SceneHandle, id: ObjectId, fixed: i32) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    unsafe { change(scene, |scene| Ok(scene.set_fixed(id, fixed != 0)?)) }
-}
-
-/// Sets the groups that an object is in and those that it is tested against, as swiftprox_object_options has them.
-///
-/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_set_filter(
-    scene: *mut SceneHandle,
-    id: ObjectId,
-    groups: u32,
-    mask: u32,
-) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    unsafe { change(scene, |scene| Ok(scene.set_filter(id, groups_or_first(groups), mask_or_all(mask))?)) }
-}
-
-/// Writes the ids of all objects in order of creation, which is that of results and of swiftprox_scene_set_all_poses, and their
+/// Writes the ids of all objects in order of creation, which is that of results and of swiftprox_scene_set_poses, and their
 /// number to `*count`. `ids` has room for `capacity` of them; with capacity 0 it may be null, and only the number is written. On
 /// failure `*count` is 0.
 ///
@@ -294,17 +199,47 @@ pub unsafe extern "C" fn swiftprox_scene_copy_object_ids(
     })
 }
 
-/// Sets the number that comes back in every result of this object.
+/// Makes an object what `info` says: its user data, pose, fixedness, groups and mask. Fill info by
+/// swiftprox_scene_get_object_info and change members; a pose as it was moves nothing. What pairs remember stays.
 ///
-/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_POSE: the pose is refused.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count is another one. SWIFTPROX_ERROR_NULL_POINTER: scene or info is null.
+/// SWIFTPROX_ERROR_STRUCT_SIZE: info->struct_size is unknown. SWIFTPROX_ERROR_POISONED. Nothing has changed then.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_set_user_data(
+pub unsafe extern "C" fn swiftprox_scene_set_object_info(
     scene: *mut SceneHandle,
     id: ObjectId,
-    user_data: u64,
+    info: *const ObjectInfo,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { change(scene, |scene| Ok(scene.set_user_data(id, user_data)?)) }
+    unsafe {
+        change(scene, |scene| {
+            input(info, "info")?;
+            let before = info_of(&scene.object(id)?);
+            let after = read_struct(info, before)?;
+            if after.piece_count != before.piece_count {
+                let message = format!(
+                    "info->piece_count is {}, and the object has {}; fill info by swiftprox_scene_get_object_info",
+                    after.piece_count, before.piece_count
+                );
+                return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
+            }
+            if after.pose != before.pose {
+                scene.set_pose(id, &Pose::from_row_major(&after.pose))?;
+            }
+            if after.user_data != before.user_data {
+                scene.set_user_data(id, after.user_data)?;
+            }
+            if after.fixed != before.fixed {
+                scene.set_fixed(id, after.fixed != 0)?;
+            }
+            let (groups, mask) = (groups_or_first(after.groups), mask_or_all(after.mask));
+            if (groups, mask) != (before.groups, before.mask) {
+                scene.set_filter(id, groups, mask)?;
+            }
+            Ok(())
+        })
+    }
 }
 
 /// Sets the number of a piece, which swiftprox_scene_get_piece_user_data gives, and the events of listeners; 0 before. Results name
@@ -359,19 +294,7 @@ pub unsafe extern "C" fn swiftprox_scene_get_object_info(
     // SAFETY: the header's pointer rules.
     guard(|| unsafe {
         write_struct(info, "info", &ObjectInfo::UNKNOWN)?;
-        look(scene, |scene| {
-            let object = scene.object(id)?;
-            let value = ObjectInfo {
-                struct_size: size_of::<ObjectInfo>(),
-                user_data: object.user_data(),
-                piece_count: object.pieces().len(),
-                pose: std::array::from_fn(|i| object.pose().rows[i / 4][i % 4]),
-                fixed: i32::from(object.fixed()),
-                groups: object.groups(),
-                mask: object.mask(),
-            };
-            write_struct(info, "info", &value)
-        })
+        look(scene, |scene| write_struct(info, "info", &info_of(&scene.object(id)?)))
     })
 }
 
@@ -426,6 +349,19 @@ pub unsafe extern "C" fn swiftprox_scene_get_piece(
 }
 
 // --- What the functions above share --------------------------------------------------------------------------------------
+
+/// What an object is, in C's terms.
+fn info_of(object: &Object) -> ObjectInfo {
+    ObjectInfo {
+        struct_size: size_of::<ObjectInfo>(),
+        user_data: object.user_data(),
+        piece_count: object.pieces().len(),
+        pose: std::array::from_fn(|i| object.pose().rows[i / 4][i % 4]),
+        fixed: i32::from(object.fixed()),
+        groups: object.groups(),
+        mask: object.mask(),
+    }
+}
 
 /// Refuses a piece that an object does not have.
 pub(super) fn check_piece(object: &Object, piece: usize) -> Checked<()> {
@@ -512,7 +448,7 @@ unsafe fn add(
 
 #[cfg(test)]
 mod tests {
-    use super::super::scene::{swiftprox_scene_activate_all, swiftprox_scene_create, swiftprox_scene_destroy};
+    use super::super::scene::{swiftprox_scene_create, swiftprox_scene_destroy, swiftprox_scene_set_pair_active};
     use super::*;
     use std::ptr::{null, null_mut};
 
@@ -526,7 +462,7 @@ mod tests {
             let status = add(scene, null(), &mut id, || panic!("injected"));
             assert_eq!(status, StatusCode::ErrorBug);
             assert_eq!(id, ObjectId::NULL);
-            assert_eq!(swiftprox_scene_activate_all(scene), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_set_pair_active(scene, null(), null(), 1), StatusCode::Ok);
             assert_eq!(swiftprox_scene_destroy(scene), StatusCode::Ok);
         }
     }

@@ -7,7 +7,7 @@ use super::enumerators::read_enumerator;
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::{caught, guard};
 use super::pointers::{exclusive, input};
-use super::structs::{Versioned, init_struct, view_struct};
+use super::structs::{Versioned, view_struct};
 use super::tuning::{CPairTuning, PairTuning, read_pair_tuning};
 use crate::base::error::Result;
 use crate::base::math::{Pose, ROTATION_LIMIT};
@@ -15,11 +15,11 @@ use crate::pair::verify::verify;
 use crate::pair::{self, DecidedBy, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Placed};
 use crate::shape::Shape;
 
-/// What a pair query is asked for. Fill it with swiftprox_pair_config_init, then change what should differ.
+/// What a pair query is asked for. Begin with SWIFTPROX_PAIR_CONFIG_DEFAULT, then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CPairConfig {
-    /// Set by swiftprox_pair_config_init.
+    /// Set by SWIFTPROX_PAIR_CONFIG_DEFAULT.
     pub struct_size: usize,
     /// Pairs farther apart than this are SWIFTPROX_OUTCOME_BEYOND; from 0 to infinity (the default: none is).
     pub distance_tolerance: f64,
@@ -35,7 +35,7 @@ pub struct CPairConfig {
     /// open only after as many steps as a query without a budget may make. The next query with the same cache goes on where this
     /// one stopped, unless tuning->start says that it begin anew, at the tables or afresh: it may then stop there for ever.
     pub step_budget: u32,
-    /// Where it starts and which levels of detail it goes through (swiftprox_tuning.h). Default: null, the automatic choice.
+    /// Where it starts and which levels of detail it goes through (swiftprox/tuning.h). Default: null, the automatic choice.
     pub tuning: *const CPairTuning,
 }
 
@@ -45,7 +45,8 @@ unsafe impl Versioned for CPairConfig {
 }
 
 impl CPairConfig {
-    const DEFAULT: CPairConfig = CPairConfig {
+    /// What the header calls its default.
+    pub const DEFAULT: CPairConfig = CPairConfig {
         struct_size: size_of::<CPairConfig>(),
         distance_tolerance: f64::INFINITY,
         rotation_limit: ROTATION_LIMIT,
@@ -70,14 +71,6 @@ const _: () = {
     assert!(size_of::<PairCache>() <= size_of::<CPairCache>());
     assert!(align_of::<PairCache>() <= align_of::<CPairCache>());
 };
-
-/// Fills `config` with the defaults. Call it as swiftprox_pair_config_init(&config), which hands over the size that the program was
-/// compiled with. Null is ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_pair_config_init_sized(config: *mut CPairConfig, struct_size: usize) {
-    // SAFETY: the header's pointer rules.
-    unsafe { init_struct(config, struct_size, &CPairConfig::DEFAULT) }
-}
 
 /// The distance of two objects with a rigorous interval, witness points, normal and features. Of an intersecting pair the
 /// distance is 0 and the proof is given; points, normal and features stay unset (see swiftprox_pair_contact). Of a pair farther

@@ -43,11 +43,12 @@ pub unsafe extern "C" fn swiftprox_scene_set_transform(
 }
 
 /// Moves the objects of `count` ids, fixed ones too: `poses` holds 12 doubles for each. Of an object that is given twice the later
-/// pose counts. On failure all stay where they are.
+/// pose counts. Null `ids` are all objects that are not fixed, in order of creation. On failure all stay where they are; the
+/// message says which pose or id is refused. Workers share the work where it is in order of creation.
 ///
-/// Workers share what is in order of creation. SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_POSE: a
-/// pose is refused. The message says which. SWIFTPROX_ERROR_MEMORY: only in a scene with workers. SWIFTPROX_ERROR_NULL_POINTER:
-/// scene, ids or poses is null. SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_POSE: a pose is refused.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: ids is null, and count is not the number of objects that are not fixed.
+/// SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or poses is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_poses(
     scene: *mut SceneHandle,
@@ -58,8 +59,30 @@ pub unsafe extern "C" fn swiftprox_scene_set_poses(
     // SAFETY: the header's pointer rules; see swiftprox_scene_set_pose.
     unsafe {
         change(scene, |scene| {
-            let ids = array(ids, count, "ids")?;
-            Ok(scene.set_poses(ids, array(poses.cast::<Pose>(), count, "poses")?)?)
+            check_pose_count(scene, ids, count)?;
+            set_poses(scene, ids, array(poses.cast::<Pose>(), count, "poses")?)
+        })
+    }
+}
+
+/// As swiftprox_scene_set_poses, from 9 doubles of `rotations` and 3 of `translations` for each object.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_scene_set_transforms(
+    scene: *mut SceneHandle,
+    ids: *const ObjectId,
+    rotations: *const f64,
+    translations: *const f64,
+    count: usize,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    unsafe {
+        change(scene, |scene| {
+            check_pose_count(scene, ids, count)?;
+            let rotations = array(rotations.cast::<[f64; 9]>(), count, "rotations")?;
+            let translations = array(translations.cast::<[f64; 3]>(), count, "translations")?;
+            let pose_of = |(rotation, translation)| pose(rotation, translation);
+            let poses: Vec<Pose> = collected(rotations.iter().zip(translations).map(pose_of))?;
+            set_poses(scene, ids, &poses)
         })
     }
 }
@@ -108,48 +131,6 @@ pub unsafe extern "C" fn swiftprox_scene_get_piece_pose(
     })
 }
 
-/// Moves all objects that are not fixed, in order of creation: `poses` holds 12 doubles for each of the `count`. On failure all
-/// stay where they are.
-///
-/// Workers share the work. SWIFTPROX_ERROR_INVALID_ARGUMENT: count is not the number of objects that are not fixed.
-/// SWIFTPROX_ERROR_POSE: a pose is refused; the message names it. SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene or
-/// poses is null. SWIFTPROX_ERROR_POISONED.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_set_all_poses(
-    scene: *mut SceneHandle,
-    poses: *const f64,
-    count: usize,
-) -> StatusCode {
-    // SAFETY: the header's pointer rules; see swiftprox_scene_set_pose.
-    unsafe {
-        change(scene, |scene| {
-            check_pose_count(scene, count)?;
-            Ok(scene.set_all_poses(array(poses.cast::<Pose>(), count, "poses")?)?)
-        })
-    }
-}
-
-/// As swiftprox_scene_set_all_poses, from 9 doubles of `rotations` and 3 of `translations` for each object.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_set_all_transforms(
-    scene: *mut SceneHandle,
-    rotations: *const f64,
-    translations: *const f64,
-    count: usize,
-) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    unsafe {
-        change(scene, |scene| {
-            check_pose_count(scene, count)?;
-            let rotations = array(rotations.cast::<[f64; 9]>(), count, "rotations")?;
-            let translations = array(translations.cast::<[f64; 3]>(), count, "translations")?;
-            let pose_of = |(rotation, translation)| pose(rotation, translation);
-            let poses: Vec<Pose> = collected(rotations.iter().zip(translations).map(pose_of))?;
-            Ok(scene.set_all_poses(&poses)?)
-        })
-    }
-}
-
 // --- What the functions above share --------------------------------------------------------------------------------------
 
 /// A pose from a rotation and a translation.
@@ -157,12 +138,26 @@ fn pose(rotation: &[f64; 9], translation: &[f64; 3]) -> Pose {
     Pose::new(&Matrix::from_row_slice(rotation), &Vector::from(*translation))
 }
 
-/// Refuses a wrong number of poses before any of them is read.
-fn check_pose_count(scene: &Scene, count: usize) -> Checked<()> {
+/// Refuses a wrong number of poses of all objects before any of them is read.
+fn check_pose_count(scene: &Scene, ids: *const ObjectId, count: usize) -> Checked<()> {
     let moving = scene.objects().filter(|object| !object.fixed()).count();
-    if count != moving {
-        let message = format!("{count} poses for {moving} objects that are not fixed");
+    if ids.is_null() && count != moving {
+        let message = format!(
+            "ids is null, which means all, and there are {count} poses for {moving} objects that are not fixed"
+        );
         return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
     }
     Ok(())
+}
+
+/// Moves the objects of ids, or without ids all that are not fixed.
+///
+/// # Safety
+/// `ids` is null or as long as the poses.
+unsafe fn set_poses(scene: &mut Scene, ids: *const ObjectId, poses: &[Pose]) -> Checked<()> {
+    if ids.is_null() {
+        return Ok(scene.set_all_poses(poses)?);
+    }
+    // SAFETY: by the caller.
+    Ok(scene.set_poses(unsafe { array(ids, poses.len(), "ids") }?, poses)?)
 }

@@ -5,7 +5,7 @@ use super::failure::{Checked, StatusCode};
 use super::guard::guard;
 use super::pointers::output;
 use super::scene::{SceneHandle, change, change_guarded, look};
-use super::structs::{Versioned, init_struct, view_struct};
+use super::structs::{Versioned, view_struct};
 use super::tuning::{CPairTuning, PairTuning, read_pair_tuning};
 use std::mem::MaybeUninit;
 
@@ -17,11 +17,11 @@ use crate::scene::{
 /// swiftprox_scene_query.distance_tolerance: 0 for swiftprox_scene_query_contact, infinity for all other queries.
 pub const DEFAULT_TOLERANCE: f64 = -1.0;
 
-/// What a query over a scene is asked for. Fill it with swiftprox_scene_query_init, then change what should differ.
+/// What a query over a scene is asked for. Begin with SWIFTPROX_SCENE_QUERY_DEFAULT, then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CSceneQuery {
-    /// Set by swiftprox_scene_query_init.
+    /// Set by SWIFTPROX_SCENE_QUERY_DEFAULT.
     pub struct_size: usize,
     /// List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
     /// to infinity (all pairs, however many). Default: SWIFTPROX_DEFAULT_TOLERANCE, of contacts 0, of all others infinity.
@@ -42,7 +42,7 @@ pub struct CSceneQuery {
     /// Not 0: stop at the first intersecting pair in the order of results, and list no pairs at all then:
     /// swiftprox_scene_answer.found is it. Default: 0.
     pub early_exit: i32,
-    /// Where pairs start and which levels of detail they go through (swiftprox_tuning.h). Default: null, the automatic choice.
+    /// Where pairs start and which levels of detail they go through (swiftprox/tuning.h). Default: null, the automatic choice.
     pub tuning: *const CPairTuning,
     /// swiftprox_scene_query_contact: pairs farther apart have no manifold, and points with a larger gap do not belong to one;
     /// from 0 to infinity. It is the distance tolerance if that is less. Default: infinity.
@@ -59,7 +59,8 @@ unsafe impl Versioned for CSceneQuery {
 }
 
 impl CSceneQuery {
-    const DEFAULT: CSceneQuery = CSceneQuery {
+    /// What the header calls its default.
+    pub const DEFAULT: CSceneQuery = CSceneQuery {
         struct_size: size_of::<CSceneQuery>(),
         distance_tolerance: DEFAULT_TOLERANCE,
         absolute_error: 0.0,
@@ -103,14 +104,6 @@ impl CSceneAnswer {
             found: answer.found.map_or(std::ptr::null(), std::ptr::from_ref),
         }
     }
-}
-
-/// Fills `query` with the defaults. Call it as swiftprox_scene_query_init(&query), which hands over the size that the program was
-/// compiled with. Null is ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_query_init_sized(query: *mut CSceneQuery, struct_size: usize) {
-    // SAFETY: the header's pointer rules.
-    unsafe { init_struct(query, struct_size, &CSceneQuery::DEFAULT) }
 }
 
 /// Lists the intersecting pairs (touching ones are), each with its verdict alone: of an answer outcome, decided_by, proof,
@@ -325,7 +318,7 @@ pub(super) unsafe fn ask(
 mod tests {
     use super::super::library::swiftprox_library_last_error_message;
     use super::super::object::swiftprox_scene_add_object;
-    use super::super::scene::{swiftprox_scene_activate_all, swiftprox_scene_create, swiftprox_scene_destroy};
+    use super::super::scene::{swiftprox_scene_create, swiftprox_scene_destroy, swiftprox_scene_set_pair_active};
     use super::*;
     use crate::base::math::Vector;
     use crate::scene::object::ObjectId;
@@ -361,7 +354,7 @@ mod tests {
             let mut statistics = SceneStatistics::default();
             assert_eq!(swiftprox_scene_query_contact(broken, null(), &mut answer), StatusCode::ErrorPoisoned);
             assert_eq!((answer.count, answer.intersecting), (0, 0));
-            assert_eq!(swiftprox_scene_activate_all(broken), StatusCode::ErrorPoisoned);
+            assert_eq!(swiftprox_scene_set_pair_active(broken, null(), null(), 1), StatusCode::ErrorPoisoned);
             assert_eq!(swiftprox_scene_get_statistics(broken, &mut statistics), StatusCode::ErrorPoisoned);
             assert_eq!(swiftprox_scene_query_contact(sound, null(), &mut answer), StatusCode::Ok);
             assert_eq!(swiftprox_scene_destroy(broken), StatusCode::Ok);

@@ -8,7 +8,7 @@ use super::failure::{Checked, Failure, StatusCode};
 use super::guard::{guard, keep_panics_quiet};
 use super::log::log;
 use super::pointers::{input, output};
-use super::structs::{Versioned, init_struct, read_struct};
+use super::structs::{Versioned, read_struct};
 use super::workers::{EnqueueTaskCallback, FinishTaskCallback, workers};
 use crate::base::math::ROTATION_LIMIT;
 use crate::base::workers::parked::MOST_THREADS;
@@ -96,11 +96,11 @@ const _: () = {
     is_shared_between_threads::<Shape>();
 };
 
-/// How a scene is made. Fill it with swiftprox_scene_options_init, then change what should differ.
+/// How a scene is made. Begin with SWIFTPROX_SCENE_OPTIONS_DEFAULT, then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CSceneOptions {
-    /// Set by swiftprox_scene_options_init.
+    /// Set by SWIFTPROX_SCENE_OPTIONS_DEFAULT.
     pub struct_size: usize,
     /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
@@ -125,7 +125,8 @@ unsafe impl Versioned for CSceneOptions {
 }
 
 impl CSceneOptions {
-    pub(super) const DEFAULT: CSceneOptions = CSceneOptions {
+    /// What the header calls its default.
+    pub const DEFAULT: CSceneOptions = CSceneOptions {
         struct_size: size_of::<CSceneOptions>(),
         rotation_limit: ROTATION_LIMIT,
         worker_count: 0,
@@ -136,14 +137,6 @@ impl CSceneOptions {
 }
 
 // --- Scenes --------------------------------------------------------------------------------------------------------------
-
-/// Fills `options` with the defaults. Call it as swiftprox_scene_options_init(&options), which hands over the size that the program
-/// was compiled with. Null is ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_options_init_sized(options: *mut CSceneOptions, struct_size: usize) {
-    // SAFETY: the header's pointer rules.
-    unsafe { init_struct(options, struct_size, &CSceneOptions::DEFAULT) }
-}
 
 /// Makes an empty scene; the caller owns it and gives it back with swiftprox_scene_destroy. On failure `*scene` is null. `options`
 /// may be null for the defaults.
@@ -218,70 +211,28 @@ pub unsafe extern "C" fn swiftprox_scene_shrink(scene: *mut SceneHandle) -> Stat
 
 // --- Activation ----------------------------------------------------------------------------------------------------------
 
-/// Activates the pair of two objects, in either order, with all its pairs of pieces. Two fixed objects are never tested all the
-/// same.
+/// Sets whether queries test pairs of objects: `active` other than 0, or 0. With two ids it is their pair, in either order, with all
+/// its pairs of pieces; with one null pointer all pairs that the other object is in now; with two all that there are now. Objects
+/// added later begin with all their pairs active; two fixed objects are never tested.
 ///
 /// SWIFTPROX_ERROR_HANDLE: an id names no object of this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice.
-/// SWIFTPROX_ERROR_MEMORY.
-/// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
+/// SWIFTPROX_ERROR_MEMORY. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_activate_pair(
+pub unsafe extern "C" fn swiftprox_scene_set_pair_active(
     scene: *mut SceneHandle,
-    id1: ObjectId,
-    id2: ObjectId,
+    id1: *const ObjectId,
+    id2: *const ObjectId,
+    active: i32,
 ) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    unsafe { change(scene, |scene| Ok(scene.set_pair_active(id1, id2, true)?)) }
-}
-
-/// Deactivates the pair of two objects: queries leave it out. Errors as of swiftprox_scene_activate_pair.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_deactivate_pair(
-    scene: *mut SceneHandle,
-    id1: ObjectId,
-    id2: ObjectId,
-) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    unsafe { change(scene, |scene| Ok(scene.set_pair_active(id1, id2, false)?)) }
-}
-
-/// Activates all pairs that an object is in now.
-///
-/// SWIFTPROX_ERROR_HANDLE: id names no object of this scene. SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_activate_object(scene: *mut SceneHandle, id: ObjectId) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    unsafe { change(scene, |scene| Ok(scene.set_object_active(id, true)?)) }
-}
-
-/// Deactivates all pairs that an object is in now. Errors as of swiftprox_scene_activate_object.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_deactivate_object(scene: *mut SceneHandle, id: ObjectId) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    unsafe { change(scene, |scene| Ok(scene.set_object_active(id, false)?)) }
-}
-
-/// Activates all pairs that there are now. Objects added later begin with all their pairs active in any case.
-///
-/// SWIFTPROX_ERROR_NULL_POINTER: scene is null. SWIFTPROX_ERROR_POISONED.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_activate_all(scene: *mut SceneHandle) -> StatusCode {
     // SAFETY: the header's pointer rules.
     unsafe {
         change(scene, |scene| {
-            scene.set_all_active(true);
-            Ok(())
-        })
-    }
-}
-
-/// Deactivates all pairs that there are now. Errors as of swiftprox_scene_activate_all.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_deactivate_all(scene: *mut SceneHandle) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    unsafe {
-        change(scene, |scene| {
-            scene.set_all_active(false);
+            let active = active != 0;
+            match (id1.as_ref(), id2.as_ref()) {
+                (Some(&id1), Some(&id2)) => scene.set_pair_active(id1, id2, active)?,
+                (Some(&id), None) | (None, Some(&id)) => scene.set_object_active(id, active)?,
+                (None, None) => scene.set_all_active(active),
+            }
             Ok(())
         })
     }
@@ -289,9 +240,9 @@ pub unsafe extern "C" fn swiftprox_scene_deactivate_all(scene: *mut SceneHandle)
 
 /// Sets `*active` to 1 if queries test the pair of two objects, given in either order, else to 0 (also on failure).
 ///
-/// Errors as of swiftprox_scene_activate_pair; SWIFTPROX_ERROR_NULL_POINTER also when active is null.
+/// Errors as of swiftprox_scene_set_pair_active; SWIFTPROX_ERROR_NULL_POINTER also when active is null.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_is_pair_active(
+pub unsafe extern "C" fn swiftprox_scene_get_pair_active(
     scene: *const SceneHandle,
     id1: ObjectId,
     id2: ObjectId,
@@ -435,8 +386,8 @@ mod tests {
                 // SAFETY: a living scene, and ids that it refuses.
                 let status = unsafe {
                     match (round + number) % 3 {
-                        0 => swiftprox_scene_activate_all(scene),
-                        1 => swiftprox_scene_deactivate_all(scene),
+                        0 => swiftprox_scene_set_pair_active(scene, null(), null(), 1),
+                        1 => swiftprox_scene_set_pair_active(scene, null(), null(), 0),
                         _ => guard(|| {
                             look(scene, |scene| {
                                 std::hint::black_box(scene.objects().count());
@@ -456,7 +407,7 @@ mod tests {
         assert!(done > 0);
         // SAFETY: a living scene, used by this thread only.
         unsafe {
-            assert_eq!(swiftprox_scene_activate_all(shared.0), StatusCode::Ok);
+            assert_eq!(swiftprox_scene_set_pair_active(shared.0, null(), null(), 1), StatusCode::Ok);
             assert_eq!(swiftprox_scene_destroy(shared.0), StatusCode::Ok);
         }
     }
@@ -477,7 +428,7 @@ mod tests {
             assert_eq!(status, StatusCode::Ok);
             let status = guard(|| {
                 look(scene, |_| {
-                    assert_eq!(swiftprox_scene_activate_all(scene), StatusCode::ErrorBusy);
+                    assert_eq!(swiftprox_scene_set_pair_active(scene, null(), null(), 1), StatusCode::ErrorBusy);
                     assert_eq!(swiftprox_scene_destroy(scene), StatusCode::ErrorBusy);
                     // Those that change nothing may be many.
                     look(scene, |_| Ok(()))

@@ -5,7 +5,7 @@ use std::ffi::c_void;
 use super::enumerators::{InputNumber, read_enumerator};
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::call_out;
-use super::structs::{Versioned, init_struct, read_struct};
+use super::structs::{Versioned, read_struct};
 use super::tuning::{CShapeTuning, read_shape_tuning};
 use crate::base::error::Result;
 use crate::base::math::{Matrix, Vector};
@@ -17,11 +17,11 @@ use crate::shape::{InputPolicy, Shape, ShapeOptions};
 /// builds, must return, and must not use what the call is working on; a C++ exception that leaves it ends the program.
 pub type ProgressCallback = Option<unsafe extern "C-unwind" fn(user: *mut c_void, fraction: f64) -> i32>;
 
-/// How a shape is made. Fill it with swiftprox_shape_options_init, then change what should differ.
+/// How a shape is made. Begin with SWIFTPROX_SHAPE_OPTIONS_DEFAULT, then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CShapeOptions {
-    /// Set by swiftprox_shape_options_init.
+    /// Set by SWIFTPROX_SHAPE_OPTIONS_DEFAULT.
     pub struct_size: usize,
     /// What to do with input that is not a closed convex mesh with interior. Default: refuse it.
     pub input: InputNumber,
@@ -40,7 +40,7 @@ pub struct CShapeOptions {
     pub progress: ProgressCallback,
     /// Handed to progress. Default: null.
     pub progress_user: *mut c_void,
-    /// Levels of detail and look-up table (swiftprox_tuning.h). Default: null, the automatic ones.
+    /// Levels of detail and look-up table (swiftprox/tuning.h). Default: null, the automatic ones.
     pub tuning: *const CShapeTuning,
     /// By how much a coordinate may be off, in the units of the input, before scale: vertices that could lie in one plane up to
     /// this are one face to manifolds. Distance and depth do not change; the intervals of gaps contain what is joined. Less than 0
@@ -86,7 +86,8 @@ pub(super) fn in_steps<T>(
 }
 
 impl CShapeOptions {
-    const DEFAULT: CShapeOptions = CShapeOptions {
+    /// What the header calls its default.
+    pub const DEFAULT: CShapeOptions = CShapeOptions {
         struct_size: size_of::<CShapeOptions>(),
         input: InputPolicy::Strict as i32,
         rotation: [1.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0],
@@ -133,14 +134,6 @@ impl CShapeOptions {
         };
         Ok(Making { options, progress: self.progress, user: self.progress_user })
     }
-}
-
-/// Fills `options` with the defaults. Call it as swiftprox_shape_options_init(&options), which hands over the size that the program
-/// was compiled with. Null is ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_shape_options_init_sized(options: *mut CShapeOptions, struct_size: usize) {
-    // SAFETY: the header's pointer rules.
-    unsafe { init_struct(options, struct_size, &CShapeOptions::DEFAULT) }
 }
 
 /// The options, or the defaults for null.

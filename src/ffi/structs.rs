@@ -3,7 +3,6 @@
 use std::mem::MaybeUninit;
 
 use super::failure::{Checked, Failure, StatusCode};
-use super::guard::guard;
 
 /// No struct of this interface is smaller than struct_size and one member: such a struct_size was never initialised.
 const SMALLEST_STRUCT: usize = 16;
@@ -27,28 +26,12 @@ fn check_struct_size<T: Versioned>(size: usize) -> Checked<()> {
         return Ok(());
     }
     let name = T::NAME;
-    let cure = if name.ends_with("_info") { format!("set it to sizeof({name})") } else { format!("call {name}_init") };
-    Err(Failure::new(StatusCode::ErrorStructSize, format!("{name}: struct_size is {size}; {cure} first")))
-}
-
-/// Fills a caller's struct of `size` bytes with as much of the defaults as it has room for, and that size. What only a newer header
-/// knows becomes zero, which asks for nothing new.
-///
-/// # Safety
-/// `pointer` is null or points to `size` writable bytes.
-pub(super) unsafe fn init_struct<T: Versioned>(pointer: *mut T, size: usize, defaults: &T) {
-    // Null and an unknown size are the caller's mistakes, which the message and the log tell.
-    let _: StatusCode = guard(|| {
-        if pointer.is_null() {
-            return Err(Failure::null(T::NAME));
-        }
-        check_struct_size::<T>(size)?;
-        // SAFETY: not null, by the caller; struct_size is the first member.
-        unsafe { pointer.cast::<usize>().write(size) };
-        // SAFETY: by the caller.
-        unsafe { fill(pointer, size, defaults) };
-        Ok(())
-    });
+    let cure = if name.ends_with("_info") {
+        format!("set it to sizeof({name}) first")
+    } else {
+        format!("begin with {}_DEFAULT", name.to_uppercase())
+    };
+    Err(Failure::new(StatusCode::ErrorStructSize, format!("{name}: struct_size is {size}; {cure}")))
 }
 
 /// Writes what follows struct_size, `size` bytes with it: as much of `value` as fits, and zeros behind it.
@@ -180,7 +163,7 @@ mod tests {
         assert_eq!(null.unwrap(), DEFAULTS);
         let refused = small.unwrap_err();
         assert_eq!(refused.status, StatusCode::ErrorStructSize);
-        assert!(refused.message.contains("swiftprox_grown_init"), "{}", refused.message);
+        assert!(refused.message.contains("SWIFTPROX_GROWN_DEFAULT"), "{}", refused.message);
     }
 
     #[test]
@@ -189,21 +172,15 @@ mod tests {
         // SAFETY: a live struct, larger than it says.
         unsafe { write_struct(&raw mut given, "info", &DEFAULTS) }.unwrap();
         assert_eq!(given, Grown { struct_size: OLDER_SIZE, older: 1.0, newer: 4.0 });
-        given = Grown { struct_size: 77, older: 3.0, newer: 4.0 };
-        // SAFETY: as above.
-        unsafe { init_struct(&raw mut given, OLDER_SIZE, &DEFAULTS) };
-        assert_eq!(given, Grown { struct_size: OLDER_SIZE, older: 1.0, newer: 4.0 });
     }
 
     #[test]
     fn what_a_newer_header_adds_is_zero_or_refused() {
-        let mut given = Newest { known: DEFAULTS, unknown: [7.0; 2] };
+        let size = size_of::<Newest>();
+        let mut given = Newest { known: Grown { struct_size: size, ..DEFAULTS }, unknown: [0.0; 2] };
         let pointer = (&raw mut given).cast::<Grown>();
         // SAFETY: a live struct, as large as it says.
         unsafe {
-            init_struct(pointer, size_of::<Newest>(), &DEFAULTS);
-            assert_eq!((pointer.cast::<Newest>().read()).known.struct_size, size_of::<Newest>());
-            assert_eq!((pointer.cast::<Newest>().read()).unknown, [0.0; 2]);
             assert_eq!(read_struct(pointer, DEFAULTS).unwrap().newer, 2.0);
             (&raw mut (*pointer.cast::<Newest>()).unknown).write([0.0, 7.0]);
             let refused = read_struct(pointer, DEFAULTS).unwrap_err();

@@ -6,7 +6,7 @@ use super::enumerators::{HierarchyNumber, LevelsNumber, LookupNumber, Refinement
 use super::failure::{Checked, StatusCode};
 use super::guard::guard;
 use super::pointers::input;
-use super::structs::{Versioned, init_struct, read_struct, view_struct, write_struct};
+use super::structs::{Versioned, read_struct, view_struct, write_struct};
 use crate::levels::hierarchy::{HierarchyKind, HierarchyOptions};
 use crate::pair::{Levels, PairConfig, Refinement, Start};
 use crate::polyhedron::lookup::Plan;
@@ -15,12 +15,12 @@ use crate::tables::{LookupKind, LookupOptions};
 
 // --- How shapes are made -------------------------------------------------------------------------------------------------
 
-/// Which levels of detail and which look-up table a shape is made with, for swiftprox_shape_options.tuning. Fill it with
-/// swiftprox_shape_tuning_init, then change what should differ.
+/// Which levels of detail and which look-up table a shape is made with, for swiftprox_shape_options.tuning. Begin with
+/// SWIFTPROX_SHAPE_TUNING_DEFAULT, then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CShapeTuning {
-    /// Set by swiftprox_shape_tuning_init.
+    /// Set by SWIFTPROX_SHAPE_TUNING_DEFAULT.
     pub struct_size: usize,
     /// How levels of detail are made. Default: automatic.
     pub hierarchy: HierarchyNumber,
@@ -50,7 +50,8 @@ unsafe impl Versioned for CShapeTuning {
 }
 
 impl CShapeTuning {
-    const DEFAULT: CShapeTuning = CShapeTuning {
+    /// What the header calls its default.
+    pub const DEFAULT: CShapeTuning = CShapeTuning {
         struct_size: size_of::<CShapeTuning>(),
         hierarchy: HierarchyKind::Automatic as i32,
         lookup: LookupKind::Automatic as i32,
@@ -60,14 +61,6 @@ impl CShapeTuning {
         lookup_radius_factor: LookupOptions::DEFAULT.radius_factor,
         lookup_resolution: 0,
     };
-}
-
-/// Fills `tuning` with the defaults. Call it as swiftprox_shape_tuning_init(&tuning), which hands over the size that the program
-/// was compiled with. Null is ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_shape_tuning_init_sized(tuning: *mut CShapeTuning, struct_size: usize) {
-    // SAFETY: the header's pointer rules.
-    unsafe { init_struct(tuning, struct_size, &CShapeTuning::DEFAULT) }
 }
 
 /// Levels and table in Rust's terms; the defaults for null.
@@ -90,12 +83,12 @@ pub(super) unsafe fn read_shape_tuning(tuning: *const CShapeTuning) -> Checked<(
 // --- How queries use them ------------------------------------------------------------------------------------------------
 
 /// Where queries start and which levels of detail they go through, for swiftprox_pair_config.tuning and
-/// swiftprox_scene_query.tuning. It changes how fast an answer comes, never the verdict. Fill it with swiftprox_pair_tuning_init,
+/// swiftprox_scene_query.tuning. It changes how fast an answer comes, never the verdict. Begin with SWIFTPROX_PAIR_TUNING_DEFAULT,
 /// then change what should differ.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CPairTuning {
-    /// Set by swiftprox_pair_tuning_init.
+    /// Set by SWIFTPROX_PAIR_TUNING_DEFAULT.
     pub struct_size: usize,
     /// Where marching starts. Default: the automatic choice.
     pub start: StartNumber,
@@ -111,20 +104,13 @@ unsafe impl Versioned for CPairTuning {
 }
 
 impl CPairTuning {
-    const DEFAULT: CPairTuning = CPairTuning {
+    /// What the header calls its default.
+    pub const DEFAULT: CPairTuning = CPairTuning {
         struct_size: size_of::<CPairTuning>(),
         start: Start::Automatic as i32,
         levels: Levels::Automatic as i32,
         refinement: Refinement::Adaptive as i32,
     };
-}
-
-/// Fills `tuning` with the defaults. Call it as swiftprox_pair_tuning_init(&tuning), which hands over the size that the program was
-/// compiled with. Null is ignored.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_pair_tuning_init_sized(tuning: *mut CPairTuning, struct_size: usize) {
-    // SAFETY: the header's pointer rules.
-    unsafe { init_struct(tuning, struct_size, &CPairTuning::DEFAULT) }
 }
 
 /// Where queries start and what levels they go through, in Rust's terms.

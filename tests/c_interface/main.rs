@@ -43,26 +43,16 @@ fn tetrahedron() -> *const Shape {
     shape
 }
 
-/// A struct as its `_init` macro fills it: with the size that the program knows.
-fn initialised<T>(init: unsafe extern "C" fn(*mut T, usize)) -> T {
-    let mut value = MaybeUninit::<T>::uninit();
-    // SAFETY: room for the struct; any bytes are a valid one.
-    unsafe {
-        init(value.as_mut_ptr(), size_of::<T>());
-        value.assume_init()
-    }
-}
-
 fn pair_config() -> CPairConfig {
-    initialised(swiftprox_pair_config_init_sized)
+    CPairConfig::DEFAULT
 }
 
 fn shape_options() -> CShapeOptions {
-    initialised(swiftprox_shape_options_init_sized)
+    CShapeOptions::DEFAULT
 }
 
 fn shape_tuning() -> CShapeTuning {
-    initialised(swiftprox_shape_tuning_init_sized)
+    CShapeTuning::DEFAULT
 }
 
 fn release(shape: *const Shape) {
@@ -124,14 +114,8 @@ struct Newer {
 #[test]
 fn a_struct_may_be_of_a_newer_header_as_long_as_it_asks_for_nothing_new() {
     let shape = tetrahedron();
-    let mut newer = MaybeUninit::<Newer>::uninit();
-    // SAFETY: room for the struct; all of it is written.
-    let mut newer = unsafe {
-        newer.as_mut_ptr().cast::<u8>().write_bytes(7, size_of::<Newer>());
-        swiftprox_pair_config_init_sized(newer.as_mut_ptr().cast(), size_of::<Newer>());
-        newer.assume_init()
-    };
-    assert_eq!((newer.known.struct_size, newer.unknown), (size_of::<Newer>(), [0; 16]));
+    let known = CPairConfig { struct_size: size_of::<Newer>(), ..CPairConfig::DEFAULT };
+    let mut newer = Newer { known, unknown: [0; 16] };
     newer.known.distance_tolerance = 1.0;
     let (status, answer) = distance(shape, &mut CPairCache::default(), (&raw const newer).cast());
     assert_eq!((status, answer.outcome), (StatusCode::Ok, Outcome::Beyond), "{}", last_message());
@@ -161,10 +145,7 @@ fn a_struct_of_an_older_header_is_read_and_written_as_far_as_it_goes() {
     const OWN: [u64; 16] = [0xa5a5_a5a5_a5a5_a5a5; 16];
     const SIZE: usize = std::mem::offset_of!(Older, own);
     let shape = tetrahedron();
-    let mut older = Older { struct_size: 0, distance_tolerance: 0.0, own: OWN };
-    // SAFETY: as much room as is said.
-    unsafe { swiftprox_pair_config_init_sized((&raw mut older).cast(), SIZE) };
-    assert_eq!((older.struct_size, older.distance_tolerance, older.own), (SIZE, f64::INFINITY, OWN));
+    let mut older = Older { struct_size: SIZE, distance_tolerance: f64::INFINITY, own: OWN };
     let ask = |older: &Older| distance(shape, &mut CPairCache::default(), (&raw const *older).cast());
     assert_eq!(ask(&older).1.outcome, Outcome::Separated, "{}", last_message());
     older.distance_tolerance = 1.0;
@@ -199,7 +180,7 @@ fn a_struct_of_an_older_header_is_read_and_written_as_far_as_it_goes() {
 #[test]
 fn unknown_enumerators_are_refused() {
     let shape = tetrahedron();
-    let mut tuning: CPairTuning = initialised(swiftprox_pair_tuning_init_sized);
+    let mut tuning: CPairTuning = CPairTuning::DEFAULT;
     let config = |tuning: &CPairTuning| CPairConfig { tuning, ..pair_config() };
     assert_eq!(distance(shape, &mut CPairCache::default(), &config(&tuning)).0, StatusCode::Ok, "{}", last_message());
     tuning.levels = 3;
@@ -308,7 +289,7 @@ fn a_scene_holds_shares_of_its_own() {
     unsafe {
         let mut scene = null_mut();
         assert_eq!(swiftprox_scene_create(null(), &mut scene), StatusCode::Ok);
-        let mut options: CObjectOptions = initialised(swiftprox_object_options_init_sized);
+        let mut options: CObjectOptions = CObjectOptions::DEFAULT;
         let mut ids = [ObjectId::NULL; 2];
         for (i, id) in ids.iter_mut().enumerate() {
             options.user_data = 10 + i as u64;

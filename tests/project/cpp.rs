@@ -1,32 +1,34 @@
 //! swiftprox.hpp leaves nothing of the C interface out: each function has its counterpart, each member of a config is set. The page
 //! about it shows an example that is compiled and run.
 
+use crate::headers::headers;
 use std::fs;
 use std::path::Path;
-
-const HEADERS: [&str; 2] =
-    [include_str!("../../include/swiftprox.h"), include_str!("../../include/swiftprox_tuning.h")];
 
 /// All files of swiftprox.hpp, one after the other.
 fn wrapper() -> String {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("include/swiftprox");
     let files = fs::read_dir(folder).expect("the folder of swiftprox.hpp is there").map(|entry| entry.unwrap().path());
-    files.map(|file| fs::read_to_string(file).unwrap()).collect()
+    files
+        .filter(|file| file.extension().is_some_and(|extension| extension == "hpp"))
+        .map(|file| fs::read_to_string(file).unwrap())
+        .collect()
 }
 
-/// The lines of both headers without comments.
-fn code() -> impl Iterator<Item = &'static str> {
-    HEADERS.iter().flat_map(|header| header.lines()).filter(|line| !line.trim_start().starts_with(['/', '*']))
+/// The lines of the headers without comments.
+fn code() -> Vec<String> {
+    let is_code = |line: &&str| !line.trim_start().starts_with(['/', '*']);
+    headers().concat().lines().filter(is_code).map(str::to_string).collect()
 }
 
 #[test]
 fn each_function_has_its_counterpart() {
     let wrapper = wrapper();
     let mut count = 0;
-    for line in code().filter(|line| !line.starts_with([' ', '#', 't', '}'])) {
+    for line in code().iter().filter(|line| !line.starts_with([' ', '#', 't', '}'])) {
         let name = line.split_once('(').map_or("", |(before, _)| before).split([' ', '*']).next_back().unwrap();
         // Configs begin with their defaults by member initialisers, which c_tests/cpp/cpp.cpp compares.
-        if name.starts_with("swiftprox_") && !name.ends_with("_init_sized") {
+        if name.starts_with("swiftprox_") {
             let is_used = wrapper
                 .match_indices(name)
                 .any(|(at, _)| !wrapper[at + name.len()..].starts_with(|c: char| c.is_alphanumeric() || c == '_'));
@@ -40,12 +42,11 @@ fn each_function_has_its_counterpart() {
 #[test]
 fn each_member_of_a_config_is_set() {
     let wrapper = wrapper();
-    let code: Vec<&str> = code().collect();
+    let code = code();
     let mut count = 0;
-    for config in
-        code.iter().filter_map(|line| line.strip_prefix("#define ")?.split_once("_init(pointer)")).map(|(name, _)| name)
-    {
-        let first = code.iter().position(|line| *line == format!("typedef struct {config} {{")).expect(config);
+    let is_default = |line: &String| Some(line.strip_prefix("#define ")?.split_once("_DEFAULT ")?.0.to_lowercase());
+    for config in code.iter().filter_map(is_default) {
+        let first = code.iter().position(|line| *line == format!("typedef struct {config} {{")).expect(&config);
         let to_c =
             wrapper.split_once(&format!("{config} to_c(")).unwrap_or_else(|| panic!("{config} has no counterpart")).1;
         let to_c = to_c.split_once("return c;").unwrap().0;

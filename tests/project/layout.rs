@@ -1,10 +1,12 @@
 //! Where the members of C's structs stand. c_tests/abi/layout.h has the numbers: here Rust's layout is compared with them, in
 //! c_tests/abi/layout.c that of the C compiler. `BLESS=1 cargo test --test project layout` rewrites them.
 
+use crate::headers::headers;
 use std::fmt::Write;
 use std::fs;
 use std::mem::{align_of, offset_of, size_of};
 use std::path::Path;
+use std::process::Command;
 
 use swiftprox::ffi::decomposition::CDecomposition;
 use swiftprox::ffi::depth::{CDepthCache, CDepthConfig, CManifoldCache, CManifoldConfig};
@@ -36,9 +38,6 @@ use swiftprox::scene::{
     Contact, FirstHit, GroupFilter, LeastDistance, ObjectPair, PairEvent, PairResult, PointEvent, SceneCastAnswer,
     SceneGroundContact, SceneRayHit, SceneStatistics,
 };
-
-const HEADERS: [&str; 2] =
-    [include_str!("../../include/swiftprox.h"), include_str!("../../include/swiftprox_tuning.h")];
 
 const TABLE: &str = "c_tests/abi/layout.h";
 
@@ -88,12 +87,10 @@ fn layouts() -> Vec<Layout> {
             struct_size, input, rotation, translation, scale, convexity_tolerance, progress, progress_user,
             tuning, face_noise, swept_radius
         },
-        swiftprox_decomposition = CDecomposition { corners, faces, pieces, capacity, triangle_count, piece_count },
         swiftprox_shape_info = ShapeInfo {
             struct_size, dimension, vertex_count, edge_count, face_count, triangle_count, volume,
             centre_of_mass, radius, lower_corner, upper_corner, bytes, inertia, swept_radius
         },
-        swiftprox_face = CFace { normal, offset, corner_count, label_count },
         swiftprox_feature = Feature { kind, ids },
         swiftprox_statistics = Statistics { marching_steps, fallback_iterations, exact_iterations, levels },
         swiftprox_pair_answer = PairAnswer {
@@ -123,22 +120,6 @@ fn layouts() -> Vec<Layout> {
         },
         swiftprox_manifold = Manifold { outcome, reference, lower, upper, normal, point_count, found_count },
         swiftprox_manifold_config = CManifoldConfig { struct_size, rotation_limit, margin, reduces },
-        swiftprox_half_space = HalfSpace { normal, offset },
-        swiftprox_motion = CMotion {
-            kind, start, end, centre, velocity, rotation, pose, user, bend, rounding
-        },
-        swiftprox_cast_answer = CastAnswer { outcome, queries, t_lo, t_hi, clearance, upper, contact },
-        swiftprox_cast_config = CCastConfig {
-            struct_size, t_begin, t_end, time_tolerance, margin, step_budget
-        },
-        swiftprox_clearance = Clearance { lower, upper, time, queries },
-        swiftprox_clearance_config = CClearanceConfig {
-            struct_size, t_begin, t_end, absolute_error, relative_error, step_budget
-        },
-        swiftprox_ray = Ray { origin, direction, t_max },
-        swiftprox_ray_answer = RayAnswer { outcome, exact, entry, exit, normal, feature, steps },
-        swiftprox_point_answer = PointAnswer { location, feature, distance, lower, upper, local, world, normal },
-        swiftprox_support_vertex = SupportVertex { vertex, exact, local, world, height },
         swiftprox_scene_options = CSceneOptions {
             struct_size, rotation_limit, worker_count, enqueue_task, finish_task, task_user
         },
@@ -154,26 +135,6 @@ fn layouts() -> Vec<Layout> {
         swiftprox_scene_answer = CSceneAnswer { pairs, count, intersecting, found },
         swiftprox_contact = Contact { depth, manifold, first_point },
         swiftprox_scene_contacts = CSceneContacts { contacts, count, points, point_count },
-        swiftprox_object_pair = ObjectPair { object1, object2, user_data1, user_data2 },
-        swiftprox_scene_events = CSceneEvents { began, began_count, ended, ended_count },
-        swiftprox_scene_statistics = SceneStatistics {
-            queries, pairs, marched, coherent, fallback, exact, marching_steps, fallback_iterations,
-            exact_iterations, within_tolerance, budget_spent, by_level, error_spent, bounding_spheres,
-            inscribed_spheres, unmoved, out_of_reach
-        },
-        swiftprox_ground_info = GroundInfo { vertex_count, triangle_count, bytes },
-        swiftprox_ground_distance = GroundDistance { answer, triangle },
-        swiftprox_ground_contact = GroundContact { manifold, triangle, first_point },
-        swiftprox_ground_count = GroundCount { contact_count, point_count },
-        swiftprox_object_set = CObjectSet { ids, count, poses, among },
-        swiftprox_least_distance = LeastDistance { lower, upper, nearest },
-        swiftprox_first_hit = FirstHit { time, tried, pair },
-        swiftprox_scene_ray_hit = SceneRayHit { object, user_data, piece, row, answer },
-        swiftprox_scene_ray_answer = CSceneRayAnswer { hits, count },
-        swiftprox_scene_cast_answer = SceneCastAnswer { outcome, queries, t_lo, t_hi, upper, pair },
-        swiftprox_group_filter = GroupFilter { groups, mask },
-        swiftprox_scene_ground_contact = SceneGroundContact { object, user_data, piece, contact },
-        swiftprox_scene_ground_answer = CSceneGroundAnswer { contacts, contact_count, points, point_count },
         swiftprox_pair_event = PairEvent {
             object1, object2, user_data1, user_data2, piece_user_data1, piece_user_data2, piece1, piece2, state,
             objects_state, result, first_point, point_count
@@ -181,6 +142,44 @@ fn layouts() -> Vec<Layout> {
         swiftprox_point_event = PointEvent { id, point, state },
         swiftprox_listener_events = CListenerEvents { pairs, count, points, point_count },
         swiftprox_pair_question = CPairQuestion { shape1, pose1, shape2, pose2, cache },
+        swiftprox_object_pair = ObjectPair { object1, object2, user_data1, user_data2 },
+        swiftprox_scene_events = CSceneEvents { began, began_count, ended, ended_count },
+        swiftprox_scene_statistics = SceneStatistics {
+            queries, pairs, marched, coherent, fallback, exact, marching_steps, fallback_iterations,
+            exact_iterations, within_tolerance, budget_spent, by_level, error_spent, bounding_spheres,
+            inscribed_spheres, unmoved, out_of_reach
+        },
+        swiftprox_object_set = CObjectSet { ids, count, poses, among },
+        swiftprox_least_distance = LeastDistance { lower, upper, nearest },
+        swiftprox_first_hit = FirstHit { time, tried, pair },
+        swiftprox_motion = CMotion {
+            kind, start, end, centre, velocity, rotation, pose, user, bend, rounding
+        },
+        swiftprox_cast_answer = CastAnswer { outcome, queries, t_lo, t_hi, clearance, upper, contact },
+        swiftprox_cast_config = CCastConfig {
+            struct_size, t_begin, t_end, time_tolerance, margin, step_budget
+        },
+        swiftprox_clearance = Clearance { lower, upper, time, queries },
+        swiftprox_clearance_config = CClearanceConfig {
+            struct_size, t_begin, t_end, absolute_error, relative_error, step_budget
+        },
+        swiftprox_scene_cast_answer = SceneCastAnswer { outcome, queries, t_lo, t_hi, upper, pair },
+        swiftprox_half_space = HalfSpace { normal, offset },
+        swiftprox_ground_info = GroundInfo { vertex_count, triangle_count, bytes },
+        swiftprox_ground_distance = GroundDistance { answer, triangle },
+        swiftprox_ground_contact = GroundContact { manifold, triangle, first_point },
+        swiftprox_ground_count = GroundCount { contact_count, point_count },
+        swiftprox_group_filter = GroupFilter { groups, mask },
+        swiftprox_scene_ground_contact = SceneGroundContact { object, user_data, piece, contact },
+        swiftprox_scene_ground_answer = CSceneGroundAnswer { contacts, contact_count, points, point_count },
+        swiftprox_face = CFace { normal, offset, corner_count, label_count },
+        swiftprox_decomposition = CDecomposition { corners, faces, pieces, capacity, triangle_count, piece_count },
+        swiftprox_ray = Ray { origin, direction, t_max },
+        swiftprox_ray_answer = RayAnswer { outcome, exact, entry, exit, normal, feature, steps },
+        swiftprox_scene_ray_hit = SceneRayHit { object, user_data, piece, row, answer },
+        swiftprox_scene_ray_answer = CSceneRayAnswer { hits, count },
+        swiftprox_point_answer = PointAnswer { location, feature, distance, lower, upper, local, world, normal },
+        swiftprox_support_vertex = SupportVertex { vertex, exact, local, world, height },
         swiftprox_replay_step_info = CReplayStep {
             struct_size, has_step, has_query, kind, cut_off, fraction
         },
@@ -209,8 +208,7 @@ fn layouts() -> Vec<Layout> {
 fn declared() -> Vec<(String, Vec<String>)> {
     let mut structs = Vec::new();
     let mut is_open = false;
-    let lines = HEADERS.iter().flat_map(|header| header.lines());
-    for line in lines.filter(|line| !line.trim_start().starts_with(['/', '*'])) {
+    for line in headers().concat().lines().filter(|line| !line.trim_start().starts_with(['/', '*'])) {
         if let Some(name) = line.strip_prefix("typedef struct ").and_then(|rest| rest.strip_suffix(" {")) {
             structs.push((name.to_string(), Vec::new()));
             is_open = true;
@@ -255,4 +253,112 @@ fn rust_lays_structs_out_as_the_table_says() {
         table == committed,
         "the layout is not that of {TABLE} (first difference: {different:?}); BLESS=1 cargo test --test project layout"
     );
+}
+
+/// The name of a struct, and its members' bytes.
+macro_rules! defaults {
+    ($name:ident = $value:expr, { $($member:ident),* }) => {{
+        let value = $value;
+        (stringify!($name), vec![$((stringify!($member), value.$member.bytes())),*])
+    }};
+}
+
+/// What C begins a struct with is what the library takes for null. Only members are compared: between them is nothing.
+#[test]
+#[cfg_attr(not(target_pointer_width = "64"), ignore = "the table is that of 64 bits")]
+fn constants_of_c_are_the_defaults_of_rust() {
+    let defaults = [
+        defaults!(swiftprox_shape_options = CShapeOptions::DEFAULT, { struct_size, input, rotation, translation, scale, convexity_tolerance, progress, progress_user, tuning, face_noise, swept_radius }),
+        defaults!(swiftprox_pair_config = CPairConfig::DEFAULT, { struct_size, distance_tolerance, rotation_limit, absolute_error, relative_error, step_budget, tuning }),
+        defaults!(swiftprox_depth_config = CDepthConfig::DEFAULT, { struct_size, rotation_limit, absolute_error, relative_error, step_budget }),
+        defaults!(swiftprox_manifold_config = CManifoldConfig::DEFAULT, { struct_size, rotation_limit, margin, reduces }),
+        defaults!(swiftprox_scene_options = CSceneOptions::DEFAULT, { struct_size, rotation_limit, worker_count, enqueue_task, finish_task, task_user }),
+        defaults!(swiftprox_object_options = CObjectOptions::DEFAULT, { struct_size, user_data, pose, fixed, groups, mask }),
+        defaults!(swiftprox_scene_query = CSceneQuery::DEFAULT, { struct_size, distance_tolerance, absolute_error, relative_error, error_budget, step_budget, early_exit, tuning, margin, detail }),
+        defaults!(swiftprox_cast_config = CCastConfig::defaults(), { struct_size, t_begin, t_end, time_tolerance, margin, step_budget }),
+        defaults!(swiftprox_clearance_config = CClearanceConfig::defaults(), { struct_size, t_begin, t_end, absolute_error, relative_error, step_budget }),
+        defaults!(swiftprox_shape_tuning = CShapeTuning::DEFAULT, { struct_size, hierarchy, lookup, decimation, minimum_triangles, most_levels, lookup_radius_factor, lookup_resolution }),
+        defaults!(swiftprox_pair_tuning = CPairTuning::DEFAULT, { struct_size, start, levels, refinement }),
+    ];
+    let constants =
+        headers().concat().lines().filter(|line| line.starts_with("#define ") && line.contains("_DEFAULT ")).count();
+    assert_eq!(constants, defaults.len(), "each constant is compared");
+    let printed = constants_of_c(&defaults.iter().map(|(name, _)| *name).collect::<Vec<_>>());
+    let layouts = layouts();
+    for ((name, ours), theirs) in defaults.iter().zip(printed.lines()) {
+        let theirs: Vec<u8> = theirs.split_whitespace().map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect();
+        let layout = layouts.iter().find(|layout| layout.name == *name).expect("each struct is listed");
+        assert_eq!((layout.size, layout.members.len()), (theirs.len(), ours.len()), "{name}");
+        for ((member, offset, size), (_, ours)) in layout.members.iter().zip(ours) {
+            assert_eq!(ours[..], theirs[*offset..offset + size], "{name}.{member}");
+        }
+    }
+}
+
+/// What is in memory of a member.
+trait Bytes {
+    fn bytes(&self) -> Vec<u8>;
+}
+
+macro_rules! bytes_of_numbers {
+    ($($number:ty),*) => {$(
+        impl Bytes for $number {
+            fn bytes(&self) -> Vec<u8> {
+                self.to_ne_bytes().to_vec()
+            }
+        }
+    )*};
+}
+
+bytes_of_numbers!(usize, u64, u32, i32, f64);
+
+impl<T: Bytes, const N: usize> Bytes for [T; N] {
+    fn bytes(&self) -> Vec<u8> {
+        self.iter().flat_map(Bytes::bytes).collect()
+    }
+}
+
+impl<T> Bytes for *const T {
+    fn bytes(&self) -> Vec<u8> {
+        self.addr().bytes()
+    }
+}
+
+impl<T> Bytes for *mut T {
+    fn bytes(&self) -> Vec<u8> {
+        self.addr().bytes()
+    }
+}
+
+/// A callback, of which there is none by default.
+impl<T> Bytes for Option<T> {
+    fn bytes(&self) -> Vec<u8> {
+        assert!(self.is_none());
+        0_usize.bytes()
+    }
+}
+
+/// What a C program prints of its constants, a line for each.
+fn constants_of_c(names: &[&str]) -> String {
+    let mut source = "#include <stdio.h>\n#include <string.h>\n".to_string();
+    for header in ["motion", "tuning"] {
+        writeln!(source, "#include \"swiftprox/{header}.h\"").unwrap();
+    }
+    source += "int main(void)\n{\n    unsigned char bytes[4096];\n    size_t i;\n";
+    for name in names {
+        let constant = format!("{}_DEFAULT", name.to_uppercase());
+        writeln!(source, "    {{\n        {name} value = {constant};\n        memcpy(bytes, &value, sizeof value);")
+            .unwrap();
+        source +=
+            "        for (i = 0; i < sizeof value; ++i) printf(\"%02x \", bytes[i]);\n        puts(\"\");\n    }\n";
+    }
+    source += "    return 0;\n}\n";
+    let folder = Path::new(env!("CARGO_TARGET_TMPDIR"));
+    let (unit, program) = (folder.join("constants.c"), folder.join("constants"));
+    fs::write(&unit, source).unwrap();
+    let include = Path::new(env!("CARGO_MANIFEST_DIR")).join("include");
+    let compiled = Command::new("cc").arg("-I").arg(include).arg(&unit).arg("-o").arg(&program).output();
+    let compiled = compiled.expect("a C compiler is installed");
+    assert!(compiled.status.success(), "{}", String::from_utf8_lossy(&compiled.stderr));
+    String::from_utf8(Command::new(program).output().unwrap().stdout).unwrap()
 }

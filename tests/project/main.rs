@@ -2,6 +2,7 @@
 
 mod architecture;
 mod cpp;
+mod headers;
 mod layout;
 mod links;
 mod symbols;

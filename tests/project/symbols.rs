@@ -1,6 +1,7 @@
 //! What the shared library exports: functions of our nouns under our own prefix (`swift_` is that of the Swift language's runtime,
 //! which may live in the same process), and nothing else. Needs `nm`, which `make test` installs.
 
+use crate::headers::headers;
 use std::fs;
 use std::path::{Path, PathBuf};
 use std::process::Command;
@@ -29,11 +30,6 @@ fn library() -> PathBuf {
     std::env::current_exe().expect("a test knows where it is").with_file_name("libswiftprox.so")
 }
 
-/// What a program includes.
-fn headers() -> String {
-    [include_str!("../../include/swiftprox.h"), include_str!("../../include/swiftprox_tuning.h")].concat()
-}
-
 /// Names of the dynamic symbols that are defined.
 fn exports() -> Vec<String> {
     let output = Command::new("nm").args(["-D", "--defined-only"]).arg(library()).output();
@@ -47,7 +43,7 @@ fn exports() -> Vec<String> {
 #[cfg_attr(not(target_os = "linux"), ignore = "shared libraries of Linux")]
 fn only_functions_of_our_nouns_are_exported() {
     let exports = exports();
-    let header = headers();
+    let header = headers().concat();
     assert!(exports.len() > 30, "{exports:?}");
     for name in exports {
         let word = name.strip_prefix("swiftprox_").unwrap_or_else(|| panic!("{name} is exported without the prefix"));
@@ -62,7 +58,7 @@ fn only_functions_of_our_nouns_are_exported() {
 fn every_function_of_the_header_is_exported() {
     let exports = exports();
     let mut count = 0;
-    for line in headers().lines().filter(|line| !line.starts_with([' ', '#', '/'])) {
+    for line in headers().concat().lines().filter(|line| !line.starts_with([' ', '#', '/'])) {
         let declaration = line.split_once('(').map_or("", |(declaration, _)| declaration);
         let name = declaration.split([' ', '*']).next_back().unwrap_or_default();
         if name.starts_with("swiftprox_") && !declaration.starts_with("typedef") {

@@ -65,8 +65,7 @@ static int collide(const mjModel *model, mjData *data, mjPreContact *contacts, i
     if (!*cache && !(*cache = calloc(1, sizeof **cache))) {
         mju_error("no memory for a pair's cache");
     }
-    swiftprox_manifold_config config;
-    swiftprox_manifold_config_init(&config);
+    swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
     config.margin = margin;
     config.reduces = 1;
     double pose1[12], pose2[12];

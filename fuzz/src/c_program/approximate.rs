@@ -13,7 +13,7 @@ use swiftprox::ffi::tuning::*;
 use swiftprox::pair::{Levels, Outcome, PairAnswer, Refinement, Start};
 use swiftprox::scene::PairResult;
 
-use super::arguments::{Block, any_pose, array, initialised, mesh_arrays, options, shape_options, start};
+use super::arguments::{Block, any_pose, array, mesh_arrays, options, shape_options, start};
 use super::shapes::ask_alike;
 use super::{Program, check_verified, last_message};
 use crate::geometry::{any_number, inside};
@@ -28,8 +28,8 @@ const REFINEMENTS: [Refinement; 4] =
 /// A config with every member set; now and then one is out of range, or the struct of another size.
 fn any_config(u: &mut Unstructured) -> Result<Option<Block>> {
     let mut last = 1.0;
-    let mut config: CPairConfig = initialised(swiftprox_pair_config_init_sized);
-    let mut tuning: CPairTuning = initialised(swiftprox_pair_tuning_init_sized);
+    let mut config: CPairConfig = CPairConfig::DEFAULT;
+    let mut tuning: CPairTuning = CPairTuning::DEFAULT;
     config.distance_tolerance = if u.arbitrary()? { f64::INFINITY } else { any_number(u, &mut last)?.abs() };
     tuning.start = *u.choose(&STARTS)? as i32;
     config.absolute_error = *u.choose(&ERRORS)?;
@@ -101,8 +101,8 @@ impl Program {
     pub fn scene_query_through_levels(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
         let place = self.scene(u)?;
         let scene = &self.scenes[place];
-        let mut query: CSceneQuery = initialised(swiftprox_scene_query_init_sized);
-        let mut tuning: CPairTuning = initialised(swiftprox_pair_tuning_init_sized);
+        let mut query: CSceneQuery = CSceneQuery::DEFAULT;
+        let mut tuning: CPairTuning = CPairTuning::DEFAULT;
         query.early_exit = i32::from(u.ratio(1, 8)?);
         query.absolute_error = *u.choose(&ERRORS)?;
         query.relative_error = *u.choose(&ERRORS)?;

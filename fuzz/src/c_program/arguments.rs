@@ -59,16 +59,6 @@ impl Drop for Block {
     }
 }
 
-/// A struct as its macro fills it.
-pub fn initialised<T>(init: unsafe extern "C" fn(*mut T, usize)) -> T {
-    let mut value = std::mem::MaybeUninit::<T>::zeroed();
-    // SAFETY: room for the struct; zero is a value of every member, then written by the library.
-    unsafe {
-        init(value.as_mut_ptr(), size_of::<T>());
-        value.assume_init()
-    }
-}
-
 /// Null one time in sixteen.
 pub fn or_null<T>(u: &mut Unstructured, pointer: *mut T) -> Result<*mut T> {
     Ok(if u.ratio(1, 16)? { null_mut() } else { pointer })
@@ -146,20 +136,19 @@ pub fn pair_config(u: &mut Unstructured) -> Result<Option<Block>> {
     let tolerance = any_number(u, &mut last)?.to_ne_bytes();
     let limit = any_number(u, &mut last)?.to_ne_bytes();
     let start = u.int_in_range(-1..=2_i32)?;
-    let tuning = Block::of(&[CPairTuning { start, ..initialised(swiftprox_pair_tuning_init_sized) }]);
+    let tuning = Block::of(&[CPairTuning { start, ..CPairTuning::DEFAULT }]);
     let changes = [
         (std::mem::offset_of!(CPairConfig, distance_tolerance), &tolerance[..]),
         (std::mem::offset_of!(CPairConfig, rotation_limit), &limit[..]),
     ];
-    let config =
-        options(u, &CPairConfig { tuning: tuning.at(), ..initialised(swiftprox_pair_config_init_sized) }, &changes)?;
+    let config = options(u, &CPairConfig { tuning: tuning.at(), ..CPairConfig::DEFAULT }, &changes)?;
     Ok(config.map(|config: Block| config.with(Some(tuning))))
 }
 
 /// Half of the time the convex hull is asked for, which makes a shape of nearly anything.
 pub fn shape_options(u: &mut Unstructured) -> Result<Option<Block>> {
-    let mut tuning: CShapeTuning = initialised(swiftprox_shape_tuning_init_sized);
-    let mut value: CShapeOptions = initialised(swiftprox_shape_options_init_sized);
+    let mut tuning: CShapeTuning = CShapeTuning::DEFAULT;
+    let mut value: CShapeOptions = CShapeOptions::DEFAULT;
     tuning.hierarchy = u.int_in_range(0..=3)?;
     tuning.minimum_triangles = u.int_in_range(0..=20)?;
     tuning.lookup = u.int_in_range(0..=3)?;

@@ -10,7 +10,7 @@ use swiftprox::ffi::half_space::*;
 use swiftprox::ground::{Ground, GroundContact, GroundDistance};
 use swiftprox::pair::{HalfSpace, Manifold, ManifoldPoint, Outcome, SignedDistance};
 
-use super::arguments::{Block, any_pose, array, initialised, options, or_null, pair_config, start};
+use super::arguments::{Block, any_pose, array, options, or_null, pair_config, start};
 use super::{MOST_POINTS, Program, last_message};
 use crate::geometry::{any_number, any_points, inside};
 
@@ -136,7 +136,7 @@ impl Program {
 
 fn manifold_config(u: &mut Unstructured) -> Result<Option<Block>> {
     let mut last = 1.0;
-    let mut config: CManifoldConfig = initialised(swiftprox_manifold_config_init_sized);
+    let mut config: CManifoldConfig = CManifoldConfig::DEFAULT;
     config.margin = any_number(u, &mut last)?.abs();
     config.reduces = u.arbitrary()?;
     let limit = any_number(u, &mut last)?.to_ne_bytes();

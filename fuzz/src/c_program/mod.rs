@@ -16,11 +16,9 @@ use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use swiftprox::base::simd::environment::Environment;
 use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::library::*;
-use swiftprox::ffi::object::*;
 use swiftprox::ffi::pair::*;
 use swiftprox::ffi::scene::*;
 use swiftprox::ffi::shape::*;
-use swiftprox::ffi::shape_options::*;
 use swiftprox::object::ObjectId;
 use swiftprox::pair::PairAnswer;
 use swiftprox::shape::Shape;
@@ -146,11 +144,8 @@ fn library(u: &mut Unstructured, call: u32) -> Result<StatusCode> {
     // SAFETY: what is null may be, by the header.
     unsafe {
         match call {
-            0 => swiftprox_shape_options_init_sized(null_mut(), u.arbitrary()?),
-            1 => swiftprox_scene_options_init_sized(null_mut(), u.arbitrary()?),
-            2 => swiftprox_pair_config_init_sized(null_mut(), u.arbitrary()?),
-            3 => return Ok(swiftprox_scene_destroy(null_mut())),
-            4 => swiftprox_shape_release(null()),
+            0 => return Ok(swiftprox_scene_destroy(null_mut())),
+            1 => swiftprox_shape_release(null()),
             _ => {
                 let _ = swiftprox_library_version();
                 let number = u.arbitrary()?;
@@ -158,7 +153,6 @@ fn library(u: &mut Unstructured, call: u32) -> Result<StatusCode> {
                 let _ = swiftprox_library_outcome_string(number);
                 let _ = swiftprox_library_feature_kind_string(number);
                 let _ = swiftprox_library_decided_by_string(number);
-                swiftprox_object_options_init_sized(null_mut(), u.arbitrary()?);
             }
         }
     }

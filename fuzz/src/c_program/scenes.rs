@@ -17,9 +17,7 @@ use swiftprox::pair::Outcome;
 use swiftprox::scene::{PairResult, SceneStatistics};
 use swiftprox::shape::Shape;
 
-use super::arguments::{
-    Block, any_pose, array, initialised, mesh_arrays, mesh_file, options, or_null, shape_options, start,
-};
+use super::arguments::{Block, any_pose, array, options, or_null, start};
 use super::model::{Object, Scene, refuses};
 use super::{MOST_OBJECTS, MOST_SCENES, MOST_SHAPES, Program, check_verified, last_message};
 use crate::geometry::{any_number, inside};
@@ -34,7 +32,7 @@ impl Program {
         }
         let mut last = 1e-2;
         let limit = any_number(u, &mut last)?.to_ne_bytes();
-        let value: CSceneOptions = initialised(swiftprox_scene_options_init_sized);
+        let value: CSceneOptions = CSceneOptions::DEFAULT;
         let options = options(u, &value, &[(std::mem::offset_of!(CSceneOptions, rotation_limit), &limit)])?;
         let mut handle = null_mut();
         // SAFETY: as large as it says or null, and room for the scene.
@@ -83,7 +81,7 @@ impl Program {
         let place = self.scene(u)?;
         let (handle, user_data) = (self.scenes[place].handle, u.arbitrary::<u64>()?);
         let fixed = u.ratio(1, 4)?;
-        let mut value: CObjectOptions = initialised(swiftprox_object_options_init_sized);
+        let mut value: CObjectOptions = CObjectOptions::DEFAULT;
         (value.user_data, value.fixed) = (user_data, i32::from(fixed));
         (value.groups, value.mask) = (u.int_in_range(0..=3)?, u.int_in_range(0..=3)?);
         // SAFETY: twelve doubles.
@@ -93,43 +91,13 @@ impl Program {
         let mut pieces = Vec::new();
         // SAFETY: living shapes, blocks as large as they say, or null.
         let status = unsafe {
-            match u.int_in_range(0..=7)? {
-                0 => {
-                    let (shape_options, arrays) = (shape_options(u)?, mesh_arrays(u)?);
-                    pieces.push(null());
-                    let valences = if arrays.triangles { null_mut() } else { arrays.valences.at() };
-                    swiftprox_scene_add_mesh(
-                        handle,
-                        arrays.vertices.at(),
-                        arrays.vertex_count,
-                        arrays.indices.at(),
-                        valences,
-                        arrays.face_count,
-                        start(&shape_options),
-                        start(&given),
-                        &mut id,
-                    )
-                }
-                1 => {
-                    let (shape_options, path) = (shape_options(u)?, mesh_file(u)?);
-                    pieces.push(null());
-                    let path = path.as_ref().map_or(null(), |path| path.as_ptr());
-                    swiftprox_scene_add_file(handle, path, start(&shape_options), start(&given), &mut id)
-                }
-                _ => {
-                    for _ in 0..u.int_in_range(0..=3)? {
-                        pieces.push(self.shape(u)?);
-                    }
-                    let block = Block::of(&pieces);
-                    let (array, count) = array(u, block.at::<*const Shape>(), pieces.len())?;
-                    pieces.truncate(count);
-                    if let ([piece], true) = (&pieces[..], user_data % 2 == 0) {
-                        swiftprox_scene_add_shape(handle, *piece, start(&given), &mut id)
-                    } else {
-                        swiftprox_scene_add_object(handle, array, count, start(&given), &mut id)
-                    }
-                }
+            for _ in 0..u.int_in_range(0..=3)? {
+                pieces.push(self.shape(u)?);
             }
+            let block = Block::of(&pieces);
+            let (array, count) = array(u, block.at::<*const Shape>(), pieces.len())?;
+            pieces.truncate(count);
+            swiftprox_scene_add_object(handle, array, count, start(&given), &mut id)
         };
         assert_eq!(status == StatusCode::Ok, id != ObjectId::NULL, "{}", last_message());
         if status == StatusCode::Ok {
@@ -201,7 +169,7 @@ impl Program {
                     self.scenes[place].objects[found].user_data = user_data;
                 }
                 // SAFETY: a living scene.
-                unsafe { swiftprox_scene_set_user_data(handle, id, user_data) }
+                unsafe { changed(handle, id, |info| info.user_data = user_data) }
             }
         };
         assert_eq!(status, if found.is_some() { StatusCode::Ok } else { StatusCode::ErrorHandle });
@@ -265,12 +233,13 @@ impl Program {
                 }
                 2 => {
                     let poses = Block::of(&all[..count]);
-                    swiftprox_scene_set_all_poses(scene.handle, poses.at(), count)
+                    swiftprox_scene_set_poses(scene.handle, null(), poses.at(), count)
                 }
                 _ => {
                     let (rotations, translations) = (Block::of(&rotations[..count]), Block::of(&translations[..count]));
-                    swiftprox_scene_set_all_transforms(
+                    swiftprox_scene_set_transforms(
                         scene.handle,
+                        null(),
                         rotations.at(),
                         or_null(u, translations.at())?,
                         count,
@@ -290,8 +259,7 @@ impl Program {
         unsafe {
             Ok(match u.int_in_range(0..=3)? {
                 0 => {
-                    let call = if active { swiftprox_scene_activate_pair } else { swiftprox_scene_deactivate_pair };
-                    let status = call(scene.handle, id1, id2);
+                    let status = swiftprox_scene_set_pair_active(scene.handle, &id1, &id2, i32::from(active));
                     assert_eq!(status == StatusCode::Ok, first.is_some() && second.is_some() && id1 != id2);
                     if status == StatusCode::Ok {
                         scene.activate(active, |a, b| both.contains(&a.id) && both.contains(&b.id));
@@ -299,23 +267,18 @@ impl Program {
                     status
                 }
                 1 => {
-                    let call = if active { swiftprox_scene_activate_object } else { swiftprox_scene_deactivate_object };
-                    let status = call(scene.handle, id1);
+                    let status = swiftprox_scene_set_pair_active(scene.handle, &id1, null(), i32::from(active));
                     assert_eq!(status == StatusCode::Ok, first.is_some());
                     scene.activate(active, |a, b| a.id == id1 || b.id == id1);
                     status
                 }
                 2 => {
                     scene.activate(active, |_, _| true);
-                    if active {
-                        swiftprox_scene_activate_all(scene.handle)
-                    } else {
-                        swiftprox_scene_deactivate_all(scene.handle)
-                    }
+                    swiftprox_scene_set_pair_active(scene.handle, null(), null(), i32::from(active))
                 }
                 _ => {
                     let mut answer = 7;
-                    let status = swiftprox_scene_is_pair_active(scene.handle, id1, id2, &mut answer);
+                    let status = swiftprox_scene_get_pair_active(scene.handle, id1, id2, &mut answer);
                     let expected = match (first, second) {
                         (Some(i), Some(j)) if i != j => {
                             scene.is_active(&scene.objects[i.min(j)], &scene.objects[i.max(j)])
@@ -332,11 +295,11 @@ impl Program {
     pub fn scene_query(&mut self, u: &mut Unstructured) -> Result<StatusCode> {
         let place = self.scene(u)?;
         let scene = &self.scenes[place];
-        let mut value: CSceneQuery = initialised(swiftprox_scene_query_init_sized);
+        let mut value: CSceneQuery = CSceneQuery::DEFAULT;
         let mut last = 1.0;
         let tolerance = any_number(u, &mut last)?.to_ne_bytes();
         let levels = u.int_in_range(-1..=2_i32)?;
-        let tuning = CPairTuning { levels, ..initialised(swiftprox_pair_tuning_init_sized) };
+        let tuning = CPairTuning { levels, ..CPairTuning::DEFAULT };
         if levels != 0 {
             value.tuning = &tuning;
         }
@@ -398,7 +361,7 @@ impl Program {
                     if let Some(found) = found {
                         scene.objects[found].fixed = fixed;
                     }
-                    swiftprox_scene_set_fixed(scene.handle, id, i32::from(fixed))
+                    changed(scene.handle, id, |info| info.fixed = i32::from(fixed))
                 }
                 1 => {
                     let (groups, mask) = (u.int_in_range(0..=3)?, u.int_in_range(0..=3)?);
@@ -406,7 +369,7 @@ impl Program {
                         scene.objects[found].groups = if groups == 0 { 1 } else { groups };
                         scene.objects[found].mask = if mask == 0 { u32::MAX } else { mask };
                     }
-                    swiftprox_scene_set_filter(scene.handle, id, groups, mask)
+                    changed(scene.handle, id, |info| (info.groups, info.mask) = (groups, mask))
                 }
                 2 => {
                     let (pose, piece) = (any_pose(u)?, u.int_in_range(0..=3)?);
@@ -437,15 +400,14 @@ impl Program {
         let scene = &mut self.scenes[place];
         // SAFETY: a living scene, a block of the ids; the callback takes any ids and its number.
         unsafe {
-            Ok(match u.int_in_range(0..=3)? {
+            Ok(match u.int_in_range(0..=2)? {
                 0 => {
                     scene.refused = u.arbitrary::<bool>()?.then_some(u.int_in_range(0..=2)?);
                     let callback: PairFilterCallback = if scene.refused.is_some() { Some(says) } else { None };
                     let user = std::ptr::without_provenance_mut(scene.refused.unwrap_or_default() as usize);
                     swiftprox_scene_set_pair_filter(scene.handle, callback, user)
                 }
-                1 => swiftprox_scene_filter_again(scene.handle),
-                2 => {
+                1 => {
                     scene.given = None;
                     swiftprox_scene_reset_pairs(scene.handle)
                 }
@@ -471,7 +433,7 @@ impl Program {
         let place = self.scene(u)?;
         let (id, shape) = (self.id(u, place)?, self.shape(u)?);
         let scene = &self.scenes[place];
-        let mut value: CSceneQuery = initialised(swiftprox_scene_query_init_sized);
+        let mut value: CSceneQuery = CSceneQuery::DEFAULT;
         let mut last = 1.0;
         value.distance_tolerance = any_number(u, &mut last)?;
         let given = options(u, &value, &[])?;
@@ -553,4 +515,22 @@ pub unsafe fn check_result(scene: *const SceneHandle, result: &PairResult) {
         (placed(result.object1, result.piece1), placed(result.object2, result.piece2));
     // SAFETY: living shapes and twelve doubles each.
     unsafe { check_verified([shape1, shape2], [pose1.as_ptr(), pose2.as_ptr()], &result.answer) };
+}
+
+/// Reads what an object is, and writes it back with a change.
+///
+/// # Safety
+/// A living scene.
+unsafe fn changed(handle: *mut SceneHandle, id: ObjectId, change: impl FnOnce(&mut ObjectInfo)) -> StatusCode {
+    let mut info = std::mem::MaybeUninit::<ObjectInfo>::uninit();
+    // SAFETY: room for an info, whose size is written first; a living scene by the caller.
+    unsafe {
+        info.as_mut_ptr().cast::<usize>().write(size_of::<ObjectInfo>());
+        let status = swiftprox_scene_get_object_info(handle, id, info.as_mut_ptr());
+        let mut info = info.assume_init();
+        change(&mut info);
+        let second = swiftprox_scene_set_object_info(handle, id, &info);
+        assert_eq!(status, second, "{}", last_message());
+        second
+    }
 }

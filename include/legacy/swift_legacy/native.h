@@ -6,7 +6,9 @@
 #include <cstring>
 #include <limits>
 #include <swiftprox.h>
-#include <swiftprox_tuning.h>
+#include <swiftprox/geometry.h>
+#include <swiftprox/scene.h>
+#include <swiftprox/tuning.h>
 
 #include "defaults.h"
 #include "mesh.h"
@@ -71,16 +73,14 @@ inline void find_tolerance(Mesh& mesh)
 /* A shape, or null after a failure, which swiftprox_library_last_error_message explains. levels[0] is the body. */
 inline const swiftprox_shape* make_shape(const std::vector<Mesh>& levels, const LevelOptions& level_options)
 {
-    swiftprox_shape_options options;
-    swiftprox_shape_options_init(&options);
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
 #ifdef SWIFT_LEGACY_STRICT
     options.input = SWIFTPROX_INPUT_FLAT;
 #else
     options.input = SWIFTPROX_INPUT_NEARLY_CONVEX;
 #endif
     options.convexity_tolerance = levels[0].tolerance;
-    swiftprox_shape_tuning tuning;
-    swiftprox_shape_tuning_init(&tuning);
+    swiftprox_shape_tuning tuning = SWIFTPROX_SHAPE_TUNING_DEFAULT;
     const swiftprox_shape* shape = NULL;
     swiftprox_status status;
     if (levels.size() > 1) {
@@ -110,8 +110,7 @@ inline const swiftprox_shape* make_shape(const std::vector<Mesh>& levels, const 
 /* The hull of a piece of a decomposition; null after a failure. */
 inline const swiftprox_shape* make_hull_of_patch(const Mesh& mesh)
 {
-    swiftprox_shape_options options;
-    swiftprox_shape_options_init(&options);
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     options.input = SWIFTPROX_INPUT_PATCH;
     const swiftprox_shape* shape = NULL;
     const swiftprox_mesh body = native_mesh(mesh);
@@ -123,8 +122,7 @@ inline const swiftprox_shape* make_hull_of_patch(const Mesh& mesh)
 /* The convex hull of a mesh's vertices, which may be flat; null after a failure. */
 inline const swiftprox_shape* make_hull(const Mesh& mesh)
 {
-    swiftprox_shape_options options;
-    swiftprox_shape_options_init(&options);
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
     options.input = SWIFTPROX_INPUT_HULL;
     const swiftprox_shape* shape = NULL;
     const swiftprox_status status =
@@ -174,14 +172,14 @@ inline swiftprox_status set_all_transforms(swiftprox_scene* scene, const SWIFT_R
                                            std::size_t count)
 {
     std::vector<double> R(room_for(rotations, 9 * count)), T(room_for(translations, 3 * count));
-    return swiftprox_scene_set_all_transforms(scene, doubles(rotations, &R[0], 9 * count), doubles(translations, &T[0], 3 * count),
-                                              count);
+    return swiftprox_scene_set_transforms(scene, NULL, doubles(rotations, &R[0], 9 * count), doubles(translations, &T[0], 3 * count),
+                                          count);
 }
 
 inline swiftprox_status set_all_poses(swiftprox_scene* scene, const SWIFT_Real* poses, std::size_t count)
 {
     std::vector<double> RT(room_for(poses, 12 * count));
-    return swiftprox_scene_set_all_poses(scene, doubles(poses, &RT[0], 12 * count), count);
+    return swiftprox_scene_set_poses(scene, NULL, doubles(poses, &RT[0], 12 * count), count);
 }
 
 /* The largest double below a positive one. */

@@ -9,7 +9,8 @@ inline SWIFT_Scene::SWIFT_Scene(bool broad_phase, bool)
         swift_legacy::report_failure("Error (SWIFT_Scene): ");
     }
     check(swiftprox_scene_create(NULL, &scene_), "SWIFT_Scene");
-    swiftprox_scene_query_init(&query_);
+    const swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
+    query_ = query;
 }
 
 inline SWIFT_Scene::~SWIFT_Scene()
@@ -44,8 +45,7 @@ inline bool SWIFT_Scene::insert(const char* method, std::vector<swift_legacy::Pa
     }
     objects_.reserve();
     const int next = objects_.next_id();
-    swiftprox_object_options options;
-    swiftprox_object_options_init(&options);
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     options.fixed = fixed ? 1 : 0;
     options.user_data = static_cast<uint64_t>(next);
     swiftprox_object_id native;
@@ -273,7 +273,11 @@ inline bool SWIFT_Scene::Copy_Object(int copy_oid, int& id)
         swift_legacy::report_failure("Error (Copy_Object): ");
         return false;
     }
-    check(swiftprox_scene_set_user_data(scene_, native, static_cast<uint64_t>(next)), "Copy_Object");
+    swiftprox_object_info info;
+    info.struct_size = sizeof info;
+    check(swiftprox_scene_get_object_info(scene_, native, &info), "Copy_Object");
+    info.user_data = static_cast<uint64_t>(next);
+    check(swiftprox_scene_set_object_info(scene_, native, &info), "Copy_Object");
     objects_.add(native, objects_[copy_oid].is_fixed, copy);
     id = next;
     return true;

@@ -55,39 +55,39 @@ inline bool SWIFT_Scene::has_pair(int id1, int id2, const char* method) const
 inline void SWIFT_Scene::Activate(int id1, int id2)
 {
     if (has_pair(id1, id2, "Activate(id1,id2)")) {
-        check(swiftprox_scene_activate_pair(scene_, objects_[id1].native, objects_[id2].native), "Activate");
+        check(swiftprox_scene_set_pair_active(scene_, &objects_[id1].native, &objects_[id2].native, 1), "Activate");
     }
 }
 
 inline void SWIFT_Scene::Activate(int id)
 {
     if (has_object(id, "Activate(id)")) {
-        check(swiftprox_scene_activate_object(scene_, objects_[id].native), "Activate");
+        check(swiftprox_scene_set_pair_active(scene_, &objects_[id].native, NULL, 1), "Activate");
     }
 }
 
 inline void SWIFT_Scene::Activate()
 {
-    check(swiftprox_scene_activate_all(scene_), "Activate");
+    check(swiftprox_scene_set_pair_active(scene_, NULL, NULL, 1), "Activate");
 }
 
 inline void SWIFT_Scene::Deactivate(int id1, int id2)
 {
     if (has_pair(id1, id2, "Deactivate(id1,id2)")) {
-        check(swiftprox_scene_deactivate_pair(scene_, objects_[id1].native, objects_[id2].native), "Deactivate");
+        check(swiftprox_scene_set_pair_active(scene_, &objects_[id1].native, &objects_[id2].native, 0), "Deactivate");
     }
 }
 
 inline void SWIFT_Scene::Deactivate(int id)
 {
     if (has_object(id, "Deactivate(id)")) {
-        check(swiftprox_scene_deactivate_object(scene_, objects_[id].native), "Deactivate");
+        check(swiftprox_scene_set_pair_active(scene_, &objects_[id].native, NULL, 0), "Deactivate");
     }
 }
 
 inline void SWIFT_Scene::Deactivate()
 {
-    check(swiftprox_scene_deactivate_all(scene_), "Deactivate");
+    check(swiftprox_scene_set_pair_active(scene_, NULL, NULL, 0), "Deactivate");
 }
 
 #endif

@@ -1,5 +1,5 @@
 /*
- * swiftprox: levels of detail and look-up tables, for whoever measures. What is here changes how long making a shape and answering
+ * swiftprox. Levels of detail and look-up tables, for whoever measures. What is here changes how long making a shape and answering
  * a query take, and what they take of memory. It never changes a verdict. The conventions are those of swiftprox.h.
  */
 
@@ -8,7 +8,7 @@
 #ifndef SWIFTPROX_TUNING_H
 #define SWIFTPROX_TUNING_H
 
-#include "swiftprox.h"
+#include "../swiftprox.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -54,11 +54,11 @@ typedef enum swiftprox_lookup SWIFTPROX_INT32 {
 } swiftprox_lookup;
 
 /**
- * Which levels of detail and which look-up table a shape is made with, for swiftprox_shape_options.tuning. Fill it with
- * swiftprox_shape_tuning_init, then change what should differ.
+ * Which levels of detail and which look-up table a shape is made with, for swiftprox_shape_options.tuning. Begin with
+ * SWIFTPROX_SHAPE_TUNING_DEFAULT, then change what should differ.
  */
 typedef struct swiftprox_shape_tuning {
-  /** Set by swiftprox_shape_tuning_init. */
+  /** Set by SWIFTPROX_SHAPE_TUNING_DEFAULT. */
   size_t struct_size;
   /** How levels of detail are made. Default: automatic. */
   swiftprox_hierarchy hierarchy;
@@ -87,16 +87,11 @@ typedef struct swiftprox_shape_tuning {
    */
   uint32_t lookup_resolution;
 } swiftprox_shape_tuning;
+/** What the header calls its default. */
 
-/**
- * Fills `tuning` with the defaults. Call it as swiftprox_shape_tuning_init(&tuning), which hands over the size that the program
- * was compiled with. Null is ignored.
- *
- * Experimental.
- */
-void swiftprox_shape_tuning_init_sized(struct swiftprox_shape_tuning *tuning,
-                                       size_t struct_size);
-#define swiftprox_shape_tuning_init(pointer) swiftprox_shape_tuning_init_sized((pointer), sizeof *(pointer))
+/** Begins a swiftprox_shape_tuning: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_SHAPE_TUNING_DEFAULT \
+  {sizeof(swiftprox_shape_tuning), SWIFTPROX_HIERARCHY_AUTOMATIC, SWIFTPROX_LOOKUP_AUTOMATIC, 0.25, 50, 32, 2, 0}
 
 /**
  * Which levels of detail and which look-up table a shape has. Set struct_size to sizeof(swiftprox_shape_tuning_info) before asking
@@ -293,11 +288,11 @@ typedef enum swiftprox_refinement SWIFTPROX_INT32 {
 
 /**
  * Where queries start and which levels of detail they go through, for swiftprox_pair_config.tuning and
- * swiftprox_scene_query.tuning. It changes how fast an answer comes, never the verdict. Fill it with swiftprox_pair_tuning_init,
+ * swiftprox_scene_query.tuning. It changes how fast an answer comes, never the verdict. Begin with SWIFTPROX_PAIR_TUNING_DEFAULT,
  * then change what should differ.
  */
 typedef struct swiftprox_pair_tuning {
-  /** Set by swiftprox_pair_tuning_init. */
+  /** Set by SWIFTPROX_PAIR_TUNING_DEFAULT. */
   size_t struct_size;
   /** Where marching starts. Default: the automatic choice. */
   swiftprox_start start;
@@ -306,16 +301,11 @@ typedef struct swiftprox_pair_tuning {
   /** How they go from level to level. Default: the adaptive way. */
   swiftprox_refinement refinement;
 } swiftprox_pair_tuning;
+/** What the header calls its default. */
 
-/**
- * Fills `tuning` with the defaults. Call it as swiftprox_pair_tuning_init(&tuning), which hands over the size that the program was
- * compiled with. Null is ignored.
- *
- * Experimental.
- */
-void swiftprox_pair_tuning_init_sized(struct swiftprox_pair_tuning *tuning,
-                                      size_t struct_size);
-#define swiftprox_pair_tuning_init(pointer) swiftprox_pair_tuning_init_sized((pointer), sizeof *(pointer))
+/** Begins a swiftprox_pair_tuning: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_PAIR_TUNING_DEFAULT \
+  {sizeof(swiftprox_pair_tuning), SWIFTPROX_START_AUTOMATIC, SWIFTPROX_LEVELS_AUTOMATIC, SWIFTPROX_REFINEMENT_ADAPTIVE}
 
 /** @} */
 
