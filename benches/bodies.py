@@ -253,14 +253,14 @@ def sides_of(row):
 # ---- tables ----
 
 MOTIONS = {"0.1": "0.1°", "1": "1°", "10": "10°", "random": "random"}
-NAMED = 5  # bodies of a query whose ratios are the least
+NAMED = 3  # bodies of a query whose ratios are the least
 
 
 def judgement(rows):
     """Beside whom, how many answers were held against integers, and how they stood."""
     own = [row for row in rows if row["method"].startswith(OWN)]
     judged, wrong, missed = (sum(int(row[name]) for row in own) for name in ("judged", "wrong", "missed"))
-    return f"The others: {others_of(strongest(rows))}. The run held {judged:,} of its answers against integers: {wrong} were wrong, and {missed} intervals missed the truth."
+    return f"The others: {others_of(strongest(rows))}. Integers judged {judged:,} answers of the run: {wrong} were wrong, and {missed} intervals missed the truth."
 
 
 def family_table(rows):
@@ -295,7 +295,7 @@ def first_table(rows):
 def weak_table(rows):
     """Of each query the bodies with the least ratios, each at its worst motion and in its worst form."""
     rows = strongest(rows)
-    lines = ["| query | how many times as long the quickest other library takes, at least |", "|---|---|"]
+    lines = ["| query | least speed-up over the fastest other library |", "|---|---|"]
     for query in QUERIES:
         least = {}
         for body in in_order((row["body"], row["form"]) for row in of(rows, query=query)):
@@ -311,20 +311,21 @@ def weak_table(rows):
 def instruction_table(counts):
     """Geometric means of a family: our instructions a query, and behind them how many times as many the other library takes that
     takes the fewest."""
-    lines = ["| query | bodies | " + " | ".join(MOTIONS.values()) + " |", "|---|---|" + "--:|" * len(STEPS)]
+    lines = ["| query | bodies | " + " | ".join(MOTIONS[step] for step in STEPS) + " |", "|---|---|" + "--:|" * len(STEPS)]
     for query in QUERIES:
         for family, name in FAMILIES.items():
             here = of(counts, query=query, family=family)
             cells = [f"{geometric_mean([row[COUNT] for row in of(here, method=OWN, step=step)]):,.0f}"
                      f" ({geometric_mean(ratios(here, step, COUNT)):.1f})" for step in STEPS]
             lines.append(f"| {query} | {name.replace('of 1,002 vertices', 'of 10 to 1,002 vertices')} | " + " | ".join(cells) + " |")
-    return "\n".join(lines + ["", f"The others: {others_of(counts)}."])
+    return "\n".join(lines)
 
 
 def tables_of(rows, counts):
     """Of each page the tables by name."""
     return {"README.md": {"first": first_table(rows)},
-            "docs/benchmarks.md": {"bodies": family_table(rows), "weak": weak_table(rows), "instructions": instruction_table(counts)}}
+            "docs/benchmarks.md": {"bodies": family_table(rows), "weak": weak_table(rows)},
+            "benches/README.md": {"instructions": instruction_table(counts)}}
 
 
 def with_tables(text, tables):

@@ -96,11 +96,10 @@ def of_scenes(played, engine):
 
 
 def table(played, engine):
-    names = {"moved_m": "moved, m", "energy_j": "energy, J", "contacts": "contacts", "step_us": "step, µs"}
-    formats = {"moved_m": "{:.2g}", "energy_j": "{:.1e}", "contacts": "{:.0f}", "step_us": "{:,.0f}"}
-    head = [f"{engine}'s scenes"] + [cell for column in COLUMNS for cell in (f"{names[column]}: {engine}", "swiftprox")]
+    names, formats = {"moved_m": "moved, m", "step_us": "step, µs"}, {"moved_m": "{:.2g}", "step_us": "{:,.0f}"}
+    head = ["scene"] + [cell for column in names for cell in (f"{names[column]}: {engine}", "swiftprox")]
     lines = [[scene] + [formats[column].format(of[collider][column]) if collider in of else "–"
-                        for column in COLUMNS for collider in STYLES] for scene, of in of_scenes(played, engine).items()]
+                        for column in names for collider in STYLES] for scene, of in of_scenes(played, engine).items()]
     return claims.table(head, lines)
 
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Draws the figures that benches/compare measures, and keeps the tables of docs/figures.md what the CSV files say.
+"""Draws the figures that benches/compare measures, and keeps the tables of docs/research what the CSV files say.
 
 usage: figures.py [--check] RESULTS.csv ...
 

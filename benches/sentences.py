@@ -64,7 +64,7 @@ def table(first, lines):
 
 def query_table():
     rows = rows_of("figures-choice.csv")
-    orbits = {"small": "apart", "deep": "at times in each other"}
+    orbits = {"small": "apart", "deep": "at times overlapping"}
     return table("query", [(f"{query}, {said}", mean_ns(rows, query=query, orbit=orbit, series="automatic"))
                            for query in ("intersection", "distance", "approximate", "contact") for orbit, said in orbits.items()])
 
@@ -79,7 +79,7 @@ def depth_table():
 def speed_table():
     rows = rows_of(SPEED)
     columns = [mean_ns(rows, n="1002", orbit="small", method=method) for method in ("swiftprox", "parry-hc", "fcl-1e-6")]
-    head = ["| motion a query | swiftprox | parry | FCL |", "|---|--:|--:|--:|"]
+    head = ["| motion per query | swiftprox | parry | FCL |", "|---|--:|--:|--:|"]
     return "\n".join(head + [f"| {name} | " + " | ".join(times[step] for times in columns) + " |" for step, name in MOTIONS.items()])
 
 
@@ -87,12 +87,13 @@ PEERS = {"parry": "parry", "parry-fixed": "parry, inner edges mended"}
 
 
 def ground_table():
-    """Times of a body, how many times as long peers take, and how many of their normals are steep."""
+    """Times of a body on the height field, how many times as long peers take, and how many of their normals are steep."""
     scenes = {}
     for row in rows_of(GROUNDS):
-        scenes.setdefault((row["surface"], row["body"], row["motion"]), {})[row["method"]] = row
-    lines = ["| ground | body | motion | swiftprox, µs | " + " | ".join(f"{name}, µs (times)" for name in PEERS.values()) +
-             " | steep normals: swiftprox | " + " | ".join(PEERS.values()) + " |", "|---|---|---|" + "--:|" * 6]
+        if row["surface"] == "heights":
+            scenes.setdefault((row["body"], row["motion"]), {})[row["method"]] = row
+    lines = ["| body | motion | swiftprox, µs | " + " | ".join(f"{name}, µs (times)" for name in PEERS.values()) +
+             " | steep normals: swiftprox | " + " | ".join(PEERS.values()) + " |", "|---|---|" + "--:|" * 6]
     for scene, of in scenes.items():
         def times(method):
             ns = float(of[method]["best_ns"])

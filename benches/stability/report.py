@@ -100,88 +100,62 @@ def small(value):
 
 
 def totals_table(rows):
-    """Each method over all families."""
-    lines = []
-    for method in in_order(row["method"] for row in rows):
-        sums = total([row for row in rows if row["method"] == method])
-        lines.append([f"`{method}`", failures(sums), sums["wrong"], sums["gross"], small(sums["worst_wrong"]), sums["off"],
-                      small(sums["worst_error"]), sums["nan"], sums["threw"], sums["aborted"], sums["timed_out"], sums["refused"]])
-    return table(["method", "failures", "wrong", "of them gross", "worst, over L", "off", "worst, over L", "NaN", "threw",
-                  "aborted", "timed out", "refused"], lines)
+    """Each method over all families, without the kinds of failure that none has."""
+    columns = [("failures", failures), ("wrong", "wrong"), ("gross", "gross"), ("off", "off"), ("NaN", "nan"), ("threw", "threw"),
+               ("aborted", "aborted"), ("timed out", "timed_out"), ("refused", "refused")]
+    sums = {method: total([row for row in rows if row["method"] == method]) for method in in_order(row["method"] for row in rows)}
+    values = {head: [of(row) if callable(of) else row[of] for row in sums.values()] for head, of in columns}
+    shown = {head: column for head, column in values.items() if head == "failures" or any(column)}
+    return table(["method", *shown], [[f"`{method}`", *line] for method, line in zip(sums, zip(*shown.values()))])
+
+
+COSTLIEST = 2  # families that the page shows
 
 
 def cost_table(costs):
-    """How often each tier was needed, and the time of a query it decided."""
-    lines = []
+    """How often each tier was needed, and the time of a query it decided: all families, and those that need integers most."""
+    shares, lines = {}, {}
     for family in in_order(row["family"] for row in costs):
         tiers = {row["tier"]: row for row in costs if row["family"] == family}
         answers = sum(row["answers"] for row in tiers.values())
+        shares[family] = tiers["exact"]["answers"] / answers if "exact" in tiers else 0
         line = [family, answers]
         for tier in TIERS:
             row = tiers.get(tier)
             line += [f'{100 * row["answers"] / answers:.0f} %', duration(row["median_ns"]), duration(row["worst_ns"])] if row else [""] * 3
-        lines.append(line)
+        lines[family] = line
     answers = sum(row["answers"] for row in costs)
     line = ["**all**", answers]
     for tier in TIERS:
         here = [row for row in costs if row["tier"] == tier]
         line += [f'{100 * sum(row["answers"] for row in here) / answers:.0f} %', "", duration(max(row["worst_ns"] for row in here))]
-    return table(["family", "poses"] + [head for tier in TIERS for head in (tier, "median", "worst")], lines + [line])
+    costliest = sorted(lines, key=lambda family: -shares[family])[:COSTLIEST]
+    return table(["family", "poses"] + [head for tier in TIERS for head in (tier, "median", "worst")], [lines[family] for family in costliest] + [line])
 
 
 def duration(nanoseconds):
     return f"{nanoseconds} ns" if nanoseconds < 1000 else f"{nanoseconds / 1000:.1f} µs"
 
 
-def benchmark_table():
-    """How the queries of the benchmark were decided, by orbit."""
-    _, rows = read(os.path.join(HERE, "..", "results", "2026-11-22-intel-xeon.csv"))
-    ours = [row for row in rows if row["method"] == "swiftprox"]
-    lines = []
-    for orbit in in_order(row["orbit"] for row in ours):
-        count, fallbacks, exacts = (sum(int(row[name]) for row in ours if row["orbit"] == orbit)
-                                    for name in ("count", "fallbacks", "exacts"))
-        lines.append((orbit, f"{count:,}", f"{count - fallbacks - exacts:,}", f"{fallbacks:,}", f"{exacts:,}"))
-    return table(("orbit", "queries", "marched", "fallback", "exact"), lines)
-
-
-WORST = (  # the largest numbers of vertices of benches/results/worst-case.csv
-    "30000", "100000")
-
-
-def worst_cases():
-    """{(motion, body): {number of vertices: row}}, without the depths, which are not timed there."""
-    _, rows = read(os.path.join(HERE, "..", "results", "worst-case.csv"))
-    found = {}
-    for row in rows:
-        if row["motion"] != "depth" and row["n"] in WORST:
-            found.setdefault((row["motion"], row["body"]), {})[row["n"]] = row
-    return found
+WORST = "100000"  # the largest number of vertices of benches/results/worst-case.csv
 
 
 def longest_table():
-    """The longest query of each motion, and the most steps."""
-    cases = worst_cases()
+    """The longest query of each motion, and the most steps; without the depths, which are not timed there."""
+    _, rows = read(os.path.join(HERE, "..", "results", "worst-case.csv"))
+    rows = [row for row in rows if row["motion"] != "depth" and row["n"] == WORST]
     lines = []
-    for motion in in_order(motion for motion, _ in cases):
-        here = [rows[WORST[1]] for (of, _), rows in cases.items() if of == motion]
+    for motion in in_order(row["motion"] for row in rows):
+        here = [row for row in rows if row["motion"] == motion]
         slowest, farthest = (max(here, key=lambda row: float(row[name])) for name in ("worst_ns", "worst_steps"))
         lines.append((motion, f"{float(slowest['worst_ns']) / 1e6:.1f} ms", slowest["body"],
                       f"{int(farthest['worst_steps']):,}", farthest["body"]))
     return table(("motion", "longest query", "of", "most steps", "of"), lines)
 
 
-def growth_table():
-    """How the mean time of cold queries grows from the second largest number of vertices to the largest."""
-    lines = [(body, f"{float(rows[WORST[1]]['mean_ns']) / float(rows[WORST[0]]['mean_ns']):.1f}")
-             for (motion, body), rows in worst_cases().items() if motion == "cold"]
-    return table(("body, cold", "times as long"), lines)
-
-
 def page(text, head, rows, costs):
     """The page with its tables made anew."""
-    tables = {"benchmark": benchmark_table(), "longest": longest_table(), "growth": growth_table(),
-              "totals": totals_table(rows), "cost": cost_table(costs),
+    tables = {"longest": longest_table(), "totals": totals_table(rows), "cost": cost_table(costs),
               "settings": "\n".join(f"- `{line.split(': ')[0]}`: {line.split(': ', 1)[1]}" for line in head[1:])}
 
     def anew(match):

@@ -14,11 +14,11 @@ use swiftprox::motion::{
     Callback, CastAnswer, CastConfig, CastOutcome, Clearance, ClearanceConfig, Motion, Screw, cast, clearance,
     motion_between, verify_cast,
 };
-use swiftprox::pair::PairCache;
+use swiftprox::pair::{self, PairAnswer, PairCache, PairConfig};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox_fuzz::geometry::{any_cache, any_number, inside, last_is_environment, points, pose, poses};
 use testkit::casts::Case;
-use testkit::casts::judge::{by_bisection, by_samples};
+use testkit::casts::judge::{allowance, by_bisection, by_samples};
 
 const MOST_POINTS: usize = 12;
 
@@ -42,9 +42,8 @@ fn run(u: &mut Unstructured, environment: Environment) -> Result<()> {
     if u.ratio(1, 16)? {
         return check_callback(u, &hulls, starts, &config);
     }
-    let options = ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
-    let shapes = hulls.map(|points| Arc::new(Shape::from_points(&points, &options).expect("finite points")));
     let motions = [motion(u, starts[0], ends[0])?, motion(u, starts[1], ends[1])?];
+    let shapes = [round(u, &hulls[0])?, round(u, &hulls[1])?].map(Arc::new);
     let case = Case { shapes, motions, config, is_exact: false };
     let ask = |mut cache: PairCache| {
         let mut answer = CastAnswer::default();
@@ -61,6 +60,14 @@ fn run(u: &mut Unstructured, environment: Environment) -> Result<()> {
     Ok(())
 }
 
+/// The hull of points with a ball of no radius swept over it, or of one up to four times their size.
+fn round(u: &mut Unstructured, points: &[Vector]) -> Result<Shape> {
+    let size = points.iter().map(Vector::amax).fold(0.0, f64::max).min(1e100);
+    let swept_radius = size * f64::from(u.arbitrary::<u8>()?.saturating_sub(128)) / 32.0;
+    let options = ShapeOptions { input: InputPolicy::Hull, swept_radius, ..ShapeOptions::default() };
+    Ok(Shape::from_points(points, &options).expect("finite points"))
+}
+
 fn check(case: &Case, answers: &[CastAnswer; 2]) {
     for answer in answers {
         let told = || format!("{:?} {:?}\n{answer:?}", case.motions, case.config);
@@ -73,8 +80,39 @@ fn check(case: &Case, answers: &[CastAnswer; 2]) {
             let judged = by_samples(case, answer, SAMPLES).and_then(|()| by_bisection(case, answer));
             judged.unwrap_or_else(|why| panic!("{why}\n{}", told()));
         }
+        for forged in forgeries(case, answer) {
+            assert!(verify_cast(case.bodies(), &case.config, &forged).is_err(), "{forged:?}\n{}", told());
+        }
     }
     check_clearance(case, &answers[0]);
+}
+
+/// What contradicts an answer that holds: free up to where it hits, a hit up to where it is free.
+fn forgeries(case: &Case, answer: &CastAnswer) -> Vec<CastAnswer> {
+    let CastConfig { t_begin, t_end, margin, .. } = case.config;
+    let said = CastAnswer::default();
+    let mut forged = Vec::new();
+    if answer.outcome == CastOutcome::Hit && answer.t_hi > t_begin {
+        forged.push(CastAnswer { t_lo: answer.t_hi, ..*answer });
+        forged.push(CastAnswer { outcome: CastOutcome::Budget, t_lo: answer.t_hi, ..said });
+        forged.push(CastAnswer { outcome: CastOutcome::Free, t_lo: t_end, clearance: margin, ..said });
+        if answer.t_lo > t_begin {
+            forged.push(CastAnswer { t_hi: answer.t_lo, ..*answer });
+        }
+    }
+    if answer.outcome == CastOutcome::Free {
+        let mut contact = PairAnswer::default();
+        let poses = case.poses(t_end);
+        let placed = [case.shapes[0].at(&poses[0]), case.shapes[1].at(&poses[1])];
+        if pair::contact(placed, &mut PairCache::default(), &PairConfig::default(), &mut contact).is_ok() {
+            let upper = contact.upper;
+            forged.push(CastAnswer { outcome: CastOutcome::Hit, t_lo: t_begin, t_hi: t_end, upper, contact, ..said });
+            if is_tame(case) && upper < f64::INFINITY {
+                forged.push(CastAnswer { clearance: upper + allowance(case), ..*answer });
+            }
+        }
+    }
+    forged
 }
 
 /// The interval of the smallest distance agrees with a cast without a margin.

@@ -8,17 +8,25 @@ use swiftprox::pair::{
     DepthAnswer, DepthCache, DepthConfig, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome, PairAnswer,
     Placed, depth, manifold,
 };
-use swiftprox::verify::{verify_depth, verify_manifold};
+use swiftprox::verify::{verify, verify_depth, verify_manifold};
+use testkit::forgery;
 use testkit::manifolds::Gaps;
 use testkit::random::Random;
+use testkit::swept::Length;
 
 use crate::geometry::inside;
 
 /// A manifold of bodies of a few thousand vertices may have more; then the first are looked at.
 const MOST_POINTS: usize = 256;
 
-/// Of larger bodies the truth takes too long.
+/// Of larger bodies the truth of gaps takes too long …
 const MOST_VERTICES: usize = 16;
+
+/// … of more vertices that of distances …
+const FEW_VERTICES: usize = 8;
+
+/// … and of depths that take more vertices of the Minkowski difference.
+const MOST_GROWN: usize = 60;
 
 /// What two bodies remember of their contact.
 #[derive(Default)]
@@ -42,17 +50,43 @@ pub fn check(
         memory.depth = damaged(&memory.depth, &mut random);
         memory.manifold = damaged(&memory.manifold, &mut random);
     }
-    check_depth(bodies, known, environment, &mut memory.depth);
+    let truth = truth(bodies);
+    if let Some(truth) = &truth {
+        for forged in forgery::pairs(known, truth) {
+            assert!(verify(bodies, &forged).is_err(), "{forged:?} {}", description(bodies));
+        }
+    }
+    check_depth(bodies, known, truth.as_ref(), environment, &mut memory.depth);
     let reduces = u.arbitrary()?;
     let margin = if u.arbitrary()? { 0.0 } else { known.distance.abs() * *u.choose(&[0.5, 1.0, 2.0])? };
     if margin.is_finite() {
         let config = ManifoldConfig { margin, reduces, ..ManifoldConfig::default() };
-        check_manifold(bodies, known, measured, environment, &config, &mut memory.manifold);
+        check_manifold(bodies, known, truth.as_ref(), measured, environment, &config, &mut memory.manifold);
     }
     Ok(())
 }
 
-fn check_depth(bodies: [Placed; 2], known: &PairAnswer, environment: Environment, cache: &mut DepthCache) {
+/// The signed distance in rational numbers.
+fn truth(bodies: [Placed; 2]) -> Option<Length> {
+    let points = bodies.map(|body| {
+        let polyhedron = body.shape.polyhedron();
+        (0..polyhedron.vertices.len() as u32).map(|v| polyhedron.local_position(v).into()).collect::<Vec<[f64; 3]>>()
+    });
+    if points.iter().any(|points| points.len() > FEW_VERTICES) {
+        return None;
+    }
+    let (poses, radii) = (bodies.map(|body| *body.pose), bodies.map(|body| body.shape.swept_radius()));
+    let (truth, is_exact) = Length::signed([&points[0], &points[1]], &poses, radii, MOST_GROWN);
+    is_exact.then_some(truth)
+}
+
+fn check_depth(
+    bodies: [Placed; 2],
+    known: &PairAnswer,
+    truth: Option<&Length>,
+    environment: Environment,
+    cache: &mut DepthCache,
+) {
     let ask = |mut cache: DepthCache| {
         let mut answer = DepthAnswer::default();
         depth(bodies, &mut cache, &DepthConfig::default(), &mut answer).expect("accepted poses");
@@ -75,6 +109,9 @@ fn check_depth(bodies: [Placed; 2], known: &PairAnswer, environment: Environment
                 Err(error) => panic!("{error}: {answer:?} {}", description(bodies)),
             }
         }
+        for forged in truth.into_iter().flat_map(|truth| forgery::depths(answer, truth)) {
+            assert!(verify_depth(bodies, &own, &forged).is_err(), "{forged:?} {}", description(bodies));
+        }
     }
     assert!(answer.lower <= cold.upper && cold.lower <= answer.upper, "{answer:?}\n{cold:?}");
     *cache = after;
@@ -83,6 +120,7 @@ fn check_depth(bodies: [Placed; 2], known: &PairAnswer, environment: Environment
 fn check_manifold(
     bodies: [Placed; 2],
     known: &PairAnswer,
+    truth: Option<&Length>,
     measured: bool,
     environment: Environment,
     config: &ManifoldConfig,
@@ -113,6 +151,10 @@ fn check_manifold(
         // What is too large or too far apart.
         Ok(()) | Err(Error::Argument(_)) => {}
         Err(error) => panic!("{error}: {found:?} {points:?} {}", description(bodies)),
+    }
+    for forged in truth.into_iter().flat_map(|truth| forgery::manifolds(&found, truth)) {
+        let checked = verify_manifold(bodies, &after, config, &forged, &points);
+        assert!(checked.is_err(), "{forged:?} {points:?} {}", description(bodies));
     }
     // Asked again and again, with what is remembered since: where nothing else is said, the points keep their ids. The first time
     // damage may have chosen between faces that are as parallel.

@@ -250,7 +250,8 @@ pub fn rotation(u: &mut Unstructured) -> Result<Matrix> {
         }
     };
     if u.ratio(1, 4)? {
-        let error = power_of_two(-u.int_in_range(8..=60)?);
+        let exponent = u.int_in_range(8..=60)?;
+        let error = power_of_two(-exponent) * if exponent % 2 == 0 { 1.0 } else { -1.0 };
         let entry = (u.choose_index(3)?, u.choose_index(3)?);
         matrix[entry] += error;
     }

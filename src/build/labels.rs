@@ -138,10 +138,12 @@ fn faces_of_polygons(
             let planes = &polyhedron.faces[face as usize].planes;
             let plane = Vector::new(planes.x[0], planes.y[0], planes.z[0]);
             let distance = corners.iter().map(|c| planes.value(0, &points[*c as usize]).abs()).fold(bound, f64::max);
-            (distance, -plane.dot(&normal))
+            let likeness = plane.dot(&normal);
+            // Behind a thin plate the same corners may have a face that fits them better.
+            (likeness < 0.0, distance, -likeness)
         };
         let centre = corners.iter().map(|c| points[*c as usize]).sum::<Vector>() / corners.len() as f64;
-        let mut best = ((f64::INFINITY, f64::INFINITY), 0);
+        let mut best = ((true, f64::INFINITY, f64::INFINITY), 0);
         for &vertex in &vertices {
             for face in around.towards(vertex, &centre) {
                 progress.steps(corners.len(), polygon, mesh.face_count())?;
@@ -150,12 +152,12 @@ fn faces_of_polygons(
                     best = (misfit, face);
                 }
             }
-            if best.0.0 <= bound {
+            if !best.0.0 && best.0.1 <= bound {
                 break;
             }
         }
         found.starts.push(found.faces.len() as u32);
-        let ((misfit, _), face) = best;
+        let ((_, misfit, _), face) = best;
         own.take(points, &hull_vertices, corners)?;
         let holds = |(point, vertex): (&Vector, &Option<u32>)| {
             vertex.is_some_and(|v| around.towards(v, &centre).any(|other| other == face))

@@ -7,8 +7,7 @@ use super::config::{CastConfig, shortest_step};
 use super::moving::{Moment, MovingPair};
 use super::sweep::{Ahead, FreeStep, Sweep, Wanted, depth_at, is_contact, upper_bound};
 use crate::base::error::{Error, Result};
-use crate::base::simd::environment::with_default;
-use crate::pair::verify::{Bounds, holds_ball, verify, verify_depth};
+use crate::pair::verify::{Bounds, holds_ball, in_default, verify, verify_depth};
 use crate::pair::{DepthCache, Outcome, PairCache, sum_above};
 
 /// Steps after which a proof is given up.
@@ -34,7 +33,7 @@ const MOST_STEPS: u32 = 1_000_000;
 /// [`Error::Unverified`] with what does not hold, or could not be proved; [`Error::Argument`] for an answer that holds no outcome;
 /// else as [`super::cast`] and [`crate::pair::verify::verify`].
 pub fn verify_cast(bodies: [Moving; 2], config: &CastConfig, answer: &CastAnswer) -> Result<()> {
-    with_default(|| {
+    in_default(|| {
         config.check()?;
         let pair = MovingPair::new(bodies, config.range())?;
         check_times(config, answer)?;

@@ -199,7 +199,7 @@ pub fn feature_of_vertices(
             return FeatureId::Edge(edge);
         }
     }
-    if let Some(face) = face_beside(polyhedron, vertices, point) {
+    if let Some(face) = face_beside(polyhedron, vertices, point, towards) {
         return FeatureId::Face(face);
     }
     // The faces around the vertices hold the point, except for vertices inside a merged face and slivers that rounding shuffles.
@@ -212,14 +212,17 @@ pub fn feature_of_vertices(
     face.map_or(FeatureId::Vertex(first), FeatureId::Face)
 }
 
-/// The face that alone holds a point, where it is at an edge between two of the vertices: so it is mostly.
-fn face_beside(polyhedron: &Polyhedron, vertices: &[u32], point: &Vector) -> Option<u32> {
+/// The face that alone holds a point, where it is at an edge between two of the vertices: so it is mostly. One that looks away from
+/// the other body is not alone, if the body is a plate thinner than rounding.
+fn face_beside(polyhedron: &Polyhedron, vertices: &[u32], point: &Vector, towards: &Vector) -> Option<u32> {
     if polyhedron.dimension < 3 || polyhedron.neighbour_capacity(vertices[0]) > MOST_NEIGHBOURS {
         return None;
     }
     let between = edges_at(polyhedron, vertices[0]).map(|edge| &polyhedron.edges[edge as usize]);
     let mut between = between.filter(|edge| vertices.contains(&edge.tail()) && vertices.contains(&edge.head()));
-    between.find_map(|edge| [edge.left(), edge.right()].into_iter().find(|&face| is_inside(polyhedron, face, point)))
+    let looks_there = |face: u32| polyhedron.faces[face as usize].normal.dot(towards) > 0.0;
+    let is_alone = |&face: &u32| is_inside(polyhedron, face, point) && looks_there(face);
+    between.find_map(|edge| [edge.left(), edge.right()].into_iter().find(is_alone))
 }
 
 /// Whether a point on the plane of a face is so far inside its sides that no other face holds it.

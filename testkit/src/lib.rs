@@ -22,6 +22,7 @@ pub mod oracle;
 pub mod bodies;
 pub mod caches;
 pub mod casts;
+pub mod forgery;
 pub mod manifolds;
 pub mod properties;
 pub mod rays;

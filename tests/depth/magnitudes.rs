@@ -3,7 +3,7 @@
 use swiftprox::base::simd::Portable;
 use swiftprox::build::assembly::build;
 use swiftprox::math::{Pose, ROTATION_LIMIT, Vector};
-use swiftprox::pair::{DepthCache, Outcome};
+use swiftprox::pair::{DepthAnswer, DepthCache, Outcome};
 use swiftprox::polyhedron::Vertex;
 use swiftprox::shape::Shape;
 use swiftprox::solve::frame::Frame;
@@ -91,5 +91,30 @@ fn pyramids_prove_nothing_out_of_scale() {
         // The sides are nearer than the base; and far enough.
         assert!(!prove([-0.1, -0.1, -1.0]), "{scale:e}");
         assert_eq!(prove([-0.1, -0.1, -1.75]), is_proved, "{scale:e}");
+    }
+}
+
+/// A point in a plate 10³⁴ times as long as thick: half the thickness deep, as all facets of the plate tell. Cause: facets were
+/// looked at of two bodies with an interior alone, and no polytope is found in doubles; `verify_depth` refused what was true. From
+/// fuzzing.
+#[test]
+fn a_point_in_a_thin_plate_is_proved_to_be_deep() {
+    let half = [6.20260064581006e-266, 3.10130032290503e-266, 2.9864435792103004e-300];
+    let corner = |k: usize| Vector::from_fn(|i, _| if k >> i & 1 == 0 { -half[i] } else { half[i] });
+    let (plate, point) = (hull(&(0..8).map(corner).collect::<Vec<_>>()), hull(&[Vector::zeros()]));
+    let mut pose = Pose::IDENTITY;
+    pose.rows[1][1] += 2f64.powi(-28);
+    (0..3).for_each(|i| pose.rows[i][3] = f64::from_bits(1));
+    for shapes in [[&plate, &point], [&point, &plate]] {
+        let mut cache = DepthCache::default();
+        let answer = query(shapes, [&pose; 2], &mut cache);
+        assert_eq!((answer.outcome, answer.lower, answer.upper), (Outcome::Intersecting, half[2], half[2]));
+        let bodies = [shapes[0].at(&pose), shapes[1].at(&pose)];
+        for cache in [cache, DepthCache::default()] {
+            assert_eq!(verify_depth(bodies, &cache, &answer), Ok(()));
+            let more = half[2].next_up();
+            let forged = DepthAnswer { lower: more, depth: more, upper: more, ..answer };
+            assert!(verify_depth(bodies, &cache, &forged).is_err());
+        }
     }
 }

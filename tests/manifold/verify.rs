@@ -214,6 +214,30 @@ fn forgeries_are_refused() {
     }
 }
 
+/// Two places as far beside a corner of the upper box: in line, their gap in an interval wide enough for both to be off. Cause: a point
+/// could be out of its body by what corners at one place are apart, 2⁻²⁵ of the size. Cut-off: 256 times the allowance, 1.4e-11 here.
+#[test]
+fn a_point_beside_its_body_is_refused_however_wide_its_gap() {
+    let ([upper, lower], poses) = stacked(-0.0625, 0.3);
+    let case = Case::new([upper, lower], poses, ManifoldConfig { margin: 0.05, ..ALL });
+    for k in 0..4 {
+        assert_eq!(case.points[k].feature1.kind, FeatureKind::Vertex);
+        let is_refused = |off: f64| {
+            case.refuses(|_, points| {
+                let point = &mut points[k];
+                let aside = Vector::x() * (off * point.local1[0]);
+                let shift = case.poses[0].rotation() * aside;
+                let moved = |place: [f64; 3], by: Vector| <[f64; 3]>::from(Vector::from(place) + by);
+                (point.local1, point.world1) = (moved(point.local1, aside), moved(point.world1, shift));
+                (point.local2, point.world2) = (moved(point.local2, shift), moved(point.world2, shift));
+                (point.gap_lower, point.gap_upper) = (point.gap_lower - 1e-6, point.gap_upper + 1e-6);
+            })
+        };
+        assert!([0.0, 1e-12, -1e-8].iter().all(|&off| !is_refused(off)));
+        assert!([1e-10, 1e-8, 1e-6].iter().all(|&off| is_refused(off)));
+    }
+}
+
 /// A place on the far face of a plate in the place of the one below it, over a corner of a box: on the surface, in line with its
 /// partner, with the gap of the two and their id. Only that the face looks up gives it away.
 #[test]
@@ -343,4 +367,33 @@ fn a_depth_beyond_the_largest_double_is_told_to_be_too_large() {
     depth(case.bodies(), &mut cache, &DepthConfig::default(), &mut answer).unwrap();
     assert_eq!(answer.upper, f64::INFINITY);
     assert_eq!(verify_depth(case.bodies(), &cache, &answer), told);
+}
+
+/// A corner of a cube beside a sliver 1e-5 long that stands on edge to the normal: no point is deeper than the objects are, and each is
+/// in its body. Cause: what is nearer than one place took its height from the sliver's plane, which goes on out of it a hundred times
+/// as far; the point was 1.3e-6 out of a body of 1e-5, with a gap of as much. From a slope of ten or so on.
+#[test]
+fn a_corner_beside_a_body_on_edge_is_as_high_as_that() {
+    let sliver = [
+        [-4.2604912158980206e-5, -2.299132988802567e-7, -3.852574899955092e-8],
+        [-3.395101875432557e-5, 2.5747520605095943e-7, 4.4682106535472024e-8],
+        [-3.2804096372315374e-5, 9.649468009270698e-8, 7.164358477445894e-8],
+    ];
+    let poses = [
+        [
+            [0.776837009041211, -0.21926382077030313, -0.5902945351984158, 0.0],
+            [-0.5911577429709899, -0.57687092675009, -0.5636953581465228, 0.0],
+            [-0.216925757597733, 0.786856601148964, -0.5777541907411397, 0.0],
+        ],
+        [
+            [0.9128036730828025, 0.2548756752133827, 0.31906067826953255, -0.5739039587606443],
+            [-0.26634032970882415, 0.9638114595346005, -0.008466887002192839, 0.3021578248858195],
+            [-0.30961969178556836, -0.077542994051816, 0.9476411261208245, -0.5738527233828885],
+        ],
+    ];
+    let case = Case::new([cuboid([0.5; 3]), hull(&sliver.map(Vector::from))], poses.map(|rows| Pose { rows }), ALL);
+    assert_eq!((case.manifold.outcome, case.verify()), (Outcome::Intersecting, Ok(())), "{:?}", case.points);
+    // Up to b of the check.
+    let deepest = case.points.iter().map(|point| point.gap_upper).fold(f64::INFINITY, f64::min);
+    assert!(deepest >= case.manifold.lower - 6e-8, "{deepest:e} {:?}", case.manifold);
 }

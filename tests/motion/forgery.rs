@@ -1,8 +1,15 @@
 //! Forged answers are refused.
 
+use std::cmp::Ordering;
+
+use dashu_ratio::RBig;
 use swiftprox::error::Error;
-use swiftprox::math::Pose;
-use swiftprox::motion::{CastAnswer, CastConfig, CastOutcome, Motion, verify_cast};
+use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::motion::{CastAnswer, CastConfig, CastOutcome, Motion, Moving, verify_cast};
+use swiftprox::pair::{PairAnswer, PairCache, PairConfig, contact};
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use testkit::oracle::{Polytope, rational, truth};
+use testkit::random::{Random, rotation};
 use testkit::shapes::cuboid;
 
 use crate::{at, moving, run, screw, straight};
@@ -52,4 +59,146 @@ fn forged_answers_are_refused() {
         let other = straight(at(3.0, 0.1, 0.2), [-4.0, 0.0, 0.0]);
         assert!(verify_cast(moving([&bar, &cube], [&other, &still]), &config, &answer).is_err());
     }
+}
+
+fn swept(points: &[Vector], swept_radius: f64) -> Shape {
+    let options = ShapeOptions { input: InputPolicy::Hull, swept_radius, ..ShapeOptions::default() };
+    Shape::from_points(points, &options).unwrap()
+}
+
+fn is_refused(pair: [Moving; 2], config: &CastConfig, forged: &CastAnswer) -> bool {
+    matches!(verify_cast(pair, config, forged), Err(Error::Unverified(_)))
+}
+
+/// A pose at a time as the motion's entries are computed.
+fn computed(start: &Pose, end: &Pose, time: f64) -> Pose {
+    let entry = |i: usize, k: usize| (1.0 - time) * start.rows[i][k] + time * end.rows[i][k];
+    Pose { rows: std::array::from_fn(|i| std::array::from_fn(|k| entry(i, k))) }
+}
+
+/// Points at a time, as the motion's entries are in rational numbers.
+fn points_at(points: &[Vector], [start, end]: &[Pose; 2], time: f64) -> Polytope {
+    let (time, rest) = (rational(time), RBig::ONE - rational(time));
+    let at = |p: &Vector| {
+        std::array::from_fn(|i| {
+            let entry = |k: usize| &rest * rational(start.rows[i][k]) + &time * rational(end.rows[i][k]);
+            (0..3).fold(entry(3), |sum, k| sum + entry(k) * rational(p[k]))
+        })
+    };
+    Polytope::from_rationals(points.iter().map(at).collect())
+}
+
+/// Round bodies whose poses change linearly from one skewed pose to another. Between two doubles they are apart at the first and not
+/// at the second, in rational numbers: free until the second is refused, and a hit at the first.
+#[test]
+fn one_double_beyond_the_first_contact_is_refused() {
+    const IDENTITY: [f64; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
+    let mut random = Random::new(0xf1257);
+    let mut hits = 0;
+    for round in 0..60 {
+        let points =
+            [1 + round % 4, 1 + round / 4 % 4].map(|count| (0..count).map(|_| random.vector()).collect::<Vec<_>>());
+        let radii = [random.pick(&[0.0, 0.3]), random.uniform(0.1, 1.0)];
+        let shapes = [swept(&points[0], radii[0]), swept(&points[1], radii[1])];
+        let skew = random.pick(&[0.0, 1e-9, 1e-3]);
+        let poses = [0, 1].map(|i| {
+            let turn = random.rotation() + Matrix::from_fn(|_, _| skew * random.signed());
+            let later = rotation(&random.direction(), random.uniform(0.0, 0.1)) * turn;
+            let [from, to] =
+                [[4.0, 0.5], [-4.0, 0.2]][i].map(|x| Vector::new(x, 0.5 * random.signed(), 0.5 * random.signed()));
+            [Pose::new(&turn, &from), Pose::new(&later, &to)]
+        });
+        let motions = poses.map(|[start, end]| Motion::Affine { start, end });
+        let pair = moving([&shapes[0], &shapes[1]], [&motions[0], &motions[1]]);
+        let margin = random.pick(&[0.0, 0.125]);
+        let config = CastConfig { margin, ..CastConfig::default() };
+        let answer = run(pair, &config);
+        assert_eq!(verify_cast(pair, &config, &answer), Ok(()), "{round} {answer:?}");
+        if answer.outcome != CastOutcome::Hit || answer.t_lo == 0.0 {
+            continue;
+        }
+        hits += 1;
+        let reach = rational(radii[0]) + rational(radii[1]) + rational(margin);
+        let beyond = |time: f64| {
+            let [first, second] = [0, 1].map(|i| points_at(&points[i], &poses[i], time));
+            truth(&first, &IDENTITY, &second, &IDENTITY).squared_distance.cmp(&(&reach * &reach))
+        };
+        let (mut apart, mut within) = (answer.t_lo, answer.t_hi);
+        assert!(beyond(apart) == Ordering::Greater && beyond(within) != Ordering::Greater, "{round} {answer:?}");
+        while apart.next_up() < within {
+            let middle = 0.5 * (apart + within);
+            *(if beyond(middle) == Ordering::Greater { &mut apart } else { &mut within }) = middle;
+        }
+        let contact_at = |time: f64| {
+            let [first, second] = poses.map(|[start, end]| computed(&start, &end, time));
+            let mut answer = PairAnswer::default();
+            let placed = [shapes[0].at(&first), shapes[1].at(&second)];
+            contact(placed, &mut PairCache::default(), &PairConfig::default(), &mut answer).unwrap();
+            answer
+        };
+        for t_lo in [within, answer.t_hi] {
+            assert!(
+                is_refused(pair, &config, &CastAnswer { t_lo, t_hi: t_lo.max(answer.t_hi), ..answer }),
+                "{round} {t_lo}"
+            );
+            let budget = CastAnswer { outcome: CastOutcome::Budget, t_lo, ..CastAnswer::default() };
+            assert!(is_refused(pair, &config, &budget), "{round} {t_lo}");
+        }
+        for t_hi in [apart, answer.t_lo] {
+            let sooner = CastAnswer { t_hi, contact: contact_at(t_hi), ..answer };
+            assert!(is_refused(pair, &config, &sooner), "{round} {t_hi}");
+            assert!(is_refused(pair, &config, &CastAnswer { t_hi, ..answer }), "{round} {t_hi}");
+        }
+    }
+    assert!(hits > 30, "{hits}");
+}
+
+/// A ball of 1/2 that flies at a cube of half side 1 from x = 3: at time t they are 1.5 − 2t apart. Another passes it at a distance of
+/// a quarter; and one whose pose at time 1, where it touches, is told exactly.
+#[test]
+fn closed_forms_of_flights_are_told_to_the_double_or_to_rounding() {
+    let (ball, cube) = (swept(&[Vector::zeros()], 0.5), cuboid([1.0; 3]));
+    let still = Motion::Fixed(Pose::IDENTITY);
+    let to = |start: Pose, end: Pose| Motion::Affine { start, end };
+    // Moved about its own middle, which a ball does not see.
+    let shrunk = |x: f64| Pose::new(&Matrix::from_diagonal_element(1.0 - 1e-3), &Vector::new(x, 0.0, 0.0));
+    for flight in [
+        straight(at(3.0, 0.0, 0.0), [-2.0, 0.0, 0.0]),
+        to(at(3.0, 0.0, 0.0), shrunk(1.0)),
+        to(shrunk(3.0), at(1.0, 0.0, 0.0)),
+    ] {
+        let pair = moving([&ball, &cube], [&flight, &still]);
+        for margin in [0.0, 0.25] {
+            let config = CastConfig { margin, ..CastConfig::default() };
+            let answer = run(pair, &config);
+            let first = 0.75 - 0.5 * margin;
+            assert_eq!((answer.outcome, verify_cast(pair, &config, &answer)), (CastOutcome::Hit, Ok(())), "{answer:?}");
+            let until = |t_lo: f64| verify_cast(pair, &config, &CastAnswer { t_lo, ..answer });
+            assert_eq!(until(first - 1e-12), Ok(()));
+            assert!([first, first.next_up()].iter().all(|&t_lo| until(t_lo).is_err()));
+            assert!(is_refused(pair, &config, &CastAnswer { t_hi: first.next_down(), ..answer }));
+            if margin > 0.0 {
+                let apart = 1.5 - 2.0 * answer.t_hi;
+                assert!(answer.upper >= apart && answer.upper < apart + 1e-14);
+                for upper in [apart.next_down(), 0.0] {
+                    assert!(is_refused(pair, &config, &CastAnswer { upper, ..answer }), "{upper:e}");
+                }
+            }
+        }
+    }
+    let passing = straight(at(-4.0, 1.75, 0.0), [8.0, 0.0, 0.0]);
+    let pair = moving([&ball, &cube], [&passing, &still]);
+    let config = CastConfig::default();
+    let answer = run(pair, &config);
+    assert_eq!((answer.outcome, verify_cast(pair, &config, &answer)), (CastOutcome::Free, Ok(())), "{answer:?}");
+    let with = |clearance: f64| verify_cast(pair, &config, &CastAnswer { clearance, ..answer });
+    assert_eq!(with(0.25 - 1e-12), Ok(()));
+    assert!([0.25, 0.25_f64.next_up(), 0.3].iter().all(|&clearance| with(clearance).is_err()));
+
+    let arriving = to(at(3.5, 0.0, 0.0), at(1.5, 0.0, 0.0));
+    let pair = moving([&ball, &cube], [&arriving, &still]);
+    let answer = run(pair, &config);
+    assert_eq!((answer.outcome, answer.t_hi, verify_cast(pair, &config, &answer)), (CastOutcome::Hit, 1.0, Ok(())));
+    assert!(is_refused(pair, &config, &CastAnswer { t_hi: 1.0_f64.next_down(), ..answer }));
+    assert!(is_refused(pair, &config, &CastAnswer { t_lo: 1.0, ..answer }));
 }

@@ -11,6 +11,7 @@ mod families;
 mod forgery;
 mod known;
 mod refused;
+mod slivers;
 
 use swiftprox::math::{Pose, Vector};
 use swiftprox::motion::{CastAnswer, CastConfig, Motion, Moving, Screw, cast};

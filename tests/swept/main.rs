@@ -4,6 +4,7 @@
 mod half_spaces;
 mod pairs;
 mod scenes;
+mod verify;
 
 use swiftprox::math::Vector;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};

@@ -59,7 +59,7 @@ fn answer_query(
     let mut found = simd::dispatch_to_avx2(query);
     if found.is_none() {
         poses.iter().try_for_each(|pose| pose.check(config.rotation_limit))?;
-        found = search_rescaled(polyhedra, poses, config, cache);
+        found = search_rescaled(polyhedra, poses, config, cache)?;
     }
     fill(answer, polyhedra, poses, found.as_ref(), &overlap)
 }
@@ -90,13 +90,18 @@ pub(super) fn deepest(
         let pyramid = cache.pyramid(0);
         raised = resting::triangle_of(polyhedra, poses, pyramid).map(|triangle| (*pyramid, triangle));
     }
-    found = found.or_else(|| search_rescaled(polyhedra, poses, &config, &mut cache));
+    if found.is_none() {
+        found = search_rescaled(polyhedra, poses, &config, &mut cache)?;
+    }
     fill(&mut answer, polyhedra, poses, found.as_ref(), &overlap)?;
     Ok((answer, raised))
 }
 
 /// The search among copies of the bodies in another unit of length, for poses that are accepted. `None` of a pair that floating
 /// point is not for in any unit.
+///
+/// # Errors
+/// [`Error::Memory`](crate::base::error::Error::Memory) where the copies get none.
 #[cold]
 #[inline(never)]
 fn search_rescaled(
@@ -104,25 +109,23 @@ fn search_rescaled(
     poses: [&Pose; 2],
     config: &DepthConfig,
     cache: &mut DepthCache,
-) -> Option<Search> {
-    let pair = Rescaled::of(polyhedra, poses)?;
+) -> Result<Option<Search>> {
+    let Some(pair) = Rescaled::of(polyhedra, poses)? else { return Ok(None) };
     let config = DepthConfig { absolute_error: pair.in_unit(config.absolute_error), ..*config };
     let (polyhedra, poses) = (pair.polyhedra(), pair.poses());
     let (mut unused, mut overlap) = (DepthAnswer::default(), Overlap::NONE);
     let (config, answer, pyramids) = (&config, &mut unused, Pyramids::Unused);
     let query = &mut DepthQuery { polyhedra, poses, config, cache, answer, pyramids, overlap: &mut overlap };
     // Copies have no fan.
-    let Search::Polytope(found) = simd::dispatch_to_avx2(query)? else {
-        return None;
-    };
+    let Some(Search::Polytope(found)) = simd::dispatch_to_avx2(query) else { return Ok(None) };
     let FoundPolytope { expansion, witness, .. } = found;
     let upper = pair.upper_of(expansion.upper);
     if upper == f64::INFINITY && expansion.upper < upper {
-        return None;
+        return Ok(None);
     }
-    Some(Search::Polytope(FoundPolytope {
+    Ok(Some(Search::Polytope(FoundPolytope {
         expansion: Expansion { lower: pair.lower_of(expansion.lower), upper, ..expansion },
         witness: Witness { depth: pair.lower_of(witness.depth), ..witness },
         ..found
-    }))
+    })))
 }

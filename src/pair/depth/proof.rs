@@ -2,6 +2,7 @@
 
 use super::cache::DepthCache;
 use super::scaling::Rescaled;
+use crate::base::error::Result;
 use crate::base::math::{Pose, ROTATION_LIMIT};
 use crate::base::memory::listed;
 use crate::base::simd::{self, Kernel, Lanes};
@@ -23,19 +24,22 @@ pub enum ProofFrom<'a> {
 
 /// The triangles of a polytope in the pair's poses; none where there is no polytope.
 ///
+/// # Errors
+/// [`Error::Memory`](crate::base::error::Error::Memory) of bodies that are copied in another unit of length.
+///
 /// # Panics
-/// Where there is no memory for them, as of [`in_integers`](crate::base::memory::in_integers).
-pub fn proof(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: ProofFrom) -> Vec<[VertexPair; 3]> {
-    let found = simd::dispatch_to_avx2(&mut Proof { polyhedra, poses, from });
-    let rescaled = || {
-        let pair = Rescaled::of(polyhedra, poses)?;
-        let from = match from {
-            ProofFrom::Pyramid(..) | ProofFrom::Cache(_) => from,
-            ProofFrom::Search(lower) => ProofFrom::Search(pair.in_unit(lower)),
-        };
-        simd::dispatch_to_avx2(&mut Proof { polyhedra: pair.polyhedra(), poses: pair.poses(), from })
+/// Where there is no memory for the triangles, as of [`in_integers`](crate::base::memory::in_integers).
+pub fn proof(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: ProofFrom) -> Result<Vec<[VertexPair; 3]>> {
+    if let Some(found) = simd::dispatch_to_avx2(&mut Proof { polyhedra, poses, from }) {
+        return Ok(found);
+    }
+    let Some(pair) = Rescaled::of(polyhedra, poses)? else { return Ok(Vec::new()) };
+    let from = match from {
+        ProofFrom::Pyramid(..) | ProofFrom::Cache(_) => from,
+        ProofFrom::Search(lower) => ProofFrom::Search(pair.in_unit(lower)),
     };
-    found.or_else(rescaled).unwrap_or_default()
+    let found = simd::dispatch_to_avx2(&mut Proof { polyhedra: pair.polyhedra(), poses: pair.poses(), from });
+    Ok(found.unwrap_or_default())
 }
 
 struct Proof<'a> {

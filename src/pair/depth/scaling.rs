@@ -14,18 +14,26 @@ pub struct Rescaled {
 }
 
 impl Rescaled {
-    /// `None` where some coordinate would not be the same number in the new unit, or memory is lacking: of bodies of the range of
-    /// doubles at once, of translations 2²⁰⁰ times as large as both bodies, and of points.
-    pub fn of(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Option<Rescaled> {
+    /// `None` where some coordinate would not be the same number in the new unit: of bodies of the range of doubles at once, of
+    /// translations 2²⁰⁰ times as large as both bodies, and of points.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory) where the copies get none.
+    pub fn of(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Result<Option<Rescaled>> {
         let [radius1, radius2] = polyhedra.map(|polyhedron| polyhedron.radius);
         let radius = radius1.max(radius2);
         if !(radius > 0.0 && radius < f64::INFINITY) {
-            return None;
+            return Ok(None);
         }
         let unit = power_of_two(-(radius.log2() as i32).clamp(-1000, 1000));
-        let [pose1, pose2] = poses.map(|pose| in_unit_of_pose(pose, unit));
+        let poses = poses.map(|pose| in_unit_of_pose(pose, unit));
         let [polyhedron1, polyhedron2] = polyhedra.map(|polyhedron| in_unit_of(polyhedron, unit));
-        Some(Rescaled { polyhedra: [polyhedron1.ok()??, polyhedron2.ok()??], poses: [pose1?, pose2?], unit })
+        match (polyhedron1?, polyhedron2?, poses) {
+            (Some(first), Some(second), [Some(pose1), Some(pose2)]) => {
+                Ok(Some(Rescaled { polyhedra: [first, second], poses: [pose1, pose2], unit }))
+            }
+            _ => Ok(None),
+        }
     }
 
     pub fn polyhedra(&self) -> [&Polyhedron; 2] {

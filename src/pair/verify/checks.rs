@@ -66,7 +66,7 @@ pub(super) fn unverified(what: String) -> Error {
 }
 
 /// A check in the default environment of floating point: it only reads, so what memory integers lack is its error.
-pub(super) fn in_default(check: impl FnOnce() -> Result<()>) -> Result<()> {
+pub(crate) fn in_default(check: impl FnOnce() -> Result<()>) -> Result<()> {
     in_integers(|| with_default(check))?
 }
 

@@ -244,13 +244,14 @@ fn prove_lower(facts: &Facts, cache: &DepthCache, lower: f64) -> Result<()> {
     let mut why = Ok(());
     let pyramids = (0..PYRAMIDS).map(|place| ProofFrom::Pyramid(cache, place));
     for from in pyramids.chain([ProofFrom::Cache(cache), ProofFrom::Search(0.0), ProofFrom::Search(lower)]) {
-        let polytope = proof(facts.polyhedra, facts.poses, from);
+        let polytope = proof(facts.polyhedra, facts.poses, from)?;
         why = encloses_ball(facts, &polytope, lower);
         if why.is_ok() {
             return Ok(());
         }
     }
-    if facts.bounds.as_ref().is_some_and(|bounds| facets::prove_lower(facts.polyhedra, bounds, &facts.exact, lower)) {
+    let by_facets = |bounds| facets::prove_lower(facts.polyhedra, bounds, &facts.exact, lower);
+    if facts.bounds.as_ref().is_some_and(by_facets) || facets::prove_point(facts.polyhedra, &facts.exact, lower) {
         return Ok(());
     }
     why.map_err(|why| unverified(format!("a depth of at least {lower:e} is not proved: {why}")))

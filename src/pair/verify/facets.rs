@@ -34,6 +34,22 @@ pub fn prove_lower(polyhedra: [&Polyhedron; 2], bounds: &Bounds, exact: &Differe
     is_small && edges.0.iter().all(|e| edges.1.iter().all(|g| proof.covers_crossing(*e, *g)))
 }
 
+/// Whether a point is at least `lower` deep in a body, in integers: so far are the planes of all triangles.
+pub fn prove_point(polyhedra: [&Polyhedron; 2], exact: &Differences, lower: f64) -> bool {
+    let body = match polyhedra.map(|polyhedron| polyhedron.dimension) {
+        [3, 0] => 0,
+        [0, 3] => 1,
+        _ => return false,
+    };
+    let triangles = &polyhedra[body].triangles;
+    triangles.len() <= MOST_WORK
+        && triangles.iter().all(|&[a, b, c]| {
+            let normals = exact.across([(body, [a, b]), (body, [a, c])].map(pair_edge));
+            let pair = if body == 0 { [a, 0] } else { [0, a] };
+            normals.is_some_and(|both| exact.is_beyond(&both[body], pair, lower))
+        })
+}
+
 struct Proof<'a> {
     polyhedra: [&'a Polyhedron; 2],
     /// The vertices of both bodies in the world, relative to the first one of body 2, in units of the pair.
@@ -50,6 +66,14 @@ struct Proof<'a> {
 
 /// An edge of a body: which body, its tail and head.
 type Edge = (usize, [u32; 2]);
+
+/// The edge of the Minkowski difference that an edge of a body is.
+fn pair_edge((body, [tail, head]): Edge) -> PairEdge {
+    match body {
+        0 => [[tail, 0], [head, 0]],
+        _ => [[0, head], [0, tail]],
+    }
+}
 
 fn difference(a: &WideVector, b: &WideVector) -> WideVector {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
@@ -89,11 +113,7 @@ impl<'a> Proof<'a> {
         // What is of second order is less than the slack of 8. False for a NaN.
         let error = if off < 1e-3 { 2.0 * self.longest * off + 8.0 * self.error } else { f64::INFINITY };
         let scale = DoubleDouble::from(1.0 / length);
-        let edges = edges.map(|(body, [tail, head])| match body {
-            0 => [[tail, 0], [head, 0]],
-            _ => [[0, head], [0, tail]],
-        });
-        Direction { unit: product.map(|x| x * scale), error, edges, exact: OnceCell::new() }
+        Direction { unit: product.map(|x| x * scale), error, edges: edges.map(pair_edge), exact: OnceCell::new() }
     }
 
     /// Whether a product with a direction is at least `lower` times its length; `None` where rounding hides it. The length is 1 up

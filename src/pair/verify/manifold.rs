@@ -46,8 +46,8 @@ const AWAY: f64 = -0.1;
 /// | `id` | that of the features |
 ///
 /// a is the allowance of [`verify`](super::verify). b is a, 2⁻²⁵ of the size of the pair (both radii and the distance of the
-/// centres), and eight times what contact faces are thick at most; c is 256 a and half of what the body's are. That a face is
-/// complete is not checked.
+/// centres), and eight times what contact faces are thick at most; c is 256 a and half of what the body's are in the world.
+/// That a face is complete is not checked.
 ///
 /// # Errors
 /// As of [`verify_depth`](super::verify_depth); [`Error::Argument`] for fewer points than the manifold has.
@@ -154,7 +154,8 @@ impl<'a> Check<'a> {
             |polyhedron: &Polyhedron| polyhedron.contact_faces.faces.iter().map(|face| face.slack).fold(0.0, f64::max);
         let slacks = polyhedra.map(slack);
         let near = allowed + NEAR * size + NOISE * 2.0 * (slacks[0] + slacks[1]);
-        let out = slacks.map(|slack| OUT * allowed + slack);
+        // A pose that stretches makes a slab as much thicker.
+        let out = [0, 1].map(|i| OUT * allowed + slacks[i] * bodies[i].pose.most_stretched());
         let normal = Vector::from(manifold.normal);
         let reach = Bounds::new(polyhedra, bodies.map(|body| body.pose)).map(|bounds| {
             let gaps = [bounds.gap(&normal), bounds.gap(&-normal)];
@@ -183,7 +184,7 @@ impl<'a> Check<'a> {
         let poses = self.bodies.map(|body| body.pose);
         let witnesses = Witness::of_both(self.polyhedra, poses, &self.radii, &normal, &said);
         for ((witness, towards), out) in witnesses.iter().zip([-normal, normal]).zip(self.out) {
-            witness.check_point(out + self.near)?;
+            witness.check_point(out)?;
             self.check_feature(witness)?;
             self.check_facing(witness, &towards, gap_upper - gap_lower)?;
         }

@@ -21,7 +21,8 @@ use crate::polyhedron::Polyhedron;
 use crate::solve::exact::{self, VertexPair};
 use apart::{check_points, not_in_interval, verify_disjoint};
 pub(crate) use bounds::Bounds;
-use checks::{allowed, between_origins, check_unit, in_default, length, proof_of, too_large, unverified};
+pub(crate) use checks::in_default;
+use checks::{allowed, between_origins, check_unit, length, proof_of, too_large, unverified};
 #[doc(hidden)]
 pub use depth::CLEAR;
 pub(crate) use depth::holds_ball;
@@ -63,7 +64,8 @@ use witness::{Witness, difference_of};
 /// Points and features are said together, or not at all. Outcomes that say no points, no normal or no proof may not have them.
 /// `decided_by` and the statistics tell of the search, and are not checked. Of a contact's normal only its length is checked.
 /// [`DecidedBy::InscribedSpheres`] and swept radii excuse an intersection from a proof: integers decide it anew. Points on a swept
-/// body are moved back by its radius along the normal, and checked on the polyhedron.
+/// body are moved back by its radius along the normal, and checked on the polyhedron. All lengths are of the world, where the ball
+/// is round.
 ///
 /// It takes time in proportion to the vertices: bounds in double-double arithmetic mostly prove the interval, else integers do.
 ///

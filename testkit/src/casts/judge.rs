@@ -4,17 +4,11 @@
 //! contact where it is deeper than the allowance, for apart where it is farther. Lattice motions need no allowance: their poses at
 //! fractions of 2⁻¹⁰ are exact.
 
-use dashu_ratio::RBig;
-use swiftprox::math::Pose;
 use swiftprox::motion::{CastAnswer, CastOutcome, Motion};
 use swiftprox::pair::{self, DepthAnswer, DepthCache, DepthConfig, Outcome, PairAnswer, PairCache, PairConfig};
 
 use super::Case;
-use crate::PosePair;
-use crate::any_size::depth::depth;
-use crate::any_size::integers::place;
-use crate::any_size::nearest::nearest;
-use crate::oracle::rational;
+use crate::swept::Length;
 
 /// Halvings of the time before a hit.
 const HALVINGS: u32 = 40;
@@ -143,11 +137,16 @@ fn nearest_time(case: &Case, begin: f64, end: f64) -> f64 {
     best
 }
 
-/// What the judge's own poses may be off, in all; at a time that is no fraction of 2⁻¹⁰ poses of a lattice are rounded, too.
+/// The judge's own, or of a lattice less; at a time that is no fraction of 2⁻¹⁰ poses of a lattice are rounded, too.
 fn allowance_at(case: &Case, is_rounded: bool) -> f64 {
     if case.is_exact {
         return if is_rounded { 1e-14 * case.shapes[0].polyhedron().radius } else { 0.0 };
     }
+    allowance(case)
+}
+
+/// What poses by the judge's formulas may be off, in all.
+pub fn allowance(case: &Case) -> f64 {
     let size = |i: usize| {
         let reach = case.shapes[i].polyhedron().radius;
         match &case.motions[i] {
@@ -172,36 +171,17 @@ struct Exactly<'a> {
 impl Exactly<'_> {
     /// Whether they are no farther apart than `most`, from 0 on.
     fn is_within(&self, time: f64, most: f64) -> bool {
-        self.square(time) <= rational(most) * rational(most)
+        self.length(time, 0).compared_with(most).is_le()
     }
 
     /// Whether they are nearer than `least`; if that is negative, surely deeper in each other than as much.
     fn is_closer(&self, time: f64, least: f64) -> bool {
-        let bound = rational(least) * rational(least);
-        if least > 0.0 {
-            return self.square(time) < bound;
-        }
-        if self.square(time) > RBig::ZERO {
-            return false;
-        }
-        let pose_pair = self.pose_pair(time);
-        let placed = place(&self.points[0], &self.points[1], &pose_pair);
-        // In units of 2^exponent, squared.
-        let scale = rational(2.0).pow(2 * placed.exponent as isize);
-        depth(&placed, DEPTH_LIMIT).lower_square * scale > bound
+        self.length(time, if least > 0.0 { 0 } else { DEPTH_LIMIT }).compared_with(least).is_lt()
     }
 
-    /// Of the distance.
-    fn square(&self, time: f64) -> RBig {
-        let pose_pair = self.pose_pair(time);
-        let placed = place(&self.points[0], &self.points[1], &pose_pair);
-        nearest(&placed).world_square(&placed)
-    }
-
-    fn pose_pair(&self, time: f64) -> PosePair {
-        let of = |pose: &Pose| pose.rows;
-        let [first, second] = self.case.poses(time);
-        let rows = [of(&first), of(&second)];
-        std::array::from_fn(|k| rows[k / 12][k % 12 / 4][k % 4])
+    /// The signed distance or more.
+    fn length(&self, time: f64, limit: usize) -> Length {
+        let radii = self.case.shapes.each_ref().map(|shape| shape.swept_radius());
+        Length::signed([&self.points[0], &self.points[1]], &self.case.poses(time), radii, limit).0
     }
 }
