@@ -96,7 +96,7 @@ pub fn all() -> Vec<Kernel> {
         ("fan", fan),
         ("plane_values", plane_block),
     ];
-    let scalar: [Named; 9] = [
+    let scalar: [Named; 11] = [
         ("bounds", bounds),
         ("interval", interval),
         ("determinant_error", determinant_errors),
@@ -106,6 +106,8 @@ pub fn all() -> Vec<Kernel> {
         ("predicates", predicates),
         ("normals", normals),
         ("pose", pose_in_plain),
+        ("double_double", double_double),
+        ("wide", wide),
     ];
     let run = |name: String, is_fused: bool, kernel: fn() -> Found| {
         tape::begin(is_fused);
@@ -598,5 +600,47 @@ fn pose_in_plain() -> Found {
     found.counted("turned", rotated(&rows, p)[0].0, &[]);
     let entries = orthonormality(&rows);
     found.root("square", entries[0].0).root("product", entries[3].0);
+    found
+}
+
+/// Double-double arithmetic, operation by operation.
+fn double_double() -> Found {
+    let [a, b] = [["ah", "al"], ["bh", "bl"]].map(|[hi, lo]| {
+        let (high, low) = if hi == "ah" { (0.7, 3.1e-17) } else { (-0.3, 1.3e-17) };
+        DoubleDouble { hi: symbol(hi, high), lo: symbol(lo, low) }
+    });
+    let mut found = Found::default();
+    let results = [
+        ("two_sum", two_sum(a.hi, b.hi)),
+        ("two_product", two_product(a.hi, b.hi)),
+        ("sum", a + b),
+        ("difference", a - b),
+        ("product", a * b),
+    ];
+    for (name, DoubleDouble { hi, lo }) in results {
+        found.root(&format!("{name}_hi"), hi.0).root(&format!("{name}_lo"), lo.0);
+    }
+    found
+}
+
+/// What is built on double-doubles: each number on this tape is one.
+fn wide() -> Found {
+    let mut random = Random::new(0x77);
+    let matrix = |name: &str, random: &mut Random| [0, 1, 2].map(|k| symbols(&format!("{name}{k}"), random));
+    let [rows1, rows2, columns1, columns2] = ["R", "Q", "C", "D"].map(|name| matrix(name, &mut random));
+    let [apart, centre1, centre2, p, q, normal, opposite] =
+        ["T", "c", "d", "p", "q", "n", "m"].map(|name| symbols(name, &mut random));
+    let between = plus_difference(&apart, &turned(&rows1, &centre1), &turned(&rows2, &centre2));
+    let difference = plus_difference(&between, &turned(&rows1, &p), &turned(&rows2, &q));
+    let [below, above] = [(columns1, opposite, p), (columns2, normal, q)]
+        .map(|(columns, direction, vertex)| wide_dot(&turned(&columns, &direction), &vertex));
+    let gap = over_both(&normal, &between, below, above);
+    let [e, f, g] = ["e", "f", "g"].map(|name| symbols(name, &mut random));
+    let products = matrix("x", &mut random);
+    let [x, y, z] = [products[0], products[1], matrix("y", &mut random)[0]];
+    let offset = sum_of(z[0], [x[0], x[1], x[2], y[0], y[1], y[2]]);
+    let mut found = Found::default();
+    found.root("difference", difference[0].0).root("gap", gap.0);
+    found.root("height", wide_height(e, f, g).0).root("offset", offset.0);
     found
 }

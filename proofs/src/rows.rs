@@ -1,6 +1,6 @@
 //! The bounds: what the library claims, and what is proved of it.
 
-use crate::count::{Polynomial, rational, to_double, unit_roundoff, worst};
+use crate::count::{Polynomial, rational, to_double, unit_roundoff, wide, worst};
 use crate::kernels::{Kernel, named};
 use crate::library::*;
 
@@ -93,6 +93,12 @@ pub fn rows(kernels: &[Kernel]) -> Vec<Row> {
     let way = most("gjk", &["way"]);
     let on_way = most("gjk", &["point"]);
     let excess = most("gjk", &["excess"]);
+    let of_wide = |name: &str| {
+        let kernel = named(kernels, "wide");
+        let (_, node) = kernel.roots.iter().find(|(own, _)| own == name).expect("a root");
+        wide(&kernel.tape, *node)
+    };
+    let cancelled = low(&of("bounds", "separation"), &["cancelled"]);
 
     vec![
         row(
@@ -177,6 +183,17 @@ pub fn rows(kernels: &[Kernel]) -> Vec<Row> {
             "C",
         ),
         row("ray, motion", "R·p, of ρ", 5.3, most("pose", &["turned"]) * FROBENIUS, "C"),
+        // Of double-doubles, M the sum of the magnitudes of all terms. `separation` makes 2u of 16u·M.
+        row("frame `centred`", "of M, in u²", 2.0 * cancelled, of_wide("offset"), "C, Coq"),
+        row(
+            "predicates `DOUBLE_DOUBLE_FILTER`",
+            "of the spread, in u²",
+            DOUBLE_DOUBLE_FILTER / (U * U),
+            of_wide("height"),
+            "C, Coq",
+        ),
+        row("verify `ERROR`", "a difference, of the size, in u²", ERROR / (U * U), of_wide("difference"), "C, Coq"),
+        row("", "a gap, of \\|n\\| and the size, in u²", ERROR / (U * U), of_wide("gap"), "C, Coq"),
     ]
 }
 
