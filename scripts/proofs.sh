@@ -20,7 +20,7 @@ for script in *.g; do
         exit 1
     fi
 done
-for script in model lemmas constants identities assembly; do
+for script in model lemmas constants words double_double identities assembly; do
     coqc -q "$script.v" || { echo "$script.v is not proved" >&2; exit 1; }
 done
-echo "$(ls ./*.g | wc -l) scripts are proved by Gappa, $(cat ./*.v | grep -c '^Lemma') lemmas by Coq"
+echo "$(ls ./*.g | wc -l) scripts are proved by Gappa, $(cat ./*.v | grep -c '^Lemma\|^Theorem') lemmas by Coq"

@@ -121,6 +121,26 @@ pub fn worst(polynomial: &Polynomial) -> RBig {
     ends.reduce(|a, b| if b > a { b } else { a }).expect("a monomial")
 }
 
+/// The most that a sum or difference of double-doubles is off by, in u² of the magnitudes of both (`coq/double_double.v`).
+pub const WIDE_SUM: f64 = 3.0;
+
+/// The most that a product of double-doubles is off by, in u² of the product of the magnitudes (`coq/double_double.v`).
+pub const WIDE_PRODUCT: f64 = 8.0;
+
+/// What a value is off by, in u² of the sum of the magnitudes of its terms, where each number on the tape is a double-double.
+///
+/// # Panics
+/// If there is another operation than sums and products.
+pub fn wide(tape: &Tape, node: Node) -> f64 {
+    let operands: Vec<f64> = tape.operands(node).iter().map(|node| wide(tape, *node)).collect();
+    match (tape.op(node), &operands[..]) {
+        (Op::Input, _) => 0.0,
+        (Op::Add | Op::Sub, [a, b]) => a.max(*b) + WIDE_SUM,
+        (Op::Mul, [a, b]) => a + b + WIDE_PRODUCT,
+        (op, _) => panic!("{op:?} of double-doubles"),
+    }
+}
+
 /// Counts below cuts, which are inputs by the names they are given.
 pub struct Counter<'a> {
     tape: &'a Tape,

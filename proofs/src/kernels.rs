@@ -85,7 +85,7 @@ type Named = (&'static str, fn() -> Found);
 
 /// All of them, run on a machine that fuses and on one that does not.
 pub fn all() -> Vec<Kernel> {
-    let on_lanes: [Named; 9] = [
+    let on_lanes: [Named; 11] = [
         ("difference", difference),
         ("rotate_back", rotate_back),
         ("rigid", rigid),
@@ -95,8 +95,10 @@ pub fn all() -> Vec<Kernel> {
         ("pyramid", pyramid),
         ("fan", fan),
         ("plane_values", plane_block),
+        ("remainder", remainder),
+        ("edges", edges),
     ];
-    let scalar: [Named; 9] = [
+    let scalar: [Named; 12] = [
         ("bounds", bounds),
         ("interval", interval),
         ("determinant_error", determinant_errors),
@@ -106,6 +108,9 @@ pub fn all() -> Vec<Kernel> {
         ("predicates", predicates),
         ("normals", normals),
         ("pose", pose_in_plain),
+        ("double_double", double_double),
+        ("wide", wide),
+        ("turned", turned_pose),
     ];
     let run = |name: String, is_fused: bool, kernel: fn() -> Found| {
         tape::begin(is_fused);
@@ -598,5 +603,115 @@ fn pose_in_plain() -> Found {
     found.counted("turned", rotated(&rows, p)[0].0, &[]);
     let entries = orthonormality(&rows);
     found.root("square", entries[0].0).root("product", entries[3].0);
+    found
+}
+
+/// Double-double arithmetic, operation by operation.
+fn double_double() -> Found {
+    let [a, b] = [["ah", "al"], ["bh", "bl"]].map(|[hi, lo]| {
+        let (high, low) = if hi == "ah" { (0.7, 3.1e-17) } else { (-0.3, 1.3e-17) };
+        DoubleDouble { hi: symbol(hi, high), lo: symbol(lo, low) }
+    });
+    let mut found = Found::default();
+    let results = [
+        ("two_sum", two_sum(a.hi, b.hi)),
+        ("two_product", two_product(a.hi, b.hi)),
+        ("sum", a + b),
+        ("difference", a - b),
+        ("product", a * b),
+    ];
+    for (name, DoubleDouble { hi, lo }) in results {
+        found.root(&format!("{name}_hi"), hi.0).root(&format!("{name}_lo"), lo.0);
+    }
+    found
+}
+
+/// What is built on double-doubles: each number on this tape is one.
+fn wide() -> Found {
+    let mut random = Random::new(0x77);
+    let matrix = |name: &str, random: &mut Random| [0, 1, 2].map(|k| symbols(&format!("{name}{k}"), random));
+    let [rows1, rows2, columns1, columns2] = ["R", "Q", "C", "D"].map(|name| matrix(name, &mut random));
+    let [apart, centre1, centre2, p, q, normal, opposite] =
+        ["T", "c", "d", "p", "q", "n", "m"].map(|name| symbols(name, &mut random));
+    let between = plus_difference(&apart, &turned(&rows1, &centre1), &turned(&rows2, &centre2));
+    let difference = plus_difference(&between, &turned(&rows1, &p), &turned(&rows2, &q));
+    let [below, above] = [(columns1, opposite, p), (columns2, normal, q)]
+        .map(|(columns, direction, vertex)| wide_dot(&turned(&columns, &direction), &vertex));
+    let gap = over_both(&normal, &between, below, above);
+    let [e, f, g] = ["e", "f", "g"].map(|name| symbols(name, &mut random));
+    let products = matrix("x", &mut random);
+    let [x, y, z] = [products[0], products[1], matrix("y", &mut random)[0]];
+    let offset = sum_of(z[0], [x[0], x[1], x[2], y[0], y[1], y[2]]);
+    let mut found = Found::default();
+    found.root("difference", difference[0].0).root("gap", gap.0);
+    found.root("height", wide_height(e, f, g).0).root("offset", offset.0);
+    found
+}
+
+/// What is left of a direction beside the normals of an edge, and of a face.
+fn remainder() -> Found {
+    let mut random = Random::new(0x72);
+    let (first, second) = (vector("n", random.vector()), vector("m", random.vector()));
+    // So that the second coefficient is positive.
+    let g = vector("g", first * 0.3 + second * 3.0);
+    let c1 = value(input("c1", random.uniform(0.1, 0.2)));
+    let lanes = [g, first, second].map(|v| Symbolic::from_vector(&v));
+    let (c2, rest) = beside(lanes[0], [lanes[1], lanes[2]], c1);
+    let mut found = Found::default();
+    found.counted("edge", rest.0[0], &[(known(c2), "c2")]);
+    let [g, n] = ["h", "k"].map(|name| symbols(name, &mut random));
+    found.counted("face", beside_one(g, n, symbol("c", 0.3))[0].0, &[]);
+    found
+}
+
+/// Differences of points on edges, from those of their tails.
+fn edges() -> Found {
+    let mut random = Random::new(0x65);
+    let [tails, along1, along2] = ["d", "a", "b"].map(|name| Symbolic::from_vector(&vector(name, random.vector())));
+    let (s, t) = (value(input("s", random.uniform(0.1, 0.2))), value(input("t", random.uniform(0.3, 0.4))));
+    let one = from_foot(tails, along1, t).0[0];
+    let two = between_feet(tails, [along1, along2], [s, t]).0[0];
+    let mut found = Found::default();
+    found.counted("foot", one, &[]).counted("feet", two, &[]);
+    let [a, b] = [along1, along2].map(Symbolic::to_vector).map(|v| [v.x, v.y, v.z].map(|x| Symbol(known(x))));
+    let square = dot(a, a);
+    let newton = correction(square);
+    found.counted("square", square.0, &[]).counted("correction", newton.0, &[(square.0, "square")]);
+    found.counted("projected", projected(dot(b, a), newton).0, &[(newton.0, "k")]);
+    found.counted("cross", along1.cross(along2).0[0], &[]);
+    let (leaning, inverse) = (symbol("leaning", 0.7), symbol("inverse", 0.6));
+    found.counted("across", misfit_across_edge(leaning, inverse).0, &[]);
+    found.counted("between", misfit_between_edges(inverse).0, &[]);
+    found.counted("error", error_along(symbol("along", 0.7), symbol("distance", 0.6)).0, &[]);
+    found
+}
+
+/// Axis, speed and matrix of a turn.
+fn turned_pose() -> Found {
+    let mut random = Random::new(0x74);
+    let (axis, speed) = axis_and_speed(symbols("v", &mut random), symbol("scale", 0.9));
+    let half = half_angle(symbol("time", 0.4), symbol("w", 0.7));
+    let mut found = Found::default();
+    found.counted("axis", axis[0].0, &[]).counted("speed", speed.0, &[]).counted("half", half.0, &[]);
+    let rows = rotation_of(symbols("a", &mut random), symbol("sine", 0.6), symbol("cosine", 0.8));
+    let [_, twice] = operands(rows[0][0].0);
+    let [_, sum] = operands(twice);
+    let parts: Vec<Node> = finished()
+        .below(&[rows[0][0].0, rows[0][1].0], &BTreeMap::new())
+        .into_iter()
+        .filter(|node| finished().operands(*node).get(1).is_some_and(|node| finished().name(*node) == "sine"))
+        .collect();
+    let cuts: Vec<(Node, &str)> = parts.iter().copied().zip(["x", "y", "z"]).collect();
+    found.counted("part", parts[0], &[]).counted("sum", sum, &cuts).counted("diagonal", rows[0][0].0, &[(sum, "s")]);
+    for (i, row) in rows.iter().enumerate() {
+        for (k, entry) in row.iter().enumerate() {
+            let name = format!("R{i}{k}");
+            if i == k {
+                found.root(&name, entry.0);
+            } else {
+                found.counted(&name, entry.0, &cuts);
+            }
+        }
+    }
     found
 }

@@ -1,6 +1,6 @@
 //! The bounds: what the library claims, and what is proved of it.
 
-use crate::count::{Polynomial, rational, to_double, unit_roundoff, worst};
+use crate::count::{Polynomial, rational, to_double, unit_roundoff, wide, worst};
 use crate::kernels::{Kernel, named};
 use crate::library::*;
 
@@ -93,6 +93,35 @@ pub fn rows(kernels: &[Kernel]) -> Vec<Row> {
     let way = most("gjk", &["way"]);
     let on_way = most("gjk", &["point"]);
     let excess = most("gjk", &["excess"]);
+    let along = low(&of("edges_plain", "error"), &["along"]);
+    // R·ê, its product with a length, and sums, each rounded by u of itself: of the tails, at most |D| and the lengths along both
+    // edges; of a foot and a tail, at most |D| and one of the lengths; and |D|.
+    let feet = of("edges_plain", "feet");
+    let of_feet = |monomial: &[&str]| {
+        let key: Vec<String> = monomial.iter().map(|name| name.to_string()).collect();
+        feet[&key].relative().iter().map(|end| to_double(end).abs()).fold(0.0, f64::max)
+    };
+    let (of_product, of_tails) = (of_feet(&["a0", "s"]) - of_feet(&["d0"]), of_feet(&["d0"]) + sums);
+    let rotated = most("rotate_back", &["x0", "x1", "x2"]) * FROBENIUS;
+    let along_edges = rotated + of_product * STRETCH + of_tails - 1.0;
+    // U·Rê: R·ê as rounded, and the last sum of U. From a foot, too: the product, its correction (x and 2 − x), and the part that
+    // is taken off; |Rê|² ≤ 1.0303. The slopes: RᵀU and products. 12u are what planes of a feature miss each other by.
+    let (across, between) = (of("edges_plain", "across"), of("edges_plain", "between"));
+    let out_of_cone = rotated + 1.0;
+    let foot = (most("edges", &["projected"]) + most("edges", &["square"]) * 1.0303 + 1.0 + of_product) * 1.0303;
+    let slopes = back * FROBENIUS + most("plane_values", &["slope"]) * STRETCH;
+    let (axis, speed) = (most("turned", &["axis"]), most("turned", &["speed"]));
+    // I + 2w[a] + 2[a]² for w and a off by 4u and `part`, w² + |a|² = 1; and entries as rounded.
+    let part = axis + most("turned", &["part"]) + 4.0;
+    let diagonal = 2.0 * most("turned", &["sum"]) + most("turned", &["diagonal"]);
+    let beside = most("turned", &["R01", "R02", "R10", "R12", "R20", "R21"]);
+    let of_turn = (8.0 + 4.0 * part).hypot(2.0 * part) + (3.0 * diagonal * diagonal + 6.0 * beside * beside).sqrt();
+    let of_wide = |name: &str| {
+        let kernel = named(kernels, "wide");
+        let (_, node) = kernel.roots.iter().find(|(own, _)| own == name).expect("a root");
+        wide(&kernel.tape, *node)
+    };
+    let cancelled = low(&of("bounds", "separation"), &["cancelled"]);
 
     vec![
         row(
@@ -177,6 +206,41 @@ pub fn rows(kernels: &[Kernel]) -> Vec<Row> {
             "C",
         ),
         row("ray, motion", "R·p, of ρ", 5.3, most("pose", &["turned"]) * FROBENIUS, "C"),
+        row("`of_edge`", "the remainder, of its parts", REMAINDER / U, most("remainder", &["edge"]), "C"),
+        row("`of_face`", "the remainder, of its parts", REMAINDER / U, most("remainder", &["face"]), "C"),
+        row("states, edges", "a difference, of lengths along edges", along, along_edges, "C"),
+        row("", "a difference, of \\|D\\|", along, of_tails, "C"),
+        row("states, misfits", "vertex and edge, of \\|U\\|", low(&across, &[]), out_of_cone + foot + 12.0, "C"),
+        row("", "vertex and edge, of the length along it", low(&across, &["inverse", "|leaning|"]), foot, "C"),
+        row("", "two edges, of \\|U\\|", low(&between, &[]), out_of_cone + slopes + 12.0, "C"),
+        row(
+            "",
+            "two edges, of 1",
+            low(&between, &["inverse"]),
+            (most("edges", &["cross"]) - 1.0) * root2 * 1.0303,
+            "C",
+        ),
+        row("motion `Turn`", "a component of the axis", 6.5, axis, "C"),
+        row("", "the speed", 5.5, speed, "C"),
+        row("`rounding_of_pose`", "a turn, of its angle", OF_ANGLE, (speed + most("turned", &["half"])) * STRETCH, "C"),
+        row(
+            "",
+            "a turn, beside that",
+            OF_TURN,
+            of_turn * STRETCH + most("pose", &["turned"]) * FROBENIUS * above(3f64.sqrt()),
+            "C",
+        ),
+        // Of double-doubles, M the sum of the magnitudes of all terms. `separation` makes 2u of 16u·M.
+        row("frame `centred`", "of M, in u²", 2.0 * cancelled, of_wide("offset"), "C, Coq"),
+        row(
+            "predicates `DOUBLE_DOUBLE_FILTER`",
+            "of the spread, in u²",
+            DOUBLE_DOUBLE_FILTER / (U * U),
+            of_wide("height"),
+            "C, Coq",
+        ),
+        row("verify `ERROR`", "a difference, of the size, in u²", ERROR / (U * U), of_wide("difference"), "C, Coq"),
+        row("", "a gap, of \\|n\\| and the size, in u²", ERROR / (U * U), of_wide("gap"), "C, Coq"),
     ]
 }
 

@@ -6,7 +6,7 @@ use std::fmt::Write;
 use dashu_int::{IBig, UBig};
 use dashu_ratio::RBig;
 
-use crate::count::{Counter, Polynomial, rational, unit_roundoff};
+use crate::count::{Counter, Polynomial, WIDE_PRODUCT, WIDE_SUM, rational, unit_roundoff};
 use crate::kernels::{Kernel, Value, named};
 use crate::library::{RIGID, RIGID_DEFECT, RIGID_TOGETHER};
 use crate::tape::{Node, Op, Tape, dyadic};
@@ -22,6 +22,7 @@ pub fn scripts(kernels: &[Kernel]) -> Vec<Script> {
     all.extend(roundings(kernels));
     all.push(("identities.v".into(), identities(kernels)));
     all.push(("constants.v".into(), constants(kernels)));
+    all.push(("words.v".into(), words(named(kernels, "double_double"))));
     all
 }
 
@@ -398,8 +399,39 @@ fn constants(kernels: &[Kernel]) -> String {
         define(&format!("{name}_down"), &-low);
         define(&format!("{name}_up"), &high);
     }
+    define("wide_sum", &rational(WIDE_SUM));
+    define("wide_product", &rational(WIDE_PRODUCT));
     define("rigid_defect", &rational(RIGID_DEFECT));
     define("rigid_together", &rational(RIGID_TOGETHER));
     define("rigid", &rational(RIGID));
+    text
+}
+
+/// The words of double-doubles as the code computes them, for `coq/double_double.v`.
+fn words(kernel: &Kernel) -> String {
+    let mut text = String::from("Require Import Reals.\nRequire Import model.\nOpen Scope R_scope.\n");
+    for (name, root) in &kernel.roots {
+        writeln!(text, "Definition {name} (ah al bh bl : R) : R :=").expect("a string");
+        for node in kernel.tape.below(&[*root], &BTreeMap::new()) {
+            let operand = |k: usize| {
+                let node = kernel.tape.operands(node)[k];
+                match kernel.tape.op(node) {
+                    Op::Input => kernel.tape.name(node).to_string(),
+                    Op::Constant => format!("{}", kernel.tape.value(node)),
+                    _ => format!("t{node}"),
+                }
+            };
+            let formula = match kernel.tape.op(node) {
+                Op::Input | Op::Constant => continue,
+                Op::Add => format!("rnd ({} + {})", operand(0), operand(1)),
+                Op::Sub => format!("rnd ({} - {})", operand(0), operand(1)),
+                Op::Mul => format!("rnd ({} * {})", operand(0), operand(1)),
+                Op::Neg => format!("- {}", operand(0)),
+                op => panic!("{op:?} of double-doubles"),
+            };
+            writeln!(text, "  let t{node} := {formula} in").expect("a string");
+        }
+        writeln!(text, "  t{root}.").expect("a string");
+    }
     text
 }

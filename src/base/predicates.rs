@@ -28,7 +28,7 @@ use crate::base::extended_range::Extended;
 use crate::base::math::{UNIT_ROUNDOFF, Vector, power_of_two};
 use crate::base::memory::{collected, copied, push, with_capacity};
 use crate::base::progress::Progress;
-use crate::base::scalar::{Scalar, constant, dot};
+use crate::base::scalar::{Ring, Scalar, constant, dot};
 
 /// Below this (after scaling) a non-zero coordinate may make an expansion underflow; see the head
 /// of this file. 2⁻³⁰⁰.
@@ -43,7 +43,7 @@ const UNDERFLOW_GUARD: f64 = f64::from_bits((1023 - 1000) << 52);
 pub const FILTER: f64 = 10.0 * UNIT_ROUNDOFF;
 
 /// The bound at [`double_double_height`], rounded up for the rounding of the spread.
-const DOUBLE_DOUBLE_FILTER: f64 = 26.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
+pub const DOUBLE_DOUBLE_FILTER: f64 = 26.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF;
 
 /// A point set prepared for exact predicates. Points are named by their index.
 #[derive(Debug, Clone)]
@@ -348,7 +348,13 @@ pub fn height_and_spread<S: Scalar>(normal: [S; 3], permanent: [S; 3], a: [S; 3]
 /// difference), its product with the third difference by 8u² more, the two sums by 6u².
 fn double_double_height([a, b, c]: [&[f64; 3]; 3], p: &[f64; 3]) -> f64 {
     let from_a = |q: &[f64; 3]| [0, 1, 2].map(|k| two_sum(q[k], -a[k]));
-    wide_dot(&wide_cross(&from_a(b), &from_a(c)), &from_a(p)).hi
+    wide_height(from_a(b), from_a(c), from_a(p)).hi
+}
+
+/// (e × f)·g.
+#[inline]
+pub fn wide_height<D: Ring>(e: [D; 3], f: [D; 3], g: [D; 3]) -> D {
+    wide_dot(&wide_cross(&e, &f), &g)
 }
 
 /// det(b − a, c − a, p − a) and the spread of [`ExactPoints::orientation`].

@@ -32,6 +32,11 @@ impl Scalar for f64 {
     }
 }
 
+/// What can be added and multiplied: double-doubles, or what stands for them.
+pub trait Ring: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {}
+
+impl<D: Copy + Add<Output = D> + Sub<Output = D> + Mul<Output = D>> Ring for D {}
+
 /// A constant.
 #[inline(always)]
 pub fn constant<S: Scalar>(x: f64) -> S {

@@ -142,6 +142,12 @@ pub(super) fn rounding_of_place(body: &Carried, pose: &Pose) -> f64 {
     })
 }
 
+/// What a turned rotation is off by, in u of the angle …
+pub const OF_ANGLE: f64 = 8.0;
+
+/// … and in u beside that, see [`rounding_of_pose`].
+pub const OF_TURN: f64 = 96.0;
+
 /// How far at most a point within `reach` of a screw's centre, or of another motion's local origin, is at a time of up to
 /// `longest` from where the computed pose has it. At time 0, and at 1 of an affine motion, poses are exact
 /// ([`is_exact`]).
@@ -163,7 +169,7 @@ pub(super) fn rounding_of_pose(motion: &Motion, turn: &Turn, longest: f64, reach
             let keeps_translation = !moves && (!turns || centre == 0.0);
             let of_translation =
                 if keeps_translation { 0.0 } else { 4.0 * (length(&start.translation()) + path) + 16.0 * centre };
-            let of_turn = if turns { (8.0 * longest * turn.speed + 96.0) * reach } else { 0.0 };
+            let of_turn = if turns { (OF_ANGLE * longest * turn.speed + OF_TURN) * reach } else { 0.0 };
             let underflow = if moves || turns { UNDERFLOW } else { 0.0 };
             U * (of_translation + of_turn) + underflow
         }

@@ -1,7 +1,7 @@
 //! Turns about an axis, right to a bound that is derived here: no library's sine is trusted, and all machines compute the same.
 
 use crate::base::math::{Matrix, Vector};
-use crate::base::scalar::{Scalar, constant};
+use crate::base::scalar::{Scalar, constant, dot};
 
 /// The largest angle in radians that [`Turn::by`] takes.
 pub(super) const LARGEST_ANGLE: f64 = 1_048_576.0;
@@ -25,9 +25,8 @@ impl Turn {
         if !(scale > 0.0) {
             return Turn { axis: Vector::zeros(), speed: 0.0 };
         }
-        let scaled = rotation / scale;
-        let length = scaled.norm_squared().sqrt();
-        Turn { axis: scaled / length, speed: length * scale }
+        let (axis, speed) = axis_and_speed((*rotation).into(), scale);
+        Turn { axis: axis.into(), speed }
     }
 
     /// The rotation by `time`, exactly the identity at 0; of at most [`LARGEST_ANGLE`]. In the spectral norm it
@@ -38,22 +37,37 @@ impl Turn {
     ///   matrix is I + 2w\[a\] + 2\[a\]². It errs by 2·4u·|a| + 2·11.5u·|w| + 4·11.5u·|a| < 60u, as w² + |a|² = 1.
     /// - Its entries are rounded by 2u off the diagonal and 5u on it, in all 10u in the Frobenius norm.
     pub fn by(&self, time: f64) -> Matrix {
-        let (sine, w) = sin_cos(0.5 * (time * self.speed));
-        let part = self.axis * sine;
-        let (x, y, z) = (part.x, part.y, part.z);
-        let (xx, yy, zz) = (x * x, y * y, z * z);
-        Matrix::new(
-            1.0 - 2.0 * (yy + zz),
-            2.0 * (x * y - w * z),
-            2.0 * (x * z + w * y),
-            2.0 * (x * y + w * z),
-            1.0 - 2.0 * (xx + zz),
-            2.0 * (y * z - w * x),
-            2.0 * (x * z - w * y),
-            2.0 * (y * z + w * x),
-            1.0 - 2.0 * (xx + yy),
-        )
+        let (sine, w) = sin_cos(half_angle(time, self.speed));
+        let rows = rotation_of(self.axis.into(), sine, w);
+        Matrix::from_fn(|i, k| rows[i][k])
     }
+}
+
+/// A vector over its length, and its length; the scale is its largest component.
+#[inline(always)]
+pub fn axis_and_speed<S: Scalar>(rotation: [S; 3], scale: S) -> ([S; 3], S) {
+    let scaled = rotation.map(|x| x / scale);
+    let length = dot(scaled, scaled).sqrt();
+    (scaled.map(|x| x / length), length * scale)
+}
+
+/// Half of the angle of a turn.
+#[inline(always)]
+pub fn half_angle<S: Scalar>(time: S, speed: S) -> S {
+    constant::<S>(0.5) * (time * speed)
+}
+
+/// The rotation about a unit axis by twice the angle that has this sine and this cosine.
+#[inline(always)]
+pub fn rotation_of<S: Scalar>(axis: [S; 3], sine: S, w: S) -> [[S; 3]; 3] {
+    let [x, y, z] = axis.map(|a| a * sine);
+    let (xx, yy, zz) = (x * x, y * y, z * z);
+    let (one, two) = (constant::<S>(1.0), constant::<S>(2.0));
+    [
+        [one - two * (yy + zz), two * (x * y - w * z), two * (x * z + w * y)],
+        [two * (x * y + w * z), one - two * (xx + zz), two * (y * z - w * x)],
+        [two * (x * z - w * y), two * (y * z + w * x), one - two * (xx + yy)],
+    ]
 }
 
 /// π/2 in three parts of 33 bits, so that products with integers up to 2²⁰ are exact; all three together are off by less than 2⁻¹⁰²

@@ -5,9 +5,9 @@
 //! is mapped *into* a body by the transpose, which is exact for support functions whatever R; only where marching maps a
 //! *point* into a body does the transpose stand for the inverse, and there it merely proposes.
 
-use crate::base::double_double::{two_product, two_sum};
+use crate::base::double_double::{DoubleDouble, two_product, two_sum};
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
-use crate::base::scalar::{Scalar, constant};
+use crate::base::scalar::{Ring, Scalar, constant};
 use crate::base::simd::Lanes;
 use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST};
 
@@ -374,16 +374,23 @@ pub fn between_centres(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> ([f64;
     let mut offset = [0.0; 3];
     let mut cancelled = 0.0;
     for (i, out) in offset.iter_mut().enumerate() {
-        let mut sum = two_sum(poses[0].rows[i][3], -poses[1].rows[i][3]);
-        cancelled += sum.hi.abs();
-        for (polyhedron, pose, sign) in [(polyhedra[0], poses[0], 1.0), (polyhedra[1], poses[1], -1.0)] {
+        let apart = two_sum(poses[0].rows[i][3], -poses[1].rows[i][3]);
+        cancelled += apart.hi.abs();
+        let mut products = [DoubleDouble::default(); 6];
+        for (body, sign) in [(0, 1.0), (1, -1.0)] {
             for k in 0..3 {
-                let product = two_product(pose.rows[i][k], sign * polyhedron.centre[k]);
-                sum = sum + product;
+                let product = two_product(poses[body].rows[i][k], sign * polyhedra[body].centre[k]);
+                products[3 * body + k] = product;
                 cancelled += product.hi.abs();
             }
         }
-        *out = sum.hi;
+        *out = sum_of(apart, products).hi;
     }
     (offset, cancelled)
+}
+
+/// One after another.
+#[inline]
+pub fn sum_of<D: Ring>(first: D, terms: [D; 6]) -> D {
+    terms.into_iter().fold(first, |sum, term| sum + term)
 }

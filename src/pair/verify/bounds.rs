@@ -4,13 +4,14 @@
 use super::checks::length;
 use crate::base::double_double::{DoubleDouble, WideVector, narrow, two_product, wide_difference, wide_dot, widen};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp, divisor, power_of_two};
+use crate::base::scalar::Ring;
 use crate::polyhedron::{Polyhedron, Vertex};
 use crate::solve::exact::VertexPair;
 
 /// The error of any length computed here, as a multiple of the size of the pair. A coordinate of R₁·x − R₂·y + Δ takes twelve
 /// products, off by 8u² each. It takes as many sums, off by 3u² of at most the size. Together they are below 2⁻¹⁰⁰, and so is what
 /// a product with a unit vector adds. Underflow takes less than 2⁻¹⁰⁰⁰ of it, see [`Bounds::unit`].
-const ERROR: f64 = f64::from_bits((1023 - 94) << 52);
+pub const ERROR: f64 = f64::from_bits((1023 - 94) << 52);
 
 /// A pair of placed bodies, of any magnitudes, in a unit of length in which its size is near 1.
 pub struct Bounds<'a> {
@@ -49,7 +50,7 @@ impl<'a> Bounds<'a> {
         let unit = power_of_two(-(size.log2() as i32).clamp(-MOST_SCALED, MOST_SCALED));
         let in_units = |x: DoubleDouble| DoubleDouble { hi: x.hi * unit, lo: x.lo * unit };
         let [centre1, centre2] = [0, 1].map(|i| rotate(poses[i], &widen(&(polyhedra[i].centre * unit))));
-        let between = [0, 1, 2].map(|k| in_units(apart[k]) + (centre1[k] - centre2[k]));
+        let between = plus_difference(&apart.map(in_units), &centre1, &centre2);
         Some(Bounds { polyhedra, poses, unit, between, error: ERROR * (size * unit) })
     }
 
@@ -68,7 +69,7 @@ impl<'a> Bounds<'a> {
         let wide = widen(normal);
         let (below1, vertex1) = self.highest(0, &widen(&-normal));
         let (above2, vertex2) = self.highest(1, &wide);
-        let value = wide_dot(&wide, &self.between) - below1 - above2;
+        let value = over_both(&wide, &self.between, below1, above2);
         Gap { value, vertices: [vertex1, vertex2] }
     }
 
@@ -110,7 +111,7 @@ impl<'a> Bounds<'a> {
             let vertex = &self.polyhedra[i].vertices[pair[i] as usize];
             rotate(self.poses[i], &widen(&(vertex.position * self.unit)))
         });
-        [0, 1, 2].map(|k| self.between[k] + (point1[k] - point2[k]))
+        plus_difference(&self.between, &point1, &point2)
     }
 
     /// Whether the product of a difference with a vector of at most length 2 is more than a double for sure.
@@ -136,7 +137,7 @@ impl<'a> Bounds<'a> {
     pub fn prove_upper(&self, points: &[PointInside; 2], upper: f64) -> bool {
         let [point1, point2] = [0, 1].map(|i| rotate(self.poses[i], &points[i].position(self.polyhedra[i], self.unit)));
         let upper = self.in_units(upper);
-        let difference = [0, 1, 2].map(|k| self.between[k] + (point1[k] - point2[k]));
+        let difference = plus_difference(&self.between, &point1, &point2);
         let (square, most) = (wide_dot(&difference, &difference), two_product(upper, upper));
         let length: f64 = difference.iter().map(|x| x.hi.abs()).sum();
         // A difference off by e in each coordinate is longer by less than 2e, its square by 4e·|D| + 4e²; squares err by 2⁻¹⁰⁰.
@@ -153,13 +154,31 @@ fn in_range<const N: usize>(vectors: [Vector; N]) -> [Vector; N] {
 
 /// R·p.
 fn rotate(pose: &Pose, p: &WideVector) -> WideVector {
-    pose.rows.map(|[x, y, z, _]| wide_dot(&widen(&Vector::new(x, y, z)), p))
+    turned(&pose.rows.map(|[x, y, z, _]| widen(&Vector::new(x, y, z))), p)
 }
 
 /// Rᵀ·d.
 fn rotate_back(pose: &Pose, d: &WideVector) -> WideVector {
     let r = &pose.rows;
-    [0, 1, 2].map(|k| wide_dot(&widen(&Vector::new(r[0][k], r[1][k], r[2][k])), d))
+    turned(&[0, 1, 2].map(|k| widen(&Vector::new(r[0][k], r[1][k], r[2][k]))), d)
+}
+
+/// Products of rows with a vector.
+#[inline]
+pub fn turned<D: Ring>(rows: &[[D; 3]; 3], p: &[D; 3]) -> [D; 3] {
+    rows.map(|row| wide_dot(&row, p))
+}
+
+/// a + (p − q).
+#[inline]
+pub fn plus_difference<D: Ring>(a: &[D; 3], p: &[D; 3], q: &[D; 3]) -> [D; 3] {
+    [0, 1, 2].map(|k| a[k] + (p[k] - q[k]))
+}
+
+/// n·a less the products of n with a vertex of each body.
+#[inline]
+pub fn over_both<D: Ring>(normal: &[D; 3], a: &[D; 3], first: D, second: D) -> D {
+    wide_dot(normal, a) - first - second
 }
 
 /// A convex combination of up to three vertices: v₀ + w₁(v₁ − v₀) + w₂(v₂ − v₀), the weights from 0, their sum at most 1.

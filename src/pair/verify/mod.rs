@@ -21,9 +21,10 @@ use crate::polyhedron::Polyhedron;
 use crate::solve::exact::{self, VertexPair};
 use apart::{check_points, not_in_interval, verify_disjoint};
 pub(crate) use bounds::Bounds;
+#[doc(hidden)]
+pub use bounds::{ERROR, over_both, plus_difference, turned};
 pub(crate) use checks::in_default;
 use checks::{allowed, between_origins, check_unit, length, proof_of, too_large, unverified};
-#[doc(hidden)]
 pub use depth::CLEAR;
 pub(crate) use depth::holds_ball;
 pub use depth::verify_depth;

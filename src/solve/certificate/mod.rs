@@ -323,13 +323,28 @@ fn of_edge<L: Lanes>(polyhedron: &Polyhedron, edge: &Edge, g: L) -> f64 {
     };
     // A NaN from 0·∞ becomes 0 at an edge without a dihedral angle; there either normal will do.
     let c1 = clamp(coefficient, 0.0, length);
-    let rest = first.negated_mul_add(L::splat(c1), g);
-    let c2 = clamp(rest.dot(second), 0.0, f64::INFINITY);
-    let remainder = second.negated_mul_add(L::splat(c2), rest);
+    let (c2, remainder) = beside(g, [first, second], c1);
     let rounding = 8.0 * U * polyhedron.radius;
     c1 * (first_slack + rounding)
         + c2 * (second_slack + rounding)
-        + 2.0 * polyhedron.radius * (remainder.norm1() + 3.0 * U * (length + c1 + c2) + DIRECTION_ERROR * length)
+        + 2.0 * polyhedron.radius * (remainder.norm1() + REMAINDER * (length + c1 + c2) + DIRECTION_ERROR * length)
+}
+
+/// What rounding makes of the remainder of a direction beside two normals or one, over the lengths of all parts.
+pub const REMAINDER: f64 = 3.0 * U;
+
+/// The second coefficient, and what is left of g.
+#[inline(always)]
+pub fn beside<L: Lanes>(g: L, [first, second]: [L; 2], c1: f64) -> (f64, L) {
+    let rest = first.negated_mul_add(L::splat(c1), g);
+    let c2 = clamp(rest.dot(second), 0.0, f64::INFINITY);
+    (c2, second.negated_mul_add(L::splat(c2), rest))
+}
+
+/// g − c·n.
+#[inline(always)]
+pub fn beside_one<S: Scalar>(g: [S; 3], normal: [S; 3], c: S) -> [S; 3] {
+    [0, 1, 2].map(|k| g[k] - normal[k] * c)
 }
 
 /// The unit vector perpendicular to the normals between which an edge's cone, or the half of it that holds g, lies. The difference
@@ -382,7 +397,7 @@ fn of_face(polyhedron: &Polyhedron, face: u32, g: &Vector, point: &Vector, heigh
     let record = &polyhedron.faces[face as usize];
     let length = norm1_of(g);
     let c = clamp(g.dot(&record.normal), 0.0, f64::INFINITY);
-    let remainder = g - record.normal * c;
+    let remainder = Vector::from(beside_one((*g).into(), record.normal.into(), c));
     // A point that is not in the face may be far out of the body, beyond the radius that the frame's bound of the difference is
     // for: that bound lacks 8u(|q| − ρ). The terms below have 11u|q| to spare: of 12u(ρ + |q|) they need 6.2u for g and 2u for the
     // remainder, of 16u(|q| + height) in `rounding` at most 9u.
@@ -390,7 +405,8 @@ fn of_face(polyhedron: &Polyhedron, face: u32, g: &Vector, point: &Vector, heigh
     let magnitude = if apart > polyhedron.radius { apart } else { polyhedron.radius };
     let rounding = face_rounding(magnitude, height);
     let support_excess = c * (record.slack + rounding)
-        + (polyhedron.radius + magnitude) * (norm1_of(&remainder) + 3.0 * U * (length + c) + DIRECTION_ERROR * length);
+        + (polyhedron.radius + magnitude)
+            * (norm1_of(&remainder) + REMAINDER * (length + c) + DIRECTION_ERROR * length);
     // On the boundary of the face nothing is proved about the point; the fallback finds another.
     let is_inside = is_inside_sides(polyhedron, record, Portable::from_vector(point));
     let point_error = if is_inside { record.slack + rounding } else { f64::INFINITY };

@@ -18,6 +18,9 @@ use crate::polyhedron::Polyhedron;
 use crate::solve::certificate::Certify;
 use crate::solve::frame::Frame;
 use crate::solve::state::{Kind, State};
+pub use states::{
+    between_feet, correction, error_along, from_foot, misfit_across_edge, misfit_between_edges, projected,
+};
 use states::{edge_edge, vertex_edge, vertex_face, vertex_vertex};
 pub use step::{Step, Transition};
 

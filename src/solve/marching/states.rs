@@ -6,6 +6,7 @@ use super::shortcuts::{NEARLY_UNIT, is_passed, over_another_feature, past_the_en
 use super::step::Step;
 use super::walks::{Descent, WIDE_FACE, behind, walk_along_edge, walk_over_face};
 use crate::base::math::{UNIT_ROUNDOFF, clamp};
+use crate::base::scalar::{Scalar, constant};
 use crate::base::simd::Lanes;
 use crate::polyhedron::NONE;
 use crate::solve::certificate::{
@@ -132,17 +133,17 @@ pub(super) fn vertex_edge<L: Lanes, C: Certify<L>, const NEAR: usize>(
     let from_far = rotated.add(body.offset);
     let from_tail = from_far.sub(tail_world);
     // One step of Newton's iteration for the reciprocal of |Rê|², which is 1 up to the defect of R.
-    let correction = 2.0 - along_world.dot(along_world);
-    let free = from_tail.dot(along_world) * correction;
+    let correction = correction(along_world.dot(along_world));
+    let free = projected(from_tail.dot(along_world), correction);
     let t = clamp(free, 0.0, record.length);
-    let difference = along_world.negated_mul_add(L::splat(t), from_tail);
+    let difference = from_foot(from_tail, along_world, t);
     let mut direction = difference;
     let distance_squared = difference.dot(difference);
     let mut square = distance_squared;
     // Close to a long edge the rounding of x − tail leaves a part along the edge that a second time removes.
     let mut leaning = t;
     if t * t > 16.0 * distance_squared {
-        leaning = difference.dot(along_world) * correction;
+        leaning = projected(difference.dot(along_world), correction);
         direction = along_world.negated_mul_add(L::splat(leaning), difference);
         square = direction.dot(direction);
     }
@@ -162,10 +163,10 @@ pub(super) fn vertex_edge<L: Lanes, C: Certify<L>, const NEAR: usize>(
     // edge: of 10.3u·|x − tail| + 6.4u|U| by rounding, the length of x − tail being at most |U| + t; 12u are for what the planes of
     // a feature miss each other by.
     let is_plain = frame.rigid & (inside == 0b1111);
-    let misfit = UNIT_ROUNDOFF * (29.0 + 10.5 * leaning.abs() * inverse);
+    let misfit = misfit_across_edge(leaning, inverse);
     let support_excess = if is_plain { of_edge_in_cone(far.polyhedron, record, misfit) } else { f64::INFINITY };
     // R·tail is one of the products that the frame's bound is for; R·ê, the length of x − tail and the last difference come on top.
-    let error = 10.0 * UNIT_ROUNDOFF * (t + distance);
+    let error = error_along(t, distance);
     let foot = L::from_vector(&along).mul_add(L::splat(t), L::from_vector(tail));
     let minimum = Minimum {
         points: in_order::<L, NEAR>(L::from_vector(position), foot),
@@ -336,7 +337,7 @@ pub(super) fn edge_edge<L: Lanes, C: Certify<L>>(frame: &Frame<L>, indices: [u32
     // the slopes, found not negative, err by 5.3u|U| for RᵀU and 3.1u|U| for the products; 12u are for what the planes of a
     // feature miss each other by.
     let inverse = reciprocal_length(sine_squared);
-    let misfit = UNIT_ROUNDOFF * (28.0 + 3.0 * inverse);
+    let misfit = misfit_between_edges(inverse);
     let is_plain = L::splat(0.0).greater(across) == 0;
     let support_excess = if is_plain {
         of_edge_in_cone(body1.polyhedron, record1, misfit) + of_edge_in_cone(body2.polyhedron, record2, misfit)
@@ -348,7 +349,7 @@ pub(super) fn edge_edge<L: Lanes, C: Certify<L>>(frame: &Frame<L>, indices: [u32
         L::from_vector(&along2).mul_add(L::splat(t), L::from_vector(tail2)),
     ];
     let rotated = [world1.mul_add(L::splat(s), rotated1), world2.mul_add(L::splat(t), rotated2)];
-    let difference = world2.negated_mul_add(L::splat(t), world1.mul_add(L::splat(s), between));
+    let difference = between_feet(between, [world1, world2], [s, t]);
     let distance = difference.dot(difference).sqrt();
     let minimum = Minimum {
         points,
@@ -356,7 +357,7 @@ pub(super) fn edge_edge<L: Lanes, C: Certify<L>>(frame: &Frame<L>, indices: [u32
         difference,
         // R·tail are the products that the frame's bound is for; R·ê, the length of x − y between the tails and two sums come
         // on top.
-        error: 10.0 * UNIT_ROUNDOFF * (s + t + distance),
+        error: error_along(s + t, distance),
         direction: normal,
         inverse,
         distance,
@@ -373,6 +374,48 @@ pub(super) fn edge_edge<L: Lanes, C: Certify<L>>(frame: &Frame<L>, indices: [u32
 /// Below this sin² of the angle between two edges their cross product of unit vectors (error 4u a component) has fewer than
 /// two digits.
 const PARALLEL: f64 = 1e-28;
+
+/// A point seen from the foot at t of an edge, `from_tail` from its tail.
+#[inline(always)]
+pub fn from_foot<L: Lanes>(from_tail: L, along: L, t: f64) -> L {
+    along.negated_mul_add(L::splat(t), from_tail)
+}
+
+/// A point at s of one edge seen from that at t of another, whose tails are so far from each other.
+#[inline(always)]
+pub fn between_feet<L: Lanes>(tails: L, [along1, along2]: [L; 2], [s, t]: [f64; 2]) -> L {
+    along2.negated_mul_add(L::splat(t), along1.mul_add(L::splat(s), tails))
+}
+
+/// One step of Newton's iteration for 1/x, where x is near 1.
+#[inline(always)]
+pub fn correction<S: Scalar>(x: S) -> S {
+    constant::<S>(2.0) - x
+}
+
+/// A product with a vector whose length is about 1, over its square.
+#[inline(always)]
+pub fn projected<S: Scalar>(product: S, correction: S) -> S {
+    product * correction
+}
+
+/// How far a direction across an edge, of reciprocal length `inverse`, is out of the cone of its normals: what [`from_foot`] leaves.
+#[inline(always)]
+pub fn misfit_across_edge<S: Scalar>(leaning: S, inverse: S) -> S {
+    constant::<S>(UNIT_ROUNDOFF) * (constant::<S>(29.0) + constant::<S>(10.5) * leaning.abs() * inverse)
+}
+
+/// How far the cross product of two edges, of reciprocal length `inverse`, is out of the cone of either's normals.
+#[inline(always)]
+pub fn misfit_between_edges<S: Scalar>(inverse: S) -> S {
+    constant::<S>(UNIT_ROUNDOFF) * (constant::<S>(28.0) + constant::<S>(3.0) * inverse)
+}
+
+/// What points on edges add to the error of a difference: they are so far from the tails, in all.
+#[inline(always)]
+pub fn error_along<S: Scalar>(along: S, distance: S) -> S {
+    constant::<S>(10.0 * UNIT_ROUNDOFF) * (along + distance)
+}
 
 /// What belongs to body NEAR and what to the other, in the order of the bodies.
 #[inline(always)]
