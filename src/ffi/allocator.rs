@@ -15,15 +15,16 @@ use super::guard::guard;
 use super::log::must_return;
 use crate::base::locks::locked;
 
-/// Gives memory of `size` bytes, not 0 and a multiple of `alignment`, at an address that is one, too. The alignment is a power of
-/// two, at least a pointer's and sometimes more than malloc keeps (64, for one). Null if there is no memory, as where the system's
-/// runs out: for what grows with the caller's input or a scene, and for integers, the call then ends in SWIFTPROX_ERROR_MEMORY; for
-/// what else is small the program ends with a message (the head of this file says what that is). `user` is the pointer given to
+/// Allocates `size` bytes at an address that is a multiple of `alignment`. `size` is not 0 and a multiple of it, too. The alignment
+/// is a power of two, at least that of a pointer, and may exceed malloc's (64, for example). `user` is the pointer given to
 /// swiftprox_library_set_allocator.
+///
+/// Return null if there is no memory. Calls then end in SWIFTPROX_ERROR_MEMORY where memory grows with the input or a scene, or is
+/// for integers. For other, small blocks the program ends with a message (see the head of this file).
 pub type AllocateCallback =
     Option<unsafe extern "C-unwind" fn(user: *mut c_void, size: usize, alignment: usize) -> *mut c_void>;
 
-/// Takes back memory that the swiftprox_allocate_callback set with it gave for the same size and alignment. `user` is the pointer
+/// Frees memory that the swiftprox_allocate_callback set with it returned for the same size and alignment. `user` is the pointer
 /// given with both.
 pub type DeallocateCallback =
     Option<unsafe extern "C-unwind" fn(user: *mut c_void, memory: *mut c_void, size: usize, alignment: usize)>;
@@ -161,16 +162,15 @@ unsafe impl GlobalAlloc for Replaceable {
     }
 }
 
-/// Sets where the library takes all its memory from, in the whole process: both functions, or null for both (the default) for the
-/// system's malloc. At any time: memory that the library holds goes back to the functions it came from, so that functions once
-/// set, and `user`, must stay good until the process ends: they are called at the end of threads and after main, too.
+/// Sets the functions that allocate all memory of the library, for the whole process. Null for both (the default) means the
+/// system's malloc. You may call this at any time: memory goes back to the functions it came from. So functions once set, and
+/// `user`, must stay valid until the process ends. They are called at the end of threads and after main, too.
 ///
-/// The functions may be called from every thread that uses the library, from several at once. They must return, must not call the
-/// library, and a C++ exception that leaves them ends the program.
+/// Several threads may call the functions at once. They must return and must not call the library; a C++ exception that leaves them
+/// ends the program.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: one of the functions is null and the other one is not. SWIFTPROX_ERROR_UNSUPPORTED: the
-/// library was not built by CMake, nor with Cargo's feature `allocator`: inside a Rust program it has that program's allocator.
-/// Nothing has changed then.
+/// On failure nothing has changed. SWIFTPROX_ERROR_INVALID_ARGUMENT: only one function is null. SWIFTPROX_ERROR_UNSUPPORTED: the
+/// library was built neither by CMake nor with Cargo's feature `allocator`; a Rust program's own allocator is used.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_set_allocator(
     allocate: AllocateCallback,

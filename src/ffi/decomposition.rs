@@ -8,19 +8,18 @@ use super::guard::guard;
 use super::shape_options::{ProgressCallback, in_steps};
 use crate::decomposition::decompose;
 
-/// Where swiftprox_mesh_decompose writes the triangles of a surface, piece by piece. The arrays are the caller's.
+/// Output of swiftprox_mesh_decompose: the triangles of a surface, piece by piece. The caller owns the arrays.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CDecomposition {
-    /// Receives the vertices of each triangle, 3 * capacity numbers, counter-clockwise seen from outside: those of one piece
-    /// follow each other. Of exactly equal vertices the first is named.
+    /// Receives 3 vertex numbers per triangle, counter-clockwise seen from outside, piece by piece. Equal vertices get the number
+    /// of the first. Room: 3 * capacity numbers.
     pub corners: *mut u32,
-    /// Receives for each triangle the face of the mesh that it is a part of, or is null.
+    /// Receives the mesh face of each triangle; may be null.
     pub faces: *mut u32,
-    /// Receives for each triangle the number of its piece, ascending from 0, or is null.
+    /// Receives the piece number of each triangle, ascending from 0; may be null.
     pub pieces: *mut u32,
-    /// Triangles for which the arrays have room. Two fewer than corners, summed over the faces of three or more, are always
-    /// enough.
+    /// Room of the arrays in triangles. The sum of (corners - 2) over all faces of three or more corners is always enough.
     pub capacity: usize,
     /// Receives the number of triangles; 0 on failure.
     pub triangle_count: usize,
@@ -28,29 +27,25 @@ pub struct CDecomposition {
     pub piece_count: usize,
 }
 
-/// Cuts the surface of a mesh into convex pieces, as the decomposer of SWIFT++ did. The mesh need not be convex, and may be in
-/// several parts. Each triangle of the surface is in one piece; the piece's body is the convex hull of its triangles, which lie
-/// on that hull.
+/// Cuts the surface of a mesh into convex pieces, as the decomposer of SWIFT++ did. The mesh need not be convex or connected. Each
+/// triangle belongs to one piece and lies on that piece's convex hull.
 ///
-/// Of a closed surface, outside of which its faces run counter-clockwise, the hulls are inside of the body: bodies that are apart
-/// are as far apart as their pieces. Pieces may overlap, and need not fill the body, so that a body wholly inside of another may
-/// not meet one of its pieces. Surfaces without inside, which are open, or cavities, become flat pieces. A mesh whose closed
-/// parts are all inside out is turned.
+/// For closed surfaces with outward faces the hulls stay inside the body: separated bodies have the distance of their pieces.
+/// Pieces may overlap and need not fill the body, so a body wholly inside another may touch no piece. Open surfaces and cavities
+/// become flat pieces. A mesh with all closed parts inside out is turned.
 ///
-/// For an object of a scene make a shape of each piece k with swiftprox_shape_create_from_mesh: the same vertices, the corners of
-/// the piece's triangles, no valences, input = SWIFTPROX_INPUT_PATCH; and hand all of them to swiftprox_scene_add_object.
+/// Make a shape of each piece with swiftprox_shape_create_from_mesh: same vertices, its triangles, no valences,
+/// input = SWIFTPROX_INPUT_PATCH. Pass all shapes to swiftprox_scene_add_object.
 ///
-/// `vertices`, `indices` and `valences` are as swiftprox_shape_create_from_mesh takes them; a face need not be convex, and is to
-/// be flat about. `tolerance` is relative to the bounding box's diagonal: what is that close to a plane counts as on it, and a
-/// piece may be about that far beyond the surface; 0 is exact. swiftprox_mesh_estimate_tolerance says what the coordinates
-/// excuse. Without it, plane faces that were turned and rounded come to pieces. It takes time in proportion to the square of the
-/// triangles at worst, one to two seconds for 10,000. `progress` learns how far it is and can cancel it, or is null;
-/// `progress_user` is handed to it.
+/// The mesh is as in swiftprox_shape_create_from_mesh, but its faces must only be nearly flat. `tolerance` is relative to the
+/// bounding-box diagonal. Points that close to a plane count as on it, and pieces may exceed the surface by about as much. 0 is
+/// exact, but splits flat faces with rounded vertices; swiftprox_mesh_estimate_tolerance suggests a value. Time is at worst
+/// quadratic, one to two seconds for 10,000 triangles. `progress` (may be null, gets `progress_user`) reports progress and can
+/// cancel.
 ///
-/// SWIFTPROX_ERROR_MESH: a coordinate is not finite; an index is out of range; an edge belongs to more than two faces, or to two in
-/// the same direction; a face crosses itself; no face has an area: the message names face, edge or vertex.
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: tolerance is out of [0, 1], or capacity is too small: nothing is written to the arrays, and
-/// the message says how many are needed.
+/// SWIFTPROX_ERROR_MESH: a coordinate is not finite, an index is out of range, a face crosses itself, or no face has an area. Also
+/// an edge with more than two faces, or two in one direction. SWIFTPROX_ERROR_INVALID_ARGUMENT: tolerance is outside [0, 1], or
+/// capacity is too small. Then the arrays are unchanged, and the message gives the room needed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_mesh_decompose(
     vertices: *const f64,

@@ -16,7 +16,7 @@ use std::ffi::c_char;
 
 // --- Depth ---------------------------------------------------------------------------------------------------------------
 
-/// What a depth query is asked for. Begin with SWIFTPROX_DEPTH_CONFIG_DEFAULT, then change what should differ.
+/// Options of a depth query. Initialise with SWIFTPROX_DEPTH_CONFIG_DEFAULT.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CDepthConfig {
@@ -24,12 +24,13 @@ pub struct CDepthConfig {
     pub struct_size: usize,
     /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
-    /// upper - lower may be as large as this ... from 0 to infinity.
+    /// Allowed upper - lower, from 0 to infinity. Default: 0.
     pub absolute_error: f64,
-    /// ... or as this times lower. Both 0 (the default): as narrow as double precision can prove.
+    /// Allowed (upper - lower) / lower, from 0 to infinity. It is enough to meet one of the two errors. Both 0 (the default): as
+    /// narrow as double precision can prove.
     pub relative_error: f64,
-    /// Expansions after which the query stops with what it has, 1 or more; UINT32_MAX (the default): no limit but the library's
-    /// own, 400. What is then left of the verdict is decided all the same, in integers.
+    /// The largest number of expansions, 1 or more. UINT32_MAX (the default): the library's own limit, 400. After that integers
+    /// still decide the verdict.
     pub step_budget: u32,
 }
 
@@ -49,12 +50,12 @@ impl CDepthConfig {
     };
 }
 
-/// What a pair remembers of its depth, for the caller to keep: all zero is cold, any bytes are safe. It changes how fast an answer
-/// comes, and which of several directions of least overlap is said; never the verdict, and no depth beyond its interval.
+/// The depth cache of a pair, owned by the caller. Zero it before the first query; any bytes are safe. It affects speed, and the
+/// choice between equal directions of least overlap, but never the verdict or the validity of the interval.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CDepthCache {
-    /// Not to be looked at.
+    /// Opaque.
     pub words: [u32; 352],
 }
 
@@ -64,11 +65,11 @@ const _: () = {
     assert!(align_of::<DepthCache>() <= align_of::<CDepthCache>());
 };
 
-/// How deep two objects are in each other: the least translation that parts them, with a rigorous interval, unit normal, witness
-/// points and features. Touching is a depth of 0, decided in integers. Of separated objects only that is said, and a normal that
-/// separates them: swiftprox_pair_distance tells how far.
+/// Computes the penetration depth: the length of the least translation that separates two objects. The answer has a rigorous
+/// interval, unit normal, witness points and features. Touching is depth 0, decided in integers. For separated objects it gives
+/// only the verdict and a separating normal; swiftprox_pair_distance gives the distance.
 ///
-/// Arguments and errors as of swiftprox_pair_distance; the cache is one for depths alone, and config may be null.
+/// Same arguments and errors as swiftprox_pair_distance. The cache is for depths only.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_depth(
     object1: CPlaced,
@@ -107,17 +108,14 @@ pub unsafe extern "C" fn swiftprox_pair_depth(
     status
 }
 
-/// Re-checks a depth, trusting nothing of the search that found it; `cache` is that of the query, which holds the proof, or any
-/// other: then a proof is searched for. SWIFTPROX_OK: it holds for these shapes and poses.
+/// Checks a depth independently of the search that found it. SWIFTPROX_OK: it is right for these shapes and poses. The query's
+/// `cache` holds the proof; with another cache the function searches for one.
 ///
-/// Verdict and interval are proved for the exact objects R*v + T, with no tolerance: that they overlap, touch or are separated, and
-/// that the depth is in [lower, upper]. The other members are rounded, and hold up to the allowance of swiftprox_pair_verify:
-/// points and features, and world2 - world1 is depth * normal up to that and upper - lower. How it ended and the statistics are not
-/// checked.
+/// Verdict (overlapping, touching or separated) and interval are proved without tolerance for the exact objects R*v + T. Other
+/// members are checked up to the allowance of swiftprox_pair_verify. world2 - world1 must be depth * normal, up to that and
+/// upper - lower. Ending and statistics are not checked.
 ///
-/// Takes time linear in the number of vertices and in the size of the cache.
-///
-/// Errors as of swiftprox_pair_verify.
+/// Time is linear in the number of vertices and the size of the cache. Same errors as swiftprox_pair_verify.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_depth_verify(
     object1: CPlaced,
@@ -133,7 +131,7 @@ pub unsafe extern "C" fn swiftprox_pair_depth_verify(
     })
 }
 
-/// How a depth query ended, in words. Never null, valid for ever; an unknown number gets a string that says so.
+/// Returns the text for a depth ending. Never null, valid forever, also for unknown numbers.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_depth_ending_string(ending: DepthEndingNumber) -> *const c_char {
     use crate::base::enumerator::Enumerator;
@@ -192,19 +190,19 @@ unsafe fn read_depth<'a>(answer: *const DepthAnswer) -> Checked<&'a DepthAnswer>
 
 // --- Manifolds -----------------------------------------------------------------------------------------------------------
 
-/// Where swiftprox_pair_manifold writes points, by value. `{points, capacity, NULL}` asks for points alone.
+/// Output of swiftprox_pair_manifold, by value. `{points, capacity, NULL}` requests only points.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CManifoldRoom {
     /// Room for `capacity` points; null if that is 0.
     pub points: *mut ManifoldPoint,
-    /// How many points there is room for. What is beyond is left out, and swiftprox_manifold.found_count counts it.
+    /// Room in points. Further points are left out; swiftprox_manifold.found_count counts them too.
     pub capacity: usize,
-    /// Receives what swiftprox_pair_signed_distance says of the pair, at no further search; or null.
+    /// Receives the result of swiftprox_pair_signed_distance without a further search; may be null.
     pub distance: *mut SignedDistance,
 }
 
-/// What a manifold query is asked for. Begin with SWIFTPROX_MANIFOLD_CONFIG_DEFAULT, then change what should differ.
+/// Options of a manifold query. Initialise with SWIFTPROX_MANIFOLD_CONFIG_DEFAULT.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CManifoldConfig {
@@ -212,12 +210,11 @@ pub struct CManifoldConfig {
     pub struct_size: usize,
     /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
-    /// Objects up to this far apart have a manifold, and points with a gap of at most this belong to it; at least 0, and infinity
-    /// admits all, as in queries of scenes. Default: 0.
+    /// Largest gap of objects that have a manifold, and of its points: from 0 (the default) to infinity, which admits all.
     pub margin: f64,
-    /// Other than 0: of more than four points four are kept, the deepest, the farthest from it and the extremes on either side of
-    /// the line between; none is moved. The four of the last query with the same cache stay while they are about as deep and
-    /// cover about as much. 0 (the default): all.
+    /// Nonzero: at most four points are kept, none is moved. They are the deepest, the farthest from it and the extremes on either
+    /// side of the line through both. The last query's four, from the cache, stay while about as deep and as wide. 0 (the default):
+    /// all.
     pub reduces: i32,
 }
 
@@ -236,12 +233,12 @@ impl CManifoldConfig {
     };
 }
 
-/// What a pair remembers of its manifold, its distance and its depth, for the caller to keep: all zero is cold, any bytes are
+/// The cache of a pair for manifold, signed distance and depth, owned by the caller. Zero it before the first query; any bytes are
 /// safe.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CManifoldCache {
-    /// Not to be looked at.
+    /// Opaque.
     pub words: [u32; 384],
 }
 
@@ -251,11 +248,12 @@ const _: () = {
     assert!(align_of::<ManifoldCache>() <= align_of::<CManifoldCache>());
 };
 
-/// The distance of objects that are apart, minus the depth of those that overlap, with one rigorous interval through zero, unit
-/// normal, witness points and features: as certain as swiftprox_pair_distance and swiftprox_pair_depth. Touching is 0.
+/// Computes the distance of separated objects, or minus the penetration depth of overlapping ones; touching is 0. The answer has
+/// one rigorous interval, unit normal, witness points and features. It is as reliable as swiftprox_pair_distance and
+/// swiftprox_pair_depth.
 ///
-/// Of a pair farther apart than config->distance_tolerance less is said, see SWIFTPROX_OUTCOME_BEYOND; errors asked for and step
-/// budgets are not looked at. Arguments and errors as of swiftprox_pair_distance; the cache is that of the pair's manifolds.
+/// Pairs beyond config->distance_tolerance get less, see SWIFTPROX_OUTCOME_BEYOND. Allowed errors and step budget are ignored. Same
+/// arguments and errors as swiftprox_pair_distance, but with a manifold cache.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_signed_distance(
     object1: CPlaced,
@@ -288,18 +286,17 @@ pub unsafe extern "C" fn swiftprox_pair_signed_distance(
     status
 }
 
-/// Where two objects meet, or are up to config->margin apart: pairs of points along the normal of least overlap or of the shortest
-/// connection, each with its gap. They are written to room.points, as many as there is room for; manifold->found_count says how
-/// many there are. room.distance, if not null, receives what swiftprox_pair_signed_distance says of the pair. Objects farther apart have none, and their outcome is SWIFTPROX_OUTCOME_BEYOND.
+/// Computes where two objects meet or are at most config->margin apart: pairs of points along the normal, each with its gap. Points
+/// are written to room.points up to its capacity; manifold->found_count is the total. room.distance, if not null, receives the
+/// signed distance. Objects farther apart get no points and SWIFTPROX_OUTCOME_BEYOND.
 ///
-/// Manifolds are made over faces as they were meant: what could lie in one plane up to the shape's face_noise
-/// (swiftprox_shape_options). Gap intervals hold for the exact objects: they contain by how much such a face is not flat. Points
-/// are on their objects up to half of what it is thick, and in line up to twice that and 7.5e-9 of the pair's size. Corners nearer
-/// to each other than 3e-8 of it, or four times what such faces are thick, are one. One of the points is as deep as the objects
-/// are. It is not certified that a face is complete.
+/// Vertices within the shape's face_noise (swiftprox_shape_options) of one plane are one face; gap intervals are guaranteed for the
+/// exact objects. Points are on their objects up to half a face's thickness, and in line up to twice its thickness plus 7.5e-9 of
+/// the pair's size. Corners closer than 3e-8 of that size, or four thicknesses, are merged. One point has the full depth.
+/// Completeness of a face is not guaranteed.
 ///
-/// Arguments and errors as of swiftprox_pair_distance; the cache is one for manifolds alone. On failure
-/// the manifold is reset, and points are as they were.
+/// Same arguments and errors as swiftprox_pair_distance, but with a manifold cache. On failure the manifold is reset and points are
+/// unchanged.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_manifold(
     object1: CPlaced,
@@ -348,22 +345,20 @@ pub unsafe extern "C" fn swiftprox_pair_manifold(
     status
 }
 
-/// Re-checks a manifold, trusting nothing of the search that found it; config is that of the query, and `cache` too, or any other:
-/// then a proof of the depth is searched for. `points` holds the manifold's, manifold->point_count of them. SWIFTPROX_OK: it holds
-/// for these shapes and poses.
+/// Checks a manifold independently of the search that found it. SWIFTPROX_OK: it is right for these shapes and poses. `config` is
+/// that of the query. With another `cache` than the query's, the function searches for a proof of the depth. `points` holds
+/// manifold->point_count points.
 ///
-/// Verdict and interval are proved for the exact objects R*v + T, with no tolerance, as by swiftprox_pair_verify and
-/// swiftprox_pair_depth_verify. The other members are rounded. The normal is of unit length; along it objects that are apart are at
-/// least lower apart, others overlap by at most -lower. Each point has a place on either object: no farther than b out of
-/// it, no farther than b and the width of the gap behind a face that looks towards the other object, and the same in both frames.
-/// The object has its feature; the place is no farther than b from that if it is a vertex or an edge. The gap is that of the two
-/// places along the normal, up to the allowance of swiftprox_pair_verify; sideways they are no more than b off. One of the points
-/// is as deep as the objects are, if none was left out.
+/// Verdict and interval are proved as in swiftprox_pair_verify and swiftprox_pair_depth_verify. The normal must have unit length:
+/// along it, separated objects are at least lower apart, others overlap by at most -lower. Points must be on their objects,
+/// features and line up to b, and agree in both frames. Behind a face they may also be off by the gap's width. Gaps must match the
+/// points up to the allowance of swiftprox_pair_verify. One point must have the full depth, unless points were left out.
 ///
-/// b is that allowance, 2^-25 of the pair's size (both radii and the distance of the centres) and eight times what contact faces
-/// are thick at most. That a face is complete is not checked.
+/// b is that allowance plus 2^-25 of the pair's size plus eight times the largest thickness of contact faces. The size is both
+/// radii plus the distance of the centres. Completeness of faces is not checked.
 ///
-/// SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. Others as of swiftprox_pair_verify and swiftprox_pair_manifold.
+/// SWIFTPROX_ERROR_UNVERIFIED: the manifold is wrong; the message says where. Other errors as in swiftprox_pair_verify and
+/// swiftprox_pair_manifold.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_manifold_verify(
     object1: CPlaced,

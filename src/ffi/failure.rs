@@ -2,47 +2,44 @@
 
 use crate::base::error::Error;
 
-/// What a call returns. The numbers are never reused.
+/// Status of a call. Numbers are never reused.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(i32)]
 pub enum StatusCode {
-    /// The call did what it says.
+    /// Success.
     Ok = 0,
-    /// A pointer that must not be null is null: the message names the argument.
+    /// A required pointer is null; the message names the argument.
     ErrorNullPointer = 1,
-    /// An argument is out of range, not finite or unknown: the message names it.
+    /// An argument is out of range, not finite or unknown; the message names it.
     ErrorInvalidArgument = 2,
-    /// A struct_size is unknown: the struct was not begun with its SWIFTPROX_..._DEFAULT. Or the struct comes from a newer header and
-    /// sets what this library does not know.
+    /// A struct was not initialised with its SWIFTPROX_..._DEFAULT, or a newer header's struct sets members unknown to this
+    /// library.
     ErrorStructSize = 3,
-    /// A pose is refused: an entry is not finite, an entry of R^T R - I is beyond the limit, or det R is not positive.
+    /// A pose is refused: an entry is not finite, an entry of R^T R - I exceeds the limit, or det R is not positive.
     ErrorPose = 4,
-    /// A mesh breaks the contract: the message names the face, edge or vertex in the caller's numbering.
+    /// A mesh breaks the rules; the message names the face, edge or vertex in the caller's numbering.
     ErrorMesh = 5,
-    /// A file cannot be read or written, or does not parse: the message names the file and the line.
+    /// A file cannot be read, written or parsed; the message names file and line.
     ErrorFile = 6,
-    /// An object id is null, stale or of another scene.
+    /// An object id is null, stale or from another scene.
     ErrorHandle = 7,
-    /// A limit of the library is reached: a count that does not fit.
+    /// A limit of the library is exceeded: a count does not fit.
     ErrorLimit = 8,
     /// A callback asked to stop.
     ErrorCancelled = 9,
-    /// A bug of the library, caught: please report the message.
+    /// The library caught a bug of its own. Please report the message.
     ErrorBug = 10,
-    /// The handle met a bug in an earlier call; all that can be done with it is to destroy it.
+    /// An earlier call on this handle met a bug. It can only be destroyed.
     ErrorPoisoned = 11,
-    /// The program was compiled with a header that does not go with this library.
+    /// Header and library do not fit together.
     ErrorVersion = 12,
-    /// The answer given to swiftprox_pair_verify does not hold for these shapes and poses: the message says what does not.
+    /// A verify function found that an answer is wrong for these shapes and poses; the message says where.
     ErrorUnverified = 13,
-    /// The library was built without what the call is about.
+    /// The library was built without this feature.
     ErrorUnsupported = 14,
-    /// There is no memory for an array in proportion to what the caller gave or to a scene, of which the message says how much was
-    /// asked for, or for an integer of the exact tier. Nothing has changed but what a cache remembers of a search, and the same
-    /// call may succeed when there is more.
+    /// Memory is lacking; the message says how much was requested. Only caches may have changed. The same call may succeed later.
     ErrorMemory = 15,
-    /// The scene is in use: by another thread, which the rules for threads forbid, or by a call that this one was made in. Nothing
-    /// has changed.
+    /// The scene is in use by another thread or by an enclosing call. Nothing has changed.
     ErrorBusy = 16,
 }
 

@@ -9,9 +9,9 @@ use super::scene::{SceneHandle, change};
 use crate::scene::PairFilter;
 use crate::scene::object::ObjectId;
 
-/// Says whether a pair of objects is to be tested (not 0) or not (0), the earlier created object first; `user` is the pointer given
-/// with the callback. It should always say the same of a pair. It runs in the thread that queries, must return, and cannot use the
-/// scene; a C++ exception that leaves it ends the program.
+/// Returns whether a pair of objects is tested: not 0, or 0. object1 was created first; `user` is the pointer given with the
+/// callback. It must always return the same for a pair. It runs in the thread that queries, must return, and must not use the
+/// scene. A C++ exception that leaves it ends the program.
 pub type PairFilterCallback =
     Option<unsafe extern "C-unwind" fn(object1: ObjectId, object2: ObjectId, user: *mut c_void) -> i32>;
 
@@ -24,9 +24,10 @@ unsafe impl Send for User {}
 // SAFETY: as above.
 unsafe impl Sync for User {}
 
-/// Asks `filter` of each pair of objects whether it is to be tested, once for each of its pairs of pieces when that comes near, and
-/// of many objects without a tolerance in each query. Null: none is asked, as before the first call. All pairs that are near are
-/// asked anew: set the same filter again when it has changed its mind. The callback may be called from every thread that queries the scene.
+/// Sets a filter that decides which pairs of objects are tested. It is called once for each pair of pieces that comes near. Queries
+/// of many objects without a tolerance call it each time. Null (the default): no filter. Each call of this function makes the scene
+/// ask again about near pairs, so set the same filter again after its decisions change. Any thread that queries the scene may call
+/// the filter.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_pair_filter(
     scene: *mut SceneHandle,
@@ -49,12 +50,11 @@ pub unsafe extern "C" fn swiftprox_scene_set_pair_filter(
     }
 }
 
-/// From now on queries test these pairs of objects and no others, however near: for a program with a broad phase of its own.
-/// `pairs` holds 2 ids for each of the `count`, in any order; what is there twice is tested once. Activation, filters and fixed
-/// objects are heeded as ever; objects removed later are in no pair. Pairs that stay keep what they remember. On failure the pairs
-/// of before stay.
+/// Restricts queries to the given pairs of objects, however near others are; for programs with their own broad phase. `pairs` holds
+/// 2 ids for each of `count` pairs, in any order. Duplicates are tested once. Activation, filters and fixed objects are respected
+/// as usual; pairs of objects removed later are dropped. Remaining pairs keep their caches. On failure the former pairs stay.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice in a pair. The message says which.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a pair names one object twice. The message says which.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_pairs(
     scene: *mut SceneHandle,
@@ -70,8 +70,7 @@ pub unsafe extern "C" fn swiftprox_scene_set_pairs(
     }
 }
 
-/// Takes back what swiftprox_scene_set_pairs has set: from now on the scene finds the pairs that are near by itself, as it did
-/// before.
+/// Undoes swiftprox_scene_set_pairs: the scene finds near pairs by itself again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_reset_pairs(scene: *mut SceneHandle) -> StatusCode {
     // SAFETY: the header's pointer rules.

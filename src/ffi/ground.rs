@@ -16,16 +16,15 @@ use crate::ground::{
 use crate::pair::ManifoldPoint;
 use crate::shape::Shape;
 
-/// Makes a ground from triangles; the caller owns it and gives it back with swiftprox_ground_release. The arrays are copied.
+/// Creates a ground from triangles. The caller owns it and gives it back with swiftprox_ground_release. The arrays are copied.
 ///
-/// `vertices` holds 3 * vertex_count coordinates, `corners` the 0-based vertex numbers of 3 * triangle_count corners. The front of
-/// a triangle, out of which it pushes, is where its corners go around counter-clockwise. Triangles may make any surface, or none.
-/// Sides with equal ends are one, if two triangles have it, the one way round and the other; over it bodies slide. Triangles
-/// without area, or smaller than 2^-200, are left out, and keep their numbers.
+/// `vertices` holds 3 * vertex_count coordinates, `corners` 3 * triangle_count vertex numbers from 0. Triangles push bodies out of
+/// their front, where corners run counter-clockwise. They may form any surface, or none. Two triangles share an edge if its ends
+/// are equal and its directions opposite; bodies slide over it. Triangles without area, or smaller than 2^-200, are skipped, but
+/// keep their numbers.
 ///
-/// On failure `*ground` is null. SWIFTPROX_ERROR_MESH: a coordinate is not finite or beyond 2^200, a triangle names a vertex that
-/// is not there, or none has an area. SWIFTPROX_ERROR_LIMIT: more than 2^30 triangles, or a count that does not fit 32 bits.
-/// SWIFTPROX_ERROR_MEMORY,
+/// On failure `*ground` is null. SWIFTPROX_ERROR_MESH: a coordinate is not finite or beyond 2^200, a vertex number is too large, or
+/// no triangle has an area. SWIFTPROX_ERROR_LIMIT: more than 2^30 triangles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_ground_create_from_triangles(
     vertices: *const f64,
@@ -42,17 +41,17 @@ pub unsafe extern "C" fn swiftprox_ground_create_from_triangles(
     })
 }
 
-/// Makes a ground from heights over a grid in the plane of x and y; the caller owns it and gives it back with
-/// swiftprox_ground_release. The heights are copied.
+/// Creates a ground from heights over a grid in the xy plane. The caller owns it and gives it back with swiftprox_ground_release.
+/// The heights are copied.
 ///
-/// `heights` holds rows * columns of them, row by row, each row along x; NaN is a hole. Vertex i * columns + j is at (j *
-/// column_spacing, i * row_spacing, height). Each cell is cut from its least corner to its greatest, into two triangles that look
-/// up. With c = i * (columns - 1) + j of the least corner, triangle 2 * c has the corner along x, triangle 2 * c + 1 the other. A
-/// cell with a hole at a corner is a hole.
+/// `heights` holds rows * columns numbers, row by row, each row along x. NaN is a hole; cells with one at a corner are holes.
+/// Vertex i * columns + j is at (j * column_spacing, i * row_spacing, height). The diagonal of each cell runs from its least to its
+/// greatest corner; both triangles face up. Let c = i * (columns - 1) + j for the least corner. Triangle 2 * c has the corner along
+/// x, triangle 2 * c + 1 the other.
 ///
 /// On failure `*ground` is null. SWIFTPROX_ERROR_INVALID_ARGUMENT: fewer than two rows or columns, or a spacing that is not
-/// positive and finite. SWIFTPROX_ERROR_MESH: a coordinate is infinite or beyond 2^200, or all is holes. SWIFTPROX_ERROR_LIMIT:
-/// more than 2^29 heights. SWIFTPROX_ERROR_MEMORY,
+/// positive and finite. SWIFTPROX_ERROR_MESH: a coordinate is infinite or beyond 2^200, or all cells are holes.
+/// SWIFTPROX_ERROR_LIMIT: more than 2^29 heights.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_ground_create_from_heights(
     rows: usize,
@@ -71,8 +70,8 @@ pub unsafe extern "C" fn swiftprox_ground_create_from_heights(
     })
 }
 
-/// Gives the caller one more share of a ground, to be given back with a swiftprox_ground_release of its own; returns the ground.
-/// Safe from any thread. Of null it returns null.
+/// Adds a share of a ground, and returns the ground. Give each share back with swiftprox_ground_release. Safe from any thread. For
+/// null it returns null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_ground_retain(ground: *const Ground) -> *const Ground {
     if !ground.is_null() {
@@ -82,7 +81,7 @@ pub unsafe extern "C" fn swiftprox_ground_retain(ground: *const Ground) -> *cons
     ground
 }
 
-/// Gives back one share of a ground that the caller owns; the last one frees it. Safe from any thread. Null is ignored.
+/// Gives back one share of a ground; the last one frees it. Safe from any thread. Null is ignored.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_ground_release(ground: *const Ground) {
     // A bug in the freeing is told by the message and the log.
@@ -95,19 +94,19 @@ pub unsafe extern "C" fn swiftprox_ground_release(ground: *const Ground) {
     });
 }
 
-/// What a ground is.
+/// Properties of a ground.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct GroundInfo {
-    /// Vertices, as they were given.
+    /// Number of vertices given.
     pub vertex_count: usize,
-    /// Triangles, those included that are left out.
+    /// Number of triangles, including skipped ones.
     pub triangle_count: usize,
-    /// Memory that it holds, in bytes.
+    /// Its memory in bytes.
     pub bytes: usize,
 }
 
-/// Says what a ground is. On failure all is 0.
+/// Writes the properties of a ground. On failure all are 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_ground_get_info(ground: *const Ground, info: *mut GroundInfo) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -119,12 +118,12 @@ pub unsafe extern "C" fn swiftprox_ground_get_info(ground: *const Ground, info: 
     })
 }
 
-/// How far a shape, which is object 1, is from a ground, or whether they intersect, as `kind` says: SWIFTPROX_QUERY_KIND_DISTANCE
-/// or SWIFTPROX_QUERY_KIND_INTERSECTION. The answer is as certain as that of swiftprox_pair_distance or
-/// swiftprox_pair_intersection, of the ground as a set of points; `config` is as there. There is no cache.
+/// Returns the distance of a shape (object 1) to a ground, or only whether they intersect. `kind` is SWIFTPROX_QUERY_KIND_DISTANCE
+/// or SWIFTPROX_QUERY_KIND_INTERSECTION. The ground counts as a set of points. Guarantees and `config` are as for
+/// swiftprox_pair_distance and swiftprox_pair_intersection. There is no cache.
 ///
-/// On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: another kind, or a member of config is out of range.
-/// SWIFTPROX_ERROR_MEMORY: some 4 kB are asked for. SWIFTPROX_ERROR_NULL_POINTER,
+/// On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: another kind, or a member of config is out of range. The call
+/// allocates about 4 kB.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_ground_distance(
     kind: QueryNumber,
@@ -145,7 +144,7 @@ pub unsafe extern "C" fn swiftprox_pair_ground_distance(
     })
 }
 
-/// How many contacts there are with a ground, and points of all of them.
+/// Numbers of contacts with a ground and of their points.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C)]
 pub struct GroundCount {
@@ -155,17 +154,16 @@ pub struct GroundCount {
     pub point_count: usize,
 }
 
-/// Where a shape, which is object 1, meets a ground, or is up to config->margin apart: contacts, each of points with one normal out
-/// of the ground, sorted by triangle. `contacts` and `points` receive as many as there is room for, and may be null with no room;
-/// `count` says how many there are. Points of contact c are those from its first_point on, as many as its manifold.point_count.
+/// Finds the contacts of a shape (object 1) with a ground, up to config->margin apart, sorted by triangle. Each contact has points
+/// and one normal out of the ground. `contacts` and `points` receive what fits, and may be null if their capacity is 0. `count`
+/// receives all numbers found. Points of contact c begin at its first_point; there are manifold.point_count.
 ///
-/// A triangle acts on bodies whose centre of mass is not behind its plane. The normal is the one along which the body and the
-/// triangle are nearest, or overlap least, where that is normal to the surface at the point that is touched; else it is the
-/// triangle's. So no flat or concave edge between triangles holds up a body that slides over it.
+/// A triangle acts only on bodies whose centre of mass is not behind its plane. The normal is the direction of least distance or
+/// overlap, if that is normal to the surface at the touched point. Otherwise it is the triangle's. So bodies slide freely over flat
+/// and concave edges.
 ///
-/// On failure the counts are 0, and contacts and points are as they were. SWIFTPROX_ERROR_INVALID_ARGUMENT,
-/// SWIFTPROX_ERROR_STRUCT_SIZE: as of swiftprox_pair_manifold. SWIFTPROX_ERROR_LIMIT: a capacity is larger than memory.
-/// SWIFTPROX_ERROR_MEMORY,
+/// On failure the counts are 0; contacts and points are unchanged. Same errors as swiftprox_pair_manifold. SWIFTPROX_ERROR_LIMIT: a
+/// capacity is larger than memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_ground_contacts(
     shape: *const Shape,

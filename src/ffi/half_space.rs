@@ -9,9 +9,10 @@ use crate::pair::{
     Fill, HalfSpace, Manifold, ManifoldPoint, SignedDistance, Sink, half_space_distance, half_space_manifold_into,
 };
 
-/// The distance of a shape, which is object 1, from a half-space, or minus its depth, as of swiftprox_pair_signed_distance: the
-/// interval holds for the exact shape and plane, and touching is decided in integers. The normal of the answer is the
-/// half-space's, of unit length; its witness point is on the plane, in the world in both members, and its feature is of no kind.
+/// Computes the signed distance of a shape (object 1) from a half-space (object 2), as swiftprox_pair_signed_distance does. The
+/// interval is guaranteed for the exact shape and plane; integers decide touching. The normal is the half-space's, of unit length.
+/// The half-space's witness point is on the plane, in world coordinates in both members; its feature is
+/// SWIFTPROX_FEATURE_KIND_NONE.
 ///
 /// On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the normal is 0, or a number of half_space is not finite.
 #[unsafe(no_mangle)]
@@ -30,12 +31,12 @@ pub unsafe extern "C" fn swiftprox_pair_half_space_distance(
     })
 }
 
-/// Where a shape, which is object 1, meets a half-space, or is up to config->margin apart: the corners of its face that looks most
-/// at the plane, with a gap of at most the margin, and in any case its lowest point. Points and their room as of
-/// swiftprox_pair_manifold; there is no cache, so that four points of a reduced manifold are chosen anew each time.
+/// Computes where a shape (object 1) meets a half-space or is at most config->margin apart. The points are the corners of the face
+/// that points most towards the plane, with a gap of at most the margin. The lowest point is always included. Output is as in
+/// swiftprox_pair_manifold. There is no cache, so each call chooses the four points of a reduced manifold anew.
 ///
-/// Errors as of swiftprox_pair_half_space_distance and swiftprox_pair_manifold. On failure the manifold is reset, and points are as
-/// they were.
+/// Same errors as swiftprox_pair_half_space_distance and swiftprox_pair_manifold. On failure the manifold is reset and points are
+/// unchanged.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_half_space_manifold(
     object: CPlaced,

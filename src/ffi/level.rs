@@ -11,23 +11,23 @@ use crate::base::memory::with_capacity;
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
 
-/// A polygon mesh in the caller's arrays, as swiftprox_shape_create_from_mesh takes it.
+/// A polygon mesh in the caller's arrays, as for swiftprox_shape_create_from_mesh.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CMesh {
     /// 3 * vertex_count coordinates.
     pub vertices: *const f64,
-    /// The number of vertices.
+    /// Number of vertices.
     pub vertex_count: usize,
-    /// The 0-based vertex numbers of all faces, one face after the other.
+    /// 0-based vertex numbers of all faces in turn.
     pub indices: *const u32,
-    /// The number of vertices of each face, or null when all are triangles.
+    /// Number of vertices of each face; null means triangles.
     pub valences: *const u32,
-    /// The number of faces.
+    /// Number of faces.
     pub face_count: usize,
 }
 
-/// What a level of detail is. Set struct_size to sizeof(swiftprox_level_info) before asking for it.
+/// Properties of a level of detail. Set struct_size to sizeof(swiftprox_level_info) before the call.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct LevelInfo {
@@ -37,14 +37,13 @@ pub struct LevelInfo {
     pub vertex_count: usize,
     /// Edges between faces that are not coplanar.
     pub edge_count: usize,
-    /// Faces, coplanar triangles counted as one.
+    /// Faces; coplanar triangles count as one.
     pub face_count: usize,
     /// Triangles of the level's hull.
     pub triangle_count: usize,
-    /// An upper bound, rounding included, of the largest distance of a point of the level from the body; 0 for level 0, the
-    /// body.
+    /// Upper bound of the largest distance of the level's points from the body, rounding included; 0 for level 0, the body.
     pub deviation: f64,
-    /// Memory that the level holds, in bytes.
+    /// Memory of the level in bytes.
     pub bytes: usize,
 }
 
@@ -66,17 +65,14 @@ impl LevelInfo {
     };
 }
 
-/// Makes a shape with levels of detail that the caller gives; the caller owns it and gives it back with swiftprox_shape_release.
-/// The finest level comes first: `levels[0]` is the body itself, as
-/// swiftprox_shape_create_from_mesh takes it; of each further one the convex hull of its vertices counts (faces are not looked at
-/// and may be left out), moved so that its centre of mass falls on that of the next finer level and scaled so that it barely
-/// bounds the body. The arrays are copied. options->tuning->hierarchy is to be SWIFTPROX_HIERARCHY_NONE or automatic; the input
-/// transform goes for all levels.
+/// Creates a shape with the caller's levels of detail, finest first. Release it with swiftprox_shape_release. The arrays are
+/// copied. `levels[0]` is the body, as for swiftprox_shape_create_from_mesh. Each other level is the convex hull of its vertices;
+/// its faces are ignored. It is moved to the centre of mass of the next finer level and scaled until it bounds the body.
 ///
-/// On failure `*shape` is null. `options` may be null for the defaults.
+/// options->tuning->hierarchy must be SWIFTPROX_HIERARCHY_NONE or automatic. The input transform applies to all levels.
 ///
-/// SWIFTPROX_ERROR_MESH: the body breaks the contract of swiftprox_shape_create_from_mesh, or a level has no interior; the message
-/// names it.
+/// On failure `*shape` is null. SWIFTPROX_ERROR_MESH: the body breaks the rules of swiftprox_shape_create_from_mesh, or a level has
+/// no interior; the message names it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_from_levels(
     levels: *const CMesh,
@@ -102,8 +98,8 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_levels(
     })
 }
 
-/// Says what a level of detail is: `level` is from 0, the body itself, to swiftprox_shape_tuning_info.level_count, the coarsest.
-/// Set info->struct_size to sizeof(swiftprox_level_info) first. On failure the deviation is NaN, all else 0.
+/// Writes the properties of a level of detail. `level` is from 0, the body, to swiftprox_shape_tuning_info.level_count, the
+/// coarsest. Set info->struct_size to sizeof(swiftprox_level_info) first. On failure the deviation is NaN, all else 0.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level.
 #[unsafe(no_mangle)]
@@ -133,9 +129,9 @@ pub unsafe extern "C" fn swiftprox_shape_get_level_info(
     })
 }
 
-/// Copies the vertices of a level of detail, in the local frame: `level` is from 0, the body itself, to
-/// swiftprox_shape_tuning_info.level_count; `capacity` is how many `vertices` has room for (3 coordinates each), at least
-/// swiftprox_level_info.vertex_count. For bodies far from their own origin the coordinates are rounded by a unit in the last place.
+/// Copies the vertices of a level of detail in the local frame, 3 coordinates each. `level` is from 0, the body, to
+/// swiftprox_shape_tuning_info.level_count. `capacity` is the room in vertices, at least swiftprox_level_info.vertex_count. Bodies
+/// far from their origin have coordinates rounded by one unit in the last place.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
 #[unsafe(no_mangle)]
@@ -153,9 +149,8 @@ pub unsafe extern "C" fn swiftprox_shape_copy_level_vertices(
     })
 }
 
-/// Copies the triangles of a level of detail, 3 corners each, counter-clockwise seen from outside, as places in what
-/// swiftprox_shape_copy_level_vertices gives; `capacity` is how many triangles `corners` has room for, at least
-/// swiftprox_level_info.triangle_count.
+/// Copies the triangles of a level of detail: 3 corners each, counter-clockwise seen from outside, as indices into the vertices of
+/// swiftprox_shape_copy_level_vertices. `capacity` is the room in triangles, at least swiftprox_level_info.triangle_count.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
 #[unsafe(no_mangle)]

@@ -10,24 +10,24 @@ use super::log::set_log;
 use crate::base::enumerator::Enumerator;
 use crate::pair::{DecidedBy, FeatureKind, Outcome};
 
-/// Major version of this header: programs compiled with another one do not go with this library.
+/// Major version of this header. Programs need a library with the same one.
 pub const VERSION_MAJOR: i32 = 0;
-/// Minor version of this header. While the major version is 0, another minor version is another interface.
+/// Minor version of this header. While the major version is 0, each minor version is another interface.
 pub const VERSION_MINOR: i32 = 2;
 /// Patch version of this header.
 pub const VERSION_PATCH: i32 = 0;
 
-/// The version of the library that runs, as "major.minor.patch". Never null, valid for ever.
+/// Version of the running library as "major.minor.patch". Never null, valid forever.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_version() -> *const c_char {
     const VERSION: &str = concat!(env!("CARGO_PKG_VERSION"), "\0");
     VERSION.as_ptr().cast()
 }
 
-/// Whether a program compiled with the header of the given version can run with this library. Call it once with
-/// SWIFTPROX_VERSION_MAJOR, SWIFTPROX_VERSION_MINOR and SWIFTPROX_VERSION_PATCH, which are then those of the program.
+/// Checks whether this library fits the program's header. Call it once with SWIFTPROX_VERSION_MAJOR, SWIFTPROX_VERSION_MINOR and
+/// SWIFTPROX_VERSION_PATCH.
 ///
-/// SWIFTPROX_ERROR_VERSION: the library is too old or has another interface; the message names both versions.
+/// SWIFTPROX_ERROR_VERSION: the library is too old or has another interface; the message gives both versions.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_check_version(major: i32, minor: i32, patch: i32) -> StatusCode {
     guard(|| {
@@ -46,7 +46,7 @@ pub extern "C" fn swiftprox_library_check_version(major: i32, minor: i32, patch:
     })
 }
 
-/// A status in words. Never null, valid for ever; a number that is no status gets a string that says so.
+/// Returns the text for a status. Never null, valid forever, also for unknown numbers.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_status_string(status: StatusNumber) -> *const c_char {
     const STRINGS: [(StatusCode, &CStr); 17] = [
@@ -72,8 +72,7 @@ pub extern "C" fn swiftprox_library_status_string(status: StatusNumber) -> *cons
     known.map_or(c"not a status", |(_, string)| string).as_ptr()
 }
 
-/// An outcome of a pair query in words. Never null, valid for ever; a number that is no outcome gets a string
-/// that says so.
+/// Returns the text for an outcome of a pair query. Never null, valid forever, also for unknown numbers.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_outcome_string(outcome: OutcomeNumber) -> *const c_char {
     let string = match Outcome::from_number(outcome) {
@@ -87,7 +86,7 @@ pub extern "C" fn swiftprox_library_outcome_string(outcome: OutcomeNumber) -> *c
     string.as_ptr()
 }
 
-/// What decided a pair query, in words. Never null, valid for ever; an unknown number gets a string that says so.
+/// Returns the text for the method that decided a pair query. Never null, valid forever, also for unknown numbers.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_decided_by_string(decided_by: DecidedByNumber) -> *const c_char {
     let string = match DecidedBy::from_number(decided_by) {
@@ -105,8 +104,7 @@ pub extern "C" fn swiftprox_library_decided_by_string(decided_by: DecidedByNumbe
     string.as_ptr()
 }
 
-/// A kind of features in a word: "none", "vertex", "edge" or "face". Never null, valid for ever; a
-/// number that is no kind gets a string that says so.
+/// Returns the text for a feature kind: "none", "vertex", "edge" or "face". Never null, valid forever, also for unknown numbers.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_feature_kind_string(kind: FeatureKindNumber) -> *const c_char {
     let string = match FeatureKind::from_number(kind) {
@@ -119,16 +117,15 @@ pub extern "C" fn swiftprox_library_feature_kind_string(kind: FeatureKindNumber)
     string.as_ptr()
 }
 
-/// What went wrong in the last call of this thread that did not return SWIFTPROX_OK; the empty string before the first. Never
-/// null; valid until the next such call of the same thread, or its end.
+/// Message of this thread's last call that did not return SWIFTPROX_OK; empty before the first. Never null; valid until the next
+/// such call of the thread, or its end.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_last_error_message() -> *const c_char {
     LAST_ERROR.try_with(|last| last.borrow().as_ptr()).unwrap_or(c"".as_ptr())
 }
 
-/// Sets the process-wide log, which receives what the library would say if it printed: the message of every call that does
-/// not return SWIFTPROX_OK. Null (the default) for none. The callback may be called from every thread that uses the library,
-/// from several at once; calls already under way in other threads may still reach the old one for a moment.
+/// Sets the log of the process. It receives the message of every call that does not return SWIFTPROX_OK. Null (the default) means
+/// none. The callback may run in several threads at once. Calls already under way may still use the old one for a moment.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_set_log(callback: LogCallback, user: *mut c_void) {
     set_log(callback, user);

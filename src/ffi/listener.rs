@@ -9,19 +9,19 @@ use super::query::{CSceneAnswer, CSceneQuery, ask};
 use super::scene::SceneHandle;
 use crate::scene::{Listener, ListenerEvents, PairEvent, PointEvent};
 
-/// What a listener hears.
+/// The events of a listener.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CListenerEvents {
-    /// All pairs that the query lists, and those that were listed and are not, in the order of results. Owned by the listener,
-    /// valid until it asks again or its end. Null when count is 0.
+    /// All listed pairs, and pairs that are no longer listed, in the order of results. Owned by the listener; valid until its
+    /// next call or its end. Null if count is 0.
     pub pairs: *const PairEvent,
-    /// How many.
+    /// Number of pairs.
     pub count: usize,
-    /// Their points, where the query asks for manifolds: those of a pair begin at its first_point. Owned and valid as pairs are.
-    /// Null when point_count is 0.
+    /// Their points, if the query asks for manifolds; those of a pair begin at its first_point. Owned and valid as pairs. Null
+    /// if point_count is 0.
     pub points: *const PointEvent,
-    /// How many.
+    /// Number of points.
     pub point_count: usize,
 }
 
@@ -40,8 +40,8 @@ impl CListenerEvents {
     }
 }
 
-/// Makes a listener that remembers nothing yet; the caller owns it and gives it back with swiftprox_listener_destroy. On failure
-/// `*listener` is null.
+/// Creates a listener with no history. The caller owns it and frees it with swiftprox_listener_destroy. On failure `*listener` is
+/// null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_listener_create(listener: *mut *mut Listener) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -52,7 +52,7 @@ pub unsafe extern "C" fn swiftprox_listener_create(listener: *mut *mut Listener)
     })
 }
 
-/// Gives back what swiftprox_listener_create made, and the events that it owns. Null is ignored.
+/// Frees a listener and the events it owns. Null is ignored.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_listener_destroy(listener: *mut Listener) {
     if !listener.is_null() {
@@ -61,17 +61,15 @@ pub unsafe extern "C" fn swiftprox_listener_destroy(listener: *mut Listener) {
     }
 }
 
-/// As the query of that kind over all pairs, and what has changed since the listener last asked: which pairs of pieces and which
-/// contact points have begun, which persist and which have ended. The first time all begin. Contacts with query->detail
-/// SWIFTPROX_CONTACT_DETAIL_MANIFOLD have points; swiftprox_scene_get_contacts hands over where they are.
+/// Runs a query of that kind over all pairs, and reports the changes since the listener's last call. Pairs of pieces and contact
+/// points have begun, persist or have ended; in the first call all begin. Contacts with query->detail
+/// SWIFTPROX_CONTACT_DETAIL_MANIFOLD have points; swiftprox_scene_get_contacts returns their positions.
 ///
-/// A pair counts as long as the query lists it; of another tolerance, another listener. Each listener remembers for itself: what
-/// others and other queries ask changes nothing of that. Removed objects, deactivated pairs and all that a former scene listed have
-/// ended. A recording notes the query. The tolerance of contacts is 0 and of others infinity unless query says otherwise.
+/// Each listener has its own history, which other queries do not affect. Use one listener per tolerance; it defaults to 0 for
+/// contacts, else infinity. Removed objects, deactivated pairs and pairs of another scene have ended. Recordings include the query.
 ///
-/// On failure answer and events are empty, and the listener remembers what it did. SWIFTPROX_ERROR_INVALID_ARGUMENT also for an
-/// unknown kind, and if query->early_exit is set. SWIFTPROX_ERROR_NULL_POINTER also if listener or events is null. Other errors as
-/// of swiftprox_scene_query_contact.
+/// On failure answer and events are empty, and the history is unchanged. SWIFTPROX_ERROR_INVALID_ARGUMENT: also for an unknown
+/// kind, or if query->early_exit is set. Else same errors as swiftprox_scene_query_contact.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_listen(
     scene: *mut SceneHandle,

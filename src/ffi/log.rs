@@ -22,7 +22,7 @@ pub(super) fn must_return<T>(callback: impl FnOnce() -> T) -> T {
     result
 }
 
-/// Receives every failure as it happens, from the thread where it happens: its status, its message (valid during the call)
+/// Receives each failure when it happens, in the thread where it happens. It gets the status, the message (valid during the call)
 /// and the pointer given to swiftprox_library_set_log. It must return; a C++ exception that leaves it ends the program.
 pub type LogCallback =
     Option<unsafe extern "C-unwind" fn(status: StatusNumber, message: *const c_char, user: *mut c_void)>;

@@ -9,12 +9,11 @@ use crate::base::memory::with_capacity;
 use crate::scene::object::{ObjectId, ObjectOptions};
 use crate::shape::Shape;
 
-/// Adds an object of one convex piece for each of `count` shapes, in their order, as swiftprox_scene_add_object does: all or none.
-/// `options` are as many, one behind the other, each begun with SWIFTPROX_OBJECT_OPTIONS_DEFAULT; null for the defaults of all. `ids`
-/// receives the ids.
+/// Adds one object of one convex piece for each of `count` shapes, in order, like swiftprox_scene_add_object. `options` is an array
+/// of `count` structs, each initialised with SWIFTPROX_OBJECT_OPTIONS_DEFAULT, or null for the defaults. `ids` receives the ids.
 ///
-/// On failure nothing is added, and all ids are null. The message names the first place that is refused. Errors as of
-/// swiftprox_scene_add_object; SWIFTPROX_ERROR_STRUCT_SIZE also where the options have different sizes.
+/// On failure nothing is added and all ids are null. The message names the first refused place. Same errors as
+/// swiftprox_scene_add_object. SWIFTPROX_ERROR_STRUCT_SIZE: also if the options differ in size.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_add_objects(
     scene: *mut SceneHandle,
@@ -46,10 +45,10 @@ pub unsafe extern "C" fn swiftprox_scene_add_objects(
     }
 }
 
-/// Removes `count` objects and their pairs, as swiftprox_scene_remove_object does: all or none.
+/// Removes `count` objects and their pairs, like swiftprox_scene_remove_object.
 ///
-/// On failure nothing is removed; the message names the first id that is refused. SWIFTPROX_ERROR_HANDLE: it names no object of
-/// this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is given twice.
+/// On failure nothing is removed; the message names the first refused id. SWIFTPROX_ERROR_HANDLE: it names no object of this scene.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: it is given twice.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_remove_objects(
     scene: *mut SceneHandle,

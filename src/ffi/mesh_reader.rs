@@ -12,8 +12,7 @@ use crate::base::memory::{extend, reserve, with_capacity};
 use crate::mesh::io::{register_mesh_reader, unregister_mesh_reader};
 use crate::mesh::{PolygonMesh, check_vertex};
 
-/// Receives the mesh that a swiftprox_mesh_reader_callback reads: vertices, faces, or why it has none. It is good during the call
-/// of the callback, for its thread.
+/// Receives the mesh that a swiftprox_mesh_reader_callback reads. It is valid only during the callback, in its thread.
 #[derive(Default)]
 pub struct MeshSink {
     mesh: PolygonMesh,
@@ -25,16 +24,16 @@ pub struct MeshSink {
     refused: Option<(StatusCode, String)>,
 }
 
-/// Reads a mesh file: calls swiftprox_mesh_sink_add_vertices and swiftprox_mesh_sink_add_faces as often as it likes and returns 0;
-/// or says what is wrong with the file by swiftprox_mesh_sink_fail. Anything but 0 refuses the file, too, and so does every call to
-/// the sink that was refused, whether or not the callback has looked at its status.
+/// Reads a mesh file. It calls swiftprox_mesh_sink_add_vertices and swiftprox_mesh_sink_add_faces any number of times and
+/// returns 0. To refuse the file, it calls swiftprox_mesh_sink_fail or returns another number. A failed call to the sink refuses
+/// the file, too, even if the callback ignores it.
 ///
-/// `user` is the pointer given with the callback. `data` holds the `size` bytes of the whole file without a UTF-8 byte order mark:
-/// it begins with the white space before the magic, if there is any, and the magic itself, which are the callback's to skip. Behind
-/// them is one zero byte more, where strtod and its like end. (What strtod takes for the decimal point depends on LC_NUMERIC, the
-/// program's locale: where that wants a comma it reads 0.5 as 0. The library's own readers take the point in every locale.) Data
-/// and sink are gone when the callback returns; what the sink was given it has copied. The callback may call the library: read
-/// other files, and register readers. It must return, and a C++ exception that leaves it ends the program.
+/// `user` is the pointer given with the callback. `data` holds the `size` bytes of the file, without a UTF-8 byte order mark. It
+/// starts with any white space and the magic, which the callback must skip. A zero byte follows, where strtod stops. (strtod uses
+/// the decimal point of the program's locale, LC_NUMERIC; the built-in readers use a point in every locale.)
+///
+/// Data and sink are valid until the callback returns; the sink copies what it is given. The callback may call the library, to read
+/// files or to register readers. It must return; a C++ exception that leaves it ends the program.
 pub type MeshReaderCallback = Option<
     unsafe extern "C-unwind" fn(user: *mut c_void, data: *const c_char, size: usize, sink: *mut MeshSink) -> i32,
 >;
@@ -86,19 +85,17 @@ impl MeshSink {
     }
 }
 
-/// Registers a reader of mesh files, which swiftprox_shape_create_from_file calls for every file that
-/// begins with the bytes of `magic`, a string that is copied, behind white space and a UTF-8 byte order mark: whatever the
-/// extension of the file is, and before the built-in readers for TRI, POLY, OFF, OBJ and STL, which a magic such as "OFF" replaces.
-/// The first bytes alone count: "PLY" is the magic of a file that begins with PLYMOUTH, too. The callback is handed what was
-/// skipped and the magic with the rest of the file, all but the byte order mark.
+/// Registers a reader of mesh files. swiftprox_shape_create_from_file calls it for each file that begins with `magic`, whatever its
+/// extension. White space and a UTF-8 byte order mark before the magic are skipped. The string is copied. Only the first bytes
+/// count: "PLY" also matches PLYMOUTH. Registered readers precede the built-in ones for TRI, POLY, OFF, OBJ and STL; "OFF" replaces
+/// one.
 ///
-/// The registry is the process's own; it may be changed at any time from any thread, from a callback as well. A reader registered
-/// under a magic that has one replaces it, a null callback takes it back (and may do nothing). The callback may be
-/// called from every thread that reads files, from several at once. `user` must be good until the reader is replaced or taken back
-/// and no other thread is still reading a file by it.
+/// The registry belongs to the process. Any thread, and any callback, may change it at any time. A reader replaces one with the
+/// same magic. A null callback removes it, if there is one. Several threads may call the callback at once. `user` must stay valid
+/// until the reader is replaced or removed, and no thread still reads a file with it.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: magic is empty or begins with white space or a byte order mark, which are skipped in files; or
-/// it begins with the magic of another reader, or that one with it: a file could be for both.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: magic is empty, or begins with white space or a byte order mark. Or it begins with another
+/// reader's magic, or that one with it.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_library_register_mesh_reader(
     magic: *const c_char,
@@ -117,11 +114,11 @@ pub unsafe extern "C" fn swiftprox_library_register_mesh_reader(
     })
 }
 
-/// Adds `vertex_count` vertices, 3 coordinates each, to the mesh that a callback reads. They are numbered from 0 in the order in
-/// which they are added. The array is copied.
+/// Adds `vertex_count` vertices, 3 coordinates each, to the mesh. They are numbered from 0 in order of addition. The array is
+/// copied.
 ///
-/// SWIFTPROX_ERROR_MESH: a coordinate is not finite; the message names the vertex. SWIFTPROX_ERROR_LIMIT: too many vertices.
-/// SWIFTPROX_ERROR_MEMORY, which is then the status of what reads the file, too. Nothing is added, and the file is refused.
+/// On failure nothing is added, and the file is refused. SWIFTPROX_ERROR_MESH: a coordinate is not finite; the message names the
+/// vertex. SWIFTPROX_ERROR_LIMIT: too many vertices. After SWIFTPROX_ERROR_MEMORY reading the file fails with the same status.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_mesh_sink_add_vertices(
     sink: *mut MeshSink,
@@ -140,13 +137,12 @@ pub unsafe extern "C" fn swiftprox_mesh_sink_add_vertices(
     })
 }
 
-/// Adds `face_count` faces to the mesh that a callback reads: `indices` holds the numbers of their vertices, one face after the
-/// other, each counter-clockwise seen from outside; `valences` the number of vertices of each face, or null when all are triangles.
-/// They are numbered from 0 in the order in which they are added. A face may name vertices that are added later: that they exist is
-/// checked when the callback returns. The arrays are copied.
+/// Adds `face_count` faces to the mesh, numbered from 0 in order of addition. `indices` holds their vertex numbers, face after
+/// face, counter-clockwise from outside. `valences` holds the number of vertices per face; null means triangles. Faces may name
+/// vertices that are added later; this is checked when the callback returns. The arrays are copied.
 ///
-/// SWIFTPROX_ERROR_LIMIT: too many faces or indices. SWIFTPROX_ERROR_MEMORY: as of swiftprox_mesh_sink_add_vertices. Nothing is
-/// added, and the file is refused.
+/// On failure nothing is added, and the file is refused. SWIFTPROX_ERROR_LIMIT: too many faces or indices. SWIFTPROX_ERROR_MEMORY:
+/// as for swiftprox_mesh_sink_add_vertices.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_mesh_sink_add_faces(
     sink: *mut MeshSink,
@@ -170,9 +166,8 @@ pub unsafe extern "C" fn swiftprox_mesh_sink_add_faces(
     })
 }
 
-/// Says that the coordinates of the file went through single precision, as those of STL files have: how far a vertex may lie
-/// outside a face is then 1e-6 of the bounding-box diagonal, not 1e-9, unless swiftprox_shape_options.convexity_tolerance says
-/// otherwise.
+/// Marks the coordinates as single precision, like those of STL files. A vertex may then lie outside a face by 1e-6 of the
+/// bounding-box diagonal, not 1e-9. A swiftprox_shape_options.convexity_tolerance overrides this.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_mesh_sink_set_single_precision(sink: *mut MeshSink) -> StatusCode {
     change(sink, |sink| {
@@ -181,11 +176,11 @@ pub unsafe extern "C" fn swiftprox_mesh_sink_set_single_precision(sink: *mut Mes
     })
 }
 
-/// Refuses the file that a callback reads, whatever the callback returns. `message`, a string of which up to 4,096 bytes are
-/// copied, says what is wrong, best with the line; the library adds which file and which reader. The first message holds, also
-/// where a call to the sink was refused before, unless that was for memory.
+/// Refuses the file, whatever the callback returns. `message` says what is wrong, best with the line; up to 4,096 bytes are copied.
+/// The library adds the names of file and reader. The first message is kept. It replaces that of a failed call to the sink, except
+/// for SWIFTPROX_ERROR_MEMORY.
 ///
-/// SWIFTPROX_ERROR_NULL_POINTER: sink or message is null; the file is refused all the same if sink is not.
+/// SWIFTPROX_ERROR_NULL_POINTER: sink or message is null. A null message still refuses the file.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_mesh_sink_fail(sink: *mut MeshSink, message: *const c_char) -> StatusCode {
     change(sink, |sink| {

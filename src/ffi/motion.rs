@@ -18,18 +18,19 @@ use crate::motion::{
 use crate::pair::{DecidedBy, FeatureKind, Outcome, PairCache};
 use crate::shape::Shape;
 
-/// How an object moves.
+/// Kinds of motion.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(i32)]
 pub enum MotionKind {
-    /// It stays at start.
+    /// The object stays at start.
     Fixed = 0,
-    /// A point p is at T + R c + t velocity + exp(t [rotation]) R (p - c) at time t, where start is [R|T] and c the centre: it
-    /// turns at a constant rate about a centre that moves on a line.
+    /// The object turns at a constant rate about a centre c that moves on a line. At time t, with start [R|T], a point p is at
+    /// T + R c + t velocity + exp(t [rotation]) R (p - c).
     Screw = 1,
-    /// Its pose is (1 - t) start + t end, entry by entry. For turns of up to 0.2 radians: poses in between are refused beyond.
+    /// The pose is (1 - t) start + t end, entry by entry. For turns of up to 0.2 radians; larger turns give refused poses in
+    /// between.
     Affine = 2,
-    /// Where `pose` says.
+    /// The callback `pose` gives the pose.
     Callback = 3,
 }
 
@@ -38,51 +39,54 @@ enumerator!(MotionKind { Fixed, Screw, Affine, Callback });
 /// A [`MotionKind`].
 pub type MotionKindNumber = i32;
 
-/// Writes the pose at a time, 12 doubles, row by row; they are NaN before, which is refused. The same time gives the same pose. It
-/// runs in the thread that asks, and must return; a C++ exception that leaves it ends the program.
+/// Writes the pose at a time: 12 doubles, row by row. They are NaN before the call, and refused if left so. Equal times must give
+/// equal poses. It runs in the calling thread and must return; a C++ exception that leaves it ends the program.
 pub type MotionCallback = Option<unsafe extern "C-unwind" fn(user: *mut c_void, time: f64, pose: *mut f64)>;
 
-/// A motion. Of its members only those of its kind are looked at.
+/// A motion. Only the members of its kind are read.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CMotion {
-    /// Which of the following it is.
+    /// The kind of motion.
     pub kind: MotionKindNumber,
-    /// The pose at time 0. Not of SWIFTPROX_MOTION_KIND_CALLBACK.
+    /// The pose at time 0. Not for SWIFTPROX_MOTION_KIND_CALLBACK.
     pub start: [f64; 12],
-    /// The pose at time 1, of SWIFTPROX_MOTION_KIND_AFFINE.
+    /// For SWIFTPROX_MOTION_KIND_AFFINE: the pose at time 1.
     pub end: [f64; 12],
-    /// Of SWIFTPROX_MOTION_KIND_SCREW: what it turns about, in the object's frame,
+    /// For SWIFTPROX_MOTION_KIND_SCREW: the centre of rotation, in the object's frame.
     pub centre: [f64; 3],
-    /// how fast that moves, in the world,
+    /// For SWIFTPROX_MOTION_KIND_SCREW: the velocity of the centre, in the world.
     pub velocity: [f64; 3],
-    /// and its angular velocity, in the world: along the axis, in radians per unit of time. All turned by may be 2^20 radians.
+    /// For SWIFTPROX_MOTION_KIND_SCREW: the angular velocity in the world, along the axis, in radians per unit of time. The total
+    /// turn may be 2^20 radians.
     pub rotation: [f64; 3],
-    /// Of SWIFTPROX_MOTION_KIND_CALLBACK: where it is at a time,
+    /// For SWIFTPROX_MOTION_KIND_CALLBACK: gives the pose at a time.
     pub pose: MotionCallback,
-    /// what is handed to that,
+    /// For SWIFTPROX_MOTION_KIND_CALLBACK: passed to `pose`.
     pub user: *mut c_void,
-    /// a bound of the acceleration of all points of the object at all times that are asked about,
+    /// For SWIFTPROX_MOTION_KIND_CALLBACK: an upper bound of the acceleration of all points of the object over the range of times.
+    /// Answers are only as right as bend and rounding.
     pub bend: f64,
-    /// and how far from the motion that is meant the poses may have a point. Answers are as right as these two.
+    /// For SWIFTPROX_MOTION_KIND_CALLBACK: the largest distance of a point at the callback's pose from its place in the intended
+    /// motion.
     pub rounding: f64,
 }
 
-/// What a cast is asked for. Begin with SWIFTPROX_CAST_CONFIG_DEFAULT, then change what should differ.
+/// Options of a cast. Initialise with SWIFTPROX_CAST_CONFIG_DEFAULT.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CCastConfig {
     /// Set by SWIFTPROX_CAST_CONFIG_DEFAULT.
     pub struct_size: usize,
-    /// Where the range of times begins. Default: 0.
+    /// Start of the time range. Default: 0.
     pub t_begin: f64,
-    /// Where it ends, not before it begins. Default: 1.
+    /// End of the time range, at least t_begin. Default: 1.
     pub t_end: f64,
-    /// How wide the interval of a hit may be, and the shortest step; from 2^-50 of the larger end on. Default: 1e-9.
+    /// Allowed width of a hit's time interval, and the shortest step. At least 2^-50 of the larger end. Default: 1e-9.
     pub time_tolerance: f64,
-    /// Objects are free where they are farther apart than this, from 0 on. Default: 0.
+    /// Objects farther apart than this are free; at least 0. Default: 0.
     pub margin: f64,
-    /// Certified queries after which it stops with what is proved, 1 or more. Default: 100,000.
+    /// The largest number of queries, 1 or more. Then the cast stops with the bounds so far. Default: 100,000.
     pub step_budget: u32,
 }
 
@@ -99,21 +103,21 @@ impl CCastConfig {
     }
 }
 
-/// What a clearance is asked for. Begin with SWIFTPROX_CLEARANCE_CONFIG_DEFAULT, then change what should differ.
+/// Options of a clearance. Initialise with SWIFTPROX_CLEARANCE_CONFIG_DEFAULT.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CClearanceConfig {
     /// Set by SWIFTPROX_CLEARANCE_CONFIG_DEFAULT.
     pub struct_size: usize,
-    /// Where the range of times begins. Default: 0.
+    /// Start of the time range. Default: 0.
     pub t_begin: f64,
-    /// Where it ends, not before it begins. Default: 1.
+    /// End of the time range, at least t_begin. Default: 1.
     pub t_end: f64,
-    /// upper - lower may be as large as this ... from 0 to infinity. Default: 0.
+    /// Allowed upper - lower, from 0 to infinity. Default: 0.
     pub absolute_error: f64,
-    /// ... or as this times lower. Default: 0.01. Both 0: as narrow as can be proved.
+    /// Allowed (upper - lower) / lower. Default: 0.01. It is enough to meet one of the two errors. Both 0: as narrow as possible.
     pub relative_error: f64,
-    /// Certified queries after which it stops with what is proved, 1 or more. Default: 100,000.
+    /// The largest number of queries, 1 or more. Then the search stops with the bounds so far. Default: 100,000.
     pub step_budget: u32,
 }
 
@@ -132,11 +136,11 @@ impl CClearanceConfig {
     }
 }
 
-/// The motion about a centre, in the object's frame (null: its origin), that starts at pose1 at time 0 and by the shortest turn
-/// comes to pose2 at time 1. `end_error` (may be null): no point within `reach` of the centre ends farther than that from where
-/// pose2 has it, which is rounding and what one rotation is more distorted than the other.
+/// Makes the screw motion from pose1 at time 0 to pose2 at time 1 by the shortest turn. `centre` is in the object's frame; null
+/// means its origin. `end_error` may be null. It receives a bound, from rounding and distortion of the rotations: points within
+/// `reach` of the centre end at most that far from pose2.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the centre is not finite, or the reach is not from 0 on. Then nothing is written.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the centre is not finite, or the reach is negative or NaN. Nothing is written then.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_motion_between(
     pose1: *const f64,
@@ -183,16 +187,14 @@ fn row_major(pose: &Pose) -> [f64; 12] {
     std::array::from_fn(|k| pose.rows[k / 4][k % 4])
 }
 
-/// Whether two moving objects stay farther apart than config->margin, or when they first do not: certain for the motions exactly as
-/// they are described, at all times of the range and not only at some of them. Rounding of poses is accounted for.
+/// Decides whether two moving objects stay farther apart than config->margin, or when they first do not. The answer is guaranteed
+/// for the motions as described at all times of the range, with poses' rounding included.
 ///
-/// `cache` is what the pair remembers, as of swiftprox_pair_distance, and may be shared with that. It changes how long the cast
-/// takes and where within what is proved a time lies, never what holds. `config` may be null for the defaults. On failure the
-/// answer is reset: its outcome is SWIFTPROX_CAST_OUTCOME_NONE.
+/// `cache` may be shared with swiftprox_pair_distance. It affects speed and the choice of times within the guaranteed bounds. On
+/// failure the answer is reset and its outcome is SWIFTPROX_CAST_OUTCOME_NONE; SWIFTPROX_ERROR_BUG also resets the cache.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of config or of a motion is out of range or not finite, or a callback's poses show
-/// that its bend is wrong. SWIFTPROX_ERROR_POSE: a pose of a motion is refused; the message says when. SWIFTPROX_ERROR_BUG: the
-/// cache is reset, too.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of config or a motion is out of range, or a callback contradicts its bend.
+/// SWIFTPROX_ERROR_POSE: a motion's pose is refused; the message gives the time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_cast(
     shape1: *const Shape,
@@ -213,9 +215,9 @@ pub unsafe extern "C" fn swiftprox_pair_cast(
     }
 }
 
-/// The smallest distance of two moving objects over the range of times, as an interval [lower, upper]: as narrow as asked for, or
-/// as can be proved. It is wider where the step budget runs out, and where rounding of poses hides more. Arguments and errors as of
-/// swiftprox_pair_cast; on failure the numbers are NaN.
+/// Computes the least distance of two moving objects over the range of times, as a guaranteed interval [lower, upper]. It is as
+/// narrow as requested or possible: an exhausted step budget and rounded poses widen it. Same arguments and errors as
+/// swiftprox_pair_cast. On failure the numbers are NaN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_clearance(
     shape1: *const Shape,
@@ -238,19 +240,16 @@ pub unsafe extern "C" fn swiftprox_pair_clearance(
     }
 }
 
-/// Re-checks the answer of swiftprox_pair_cast for the same motions and configuration, trusting nothing of the search that found
-/// it. SWIFTPROX_OK: it holds.
+/// Checks an answer of swiftprox_pair_cast for the same motions and config, independently of its search. SWIFTPROX_OK: it is right.
 ///
-/// Proved are, at every time and without tolerance: of a free pair that it is farther apart than the margin and at least
-/// clearance; of all others that it is farther apart than the margin up to t_lo, if that is not the beginning; of a hit that it is
-/// no farther apart than the margin and upper at t_hi; of a near miss that it is no farther apart than upper at t_lo. `contact` is
-/// checked by swiftprox_pair_verify for the poses there. `queries` is not checked.
+/// It proves without tolerance, at every time: free pairs stay farther apart than the margin, and at least clearance. Other pairs
+/// stay farther apart than the margin up to t_lo, unless that is the beginning. Hits are at most the margin and upper apart at
+/// t_hi. Near misses are at most upper apart at t_lo. swiftprox_pair_verify checks `contact`. `queries` is not checked.
 ///
-/// Steps and directions come from a sweep without a cache. Each is proved over all vertices, so it takes time in proportion to
-/// both.
+/// Time grows with the number of vertices times the number of steps.
 ///
-/// SWIFTPROX_ERROR_UNVERIFIED: something does not hold, or is not proved; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT:
-/// an enumerator in the answer is unknown, or it holds no outcome. Others as of swiftprox_pair_cast and swiftprox_pair_verify.
+/// SWIFTPROX_ERROR_UNVERIFIED: something is wrong or unproved; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT: the answer
+/// has an unknown enumerator or no outcome. Other errors as in swiftprox_pair_cast and swiftprox_pair_verify.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_cast_verify(
     shape1: *const Shape,
@@ -269,7 +268,7 @@ pub unsafe extern "C" fn swiftprox_cast_verify(
     })
 }
 
-/// How a cast came out, in words. Never null, valid for ever; an unknown number gets a string that says so.
+/// Returns the text for a cast outcome. Never null, valid forever, also for unknown numbers.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_cast_outcome_string(outcome: CastOutcomeNumber) -> *const c_char {
     use crate::base::enumerator::Enumerator;

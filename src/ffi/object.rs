@@ -14,22 +14,22 @@ use crate::scene::Object;
 use crate::scene::object::{ObjectId, ObjectOptions};
 use crate::shape::Shape;
 
-/// How an object begins. Begin with SWIFTPROX_OBJECT_OPTIONS_DEFAULT, then change what should differ.
+/// How an object is made. Initialise with SWIFTPROX_OBJECT_OPTIONS_DEFAULT.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CObjectOptions {
     /// Set by SWIFTPROX_OBJECT_OPTIONS_DEFAULT.
     pub struct_size: usize,
-    /// The caller's own; it comes back in every result. Default: 0.
+    /// The caller's number; every result returns it. Default: 0.
     pub user_data: u64,
-    /// Where it stands, row-major [R|T]. Default: the identity.
+    /// Its pose, row-major [R|T]. Default: the identity.
     pub pose: [f64; 12],
-    /// Not 0: pairs of two such objects are never tested; it can still be moved. Default: 0.
+    /// Not 0: pairs of two fixed objects are never tested. A fixed object can still be moved. Default: 0.
     pub fixed: i32,
-    /// The groups that it is in, one bit each. Two objects are tested if each one's mask has a bit of the other's groups. Default:
-    /// 0, which stands for the first group alone, 1.
+    /// Its groups, one bit each. Two objects are tested if each one's mask has a bit of the other's groups. Default: 0, which
+    /// means the first group only, 1.
     pub groups: u32,
-    /// The groups that it is tested against. Default: 0, which stands for all.
+    /// The groups it is tested against. Default: 0, which means all.
     pub mask: u32,
 }
 
@@ -50,23 +50,23 @@ impl CObjectOptions {
     };
 }
 
-/// What an object is. Set struct_size to sizeof(swiftprox_object_info) before asking for it.
+/// Properties of an object. Set struct_size to sizeof(swiftprox_object_info) before the call.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct ObjectInfo {
     /// Set by the caller.
     pub struct_size: usize,
-    /// The caller's own.
+    /// The caller's number.
     pub user_data: u64,
     /// Number of convex pieces.
     pub piece_count: usize,
-    /// Where it stands, row-major [R|T].
+    /// Its pose, row-major [R|T].
     pub pose: [f64; 12],
     /// 1 if it is fixed, else 0.
     pub fixed: i32,
-    /// The groups that it is in, one bit each.
+    /// Its groups, one bit each.
     pub groups: u32,
-    /// The groups that it is tested against.
+    /// The groups it is tested against.
     pub mask: u32,
 }
 
@@ -90,9 +90,8 @@ impl ObjectInfo {
 
 // --- Objects -------------------------------------------------------------------------------------------------------------
 
-/// Adds an object of one or several convex pieces in one local frame. All its pairs are active. The scene takes a share of each
-/// shape: the caller's own may be released at once. On failure nothing is added and `*id` is null.
-/// `options` may be null for the defaults.
+/// Adds an object of one or more convex pieces in one local frame. All its pairs are active. The scene takes its own share of each
+/// shape, so the caller may release its shares at once. Null `options` mean the defaults. On failure `*id` is null.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces. SWIFTPROX_ERROR_LIMIT: more objects or pieces than a scene holds.
 #[unsafe(no_mangle)]
@@ -116,9 +115,8 @@ pub unsafe extern "C" fn swiftprox_scene_add_object(
     }
 }
 
-/// Adds an object like `original`: with its pieces (shared) and their poses, its pose, fixedness, groups and mask, and all user
-/// data, as they are now. All its pairs are active, whatever those of its original are; what pairs remember is not copied. On
-/// failure nothing is added and `*id` is null.
+/// Adds a copy of `original` as it is now: its pieces (shared) and their poses, its pose, fixed flag, groups, mask and all user
+/// data. All pairs of the copy are active. Pair caches are not copied. On failure nothing is added and `*id` is null.
 ///
 /// SWIFTPROX_ERROR_LIMIT: more objects than a scene holds.
 #[unsafe(no_mangle)]
@@ -137,15 +135,15 @@ pub unsafe extern "C" fn swiftprox_scene_copy_object(
     }
 }
 
-/// Removes an object and its pairs. Its id is refused from now on; all other ids stay as they are.
+/// Removes an object and its pairs. Its id becomes invalid; all other ids stay valid.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_remove_object(scene: *mut SceneHandle, id: ObjectId) -> StatusCode {
     // SAFETY: the header's pointer rules.
     unsafe { change(scene, |scene| Ok(scene.remove_object(id)?)) }
 }
 
-/// Sets `*valid` to 1 if an id names an object of this scene, else to 0 (also on failure): if it is null, of another scene, or of
-/// an object that was removed. Two ids name the same object if their bits are equal.
+/// Sets `*valid` to 1 if the id names an object of this scene, else to 0. It is 0 for a null id, an id of another scene, a removed
+/// object, and on failure. Two ids name the same object if their bits are equal.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_is_object_valid(
     scene: *const SceneHandle,
@@ -162,11 +160,11 @@ pub unsafe extern "C" fn swiftprox_scene_is_object_valid(
     })
 }
 
-/// Writes the ids of all objects in order of creation, which is that of results and of swiftprox_scene_set_poses, and their
-/// number to `*count`. `ids` has room for `capacity` of them; with capacity 0 it may be null, and only the number is written. On
-/// failure `*count` is 0.
+/// Writes the ids of all objects in order of creation, and their number to `*count`. Results and swiftprox_scene_set_poses use the
+/// same order. `ids` has room for `capacity` ids. With capacity 0 it may be null, and only the number is written. On failure
+/// `*count` is 0.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is neither 0 nor as large as the number of objects.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is not 0 and less than the number of objects.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_copy_object_ids(
     scene: *const SceneHandle,
@@ -190,10 +188,10 @@ pub unsafe extern "C" fn swiftprox_scene_copy_object_ids(
     })
 }
 
-/// Makes an object what `info` says: its user data, pose, fixedness, groups and mask. Fill info by
-/// swiftprox_scene_get_object_info and change members; a pose as it was moves nothing. What pairs remember stays.
+/// Sets an object's user data, pose, fixed flag, groups and mask. Fill info with swiftprox_scene_get_object_info, then change
+/// members. An unchanged pose moves nothing. Pair caches are kept.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count is another one. Nothing has changed then.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count differs from the object's; nothing has changed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_object_info(
     scene: *mut SceneHandle,
@@ -231,8 +229,8 @@ pub unsafe extern "C" fn swiftprox_scene_set_object_info(
     }
 }
 
-/// Sets the number of a piece, which swiftprox_scene_get_piece_user_data gives, and the events of listeners; 0 before. Results name
-/// the object and the piece.
+/// Sets the caller's number of a piece; it is 0 at first. swiftprox_scene_get_piece_user_data and the events of listeners return
+/// it; other results name the object and the piece.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
 #[unsafe(no_mangle)]
@@ -246,7 +244,7 @@ pub unsafe extern "C" fn swiftprox_scene_set_piece_user_data(
     unsafe { change(scene, |scene| Ok(scene.set_piece_user_data(id, piece, user_data)?)) }
 }
 
-/// Writes the caller's number of a piece, in a time that does not grow with the scene. On failure it is 0.
+/// Writes the caller's number of a piece. The time does not grow with the scene. On failure it is 0.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
 #[unsafe(no_mangle)]
@@ -268,7 +266,8 @@ pub unsafe extern "C" fn swiftprox_scene_get_piece_user_data(
     })
 }
 
-/// Says what an object is: set info->struct_size to sizeof(swiftprox_object_info) first. On failure the pose is NaN, all else 0.
+/// Writes an object's properties. Set info->struct_size to sizeof(swiftprox_object_info) first. On failure the pose is NaN, all
+/// else 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_get_object_info(
     scene: *const SceneHandle,
@@ -282,11 +281,11 @@ pub unsafe extern "C" fn swiftprox_scene_get_object_info(
     })
 }
 
-/// A box along the world's axes that contains an object, swept radii included: the corners where all coordinates are least and
-/// greatest, three numbers each. It is wider than the object by less than 1e-5 of the radius and the place of each piece; around a
-/// piece of more than 512 vertices it is the box of that piece's own turned box. On failure all numbers are NaN.
+/// Writes the corners of a box along the world's axes that contains the object, swept radii included. Each corner has three
+/// numbers. The box exceeds the object by less than 1e-5 of each piece's radius and position. A piece of more than 512 vertices is
+/// represented by its oriented box instead. On failure all numbers are NaN.
 ///
-/// SWIFTPROX_ERROR_HANDLE: the id is null, stale or another scene's.
+/// SWIFTPROX_ERROR_HANDLE: the id is null, stale or of another scene.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_get_object_box(
     scene: *const SceneHandle,
@@ -306,9 +305,9 @@ pub unsafe extern "C" fn swiftprox_scene_get_object_box(
     })
 }
 
-/// Gives a piece of an object, by its number from 0: a size_t as info's piece_count is, where results and other calls have a
-/// uint32_t, so that programs of before run on. The scene owns the share: take one more with swiftprox_shape_retain to keep
-/// the shape longer than the object. On failure `*shape` is null.
+/// Returns the shape of a piece of an object. `piece` counts from 0; it is a size_t for compatibility, though results use a
+/// uint32_t. The scene owns the share. To keep the shape longer than the object, call swiftprox_shape_retain. On failure `*shape`
+/// is null.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
 #[unsafe(no_mangle)]

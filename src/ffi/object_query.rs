@@ -13,19 +13,19 @@ use crate::base::memory::with_capacity;
 use crate::scene::object::ObjectId;
 use crate::scene::{ObjectPair, Query, SceneEvents};
 
-/// What has changed since the last query about events.
+/// The changes since the last query of events.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CSceneEvents {
-    /// Pairs of objects that are near and were not, in order of creation. Owned by the scene, valid until its next query about
-    /// events. Null when began_count is 0.
+    /// Pairs of objects that have become near, in order of creation. Owned by the scene, valid until its next query of events.
+    /// Null if began_count is 0.
     pub began: *const ObjectPair,
-    /// How many.
+    /// Number of pairs.
     pub began_count: usize,
-    /// Pairs of objects that were near and are not, those of removed objects and of deactivated pairs among them. Owned and valid
-    /// as began are. Null when ended_count is 0.
+    /// Pairs of objects that are no longer near, including those of removed objects and deactivated pairs. Owned and valid as
+    /// began. Null if ended_count is 0.
     pub ended: *const ObjectPair,
-    /// How many.
+    /// Number of pairs.
     pub ended_count: usize,
 }
 
@@ -44,11 +44,10 @@ impl CSceneEvents {
     }
 }
 
-/// As the query of that kind, of the pairs of one object alone: what it touches or comes near. query->error_budget is not heeded;
-/// the tolerance of contacts is 0 and of others infinity unless query says otherwise. It takes as long as the pairs that are near,
-/// if nothing else has moved.
+/// Runs a query of that kind over the pairs of one object. query->error_budget is ignored. The tolerance defaults to 0 for
+/// contacts, else to infinity. The time depends on the number of near pairs, if nothing else has moved.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other errors as of swiftprox_scene_query_intersection.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: also for an unknown kind. Else same errors as swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_object(
     scene: *mut SceneHandle,
@@ -69,12 +68,11 @@ pub unsafe extern "C" fn swiftprox_scene_query_object(
     }
 }
 
-/// As swiftprox_scene_query_object, of a body that is not in the scene: `piece_count` convex pieces, each where it is in the world.
-/// Each object of the scene is object 1 of its results; object 2 has the null id, and piece2 is the piece's place in `pieces`.
-/// Objects are asked whose groups have a bit of query->mask, whatever their own masks, activation and filters say.
+/// Like swiftprox_scene_query_object, for a body outside the scene: `piece_count` convex pieces, each with its pose in the world.
+/// In results object 1 is an object of the scene. Object 2 has the null id, and piece2 is an index into `pieces`. Objects whose
+/// groups have a bit of query->mask are tested; their masks, activation and filters do not apply.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT also without pieces and for an unknown kind. Other errors as of
-/// swiftprox_scene_query_intersection.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: also for no pieces or an unknown kind. Else same errors as swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_placed(
     scene: *mut SceneHandle,
@@ -107,12 +105,12 @@ pub unsafe extern "C" fn swiftprox_scene_query_placed(
     }
 }
 
-/// Which pairs of objects began or ended touching (`distance` 0), or being within a distance, since the last call; the first call
-/// lists all that are. Objects are near if any of their pieces are. It is a query as others are: results of queries before end. The
-/// scene has one such memory; swiftprox_scene_listen has one for each listener, and tells of contact points. On failure `*events`
-/// is empty, and what was near stays remembered.
+/// Lists pairs of objects that became or stopped being near since the last call; the first call lists all near pairs. Near means
+/// touching (`distance` 0) or within `distance`, for any of their pieces. Like all queries it ends the results of earlier ones. A
+/// scene has one such history. swiftprox_scene_listen has one per listener, and reports contact points. On failure `*events` is
+/// empty, and the history is unchanged.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: distance is negative or NaN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_events(
     scene: *mut SceneHandle,

@@ -11,27 +11,27 @@ use crate::ray::Ray;
 use crate::scene::object::ObjectId;
 use crate::scene::{FirstHit, LeastDistance, ObjectSet, Scene, SceneCastAnswer, SceneRayHit, SetScratch};
 
-/// Objects that a question is about.
+/// A set of objects for a query.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CObjectSet {
-    /// Which, in any order.
+    /// Their ids, in any order.
     pub ids: *const ObjectId,
-    /// How many.
+    /// Number of objects.
     pub count: usize,
-    /// 12 doubles for each object: where it is for this question. Null: where the scene has it.
+    /// 12 doubles per object: its pose for this query. Null: the scene's poses.
     pub poses: *const f64,
-    /// Not 0: pairs of two objects of the set are asked about, too.
+    /// Not 0: pairs within the set are tested, too.
     pub among: i32,
 }
 
-/// What a ray met in a scene.
+/// The hits of a ray in a scene.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CSceneRayAnswer {
-    /// In order of where the ray comes in. Owned by the scratch and valid until its next use. Null when count is 0.
+    /// Hits in order of entry along the ray. Owned by the scratch and valid until its next use. Null if count is 0.
     pub hits: *const SceneRayHit,
-    /// How many.
+    /// Number of hits.
     pub count: usize,
 }
 
@@ -39,11 +39,11 @@ impl CSceneRayAnswer {
     const EMPTY: CSceneRayAnswer = CSceneRayAnswer { hits: std::ptr::null(), count: 0 };
 }
 
-/// Makes room to work in for questions that threads ask a scene at once: about sets of objects, and of rays, grounds and
-/// half-spaces. The caller owns it and gives it back with swiftprox_scratch_destroy. One thread at a time uses it, for any scenes.
-/// Of sets it keeps what pairs of objects remember, which changes how fast an answer comes and which of several nearest points it
-/// gives, never a verdict: where bits matter, take a new one. Rays, grounds and half-spaces remember nothing: whatever it has seen,
-/// they are answered bit for bit as with a new one. On failure `*scratch` is null.
+/// Creates working memory for concurrent queries of object sets, rays, grounds and half-spaces. The caller owns it and frees it
+/// with swiftprox_scratch_destroy. It serves one thread at a time, and any scenes. On failure `*scratch` is null.
+///
+/// For sets it keeps caches of pairs, which affect speed and the choice among several nearest points, never a verdict. Where bits
+/// matter, use a new scratch. Rays, grounds and half-spaces use no cache; a used scratch gives the same bits as a new one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scratch_create(scratch: *mut *mut SetScratch) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -54,7 +54,7 @@ pub unsafe extern "C" fn swiftprox_scratch_create(scratch: *mut *mut SetScratch)
     })
 }
 
-/// Gives back what swiftprox_scratch_create made, and what it owns. Null is ignored.
+/// Frees a scratch and the results it owns. Null is ignored.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scratch_destroy(scratch: *mut SetScratch) {
     if !scratch.is_null() {
@@ -63,26 +63,22 @@ pub unsafe extern "C" fn swiftprox_scratch_destroy(scratch: *mut SetScratch) {
     }
 }
 
-/// Makes questions about sets fast after objects were moved, added or removed: they find what is near by the trees of the broad
-/// phase, which this brings up to date. It changes no answer. Without it they go through what has changed one by one, and through
-/// all pieces if many have.
+/// Updates the broad phase after objects were moved, added or removed, so that queries of sets are fast. It changes no answer.
+/// Without it, such queries test changed pieces one by one, or all pieces if many have changed.
 ///
-/// SWIFTPROX_ERROR_MEMORY: questions take longer.
+/// SWIFTPROX_ERROR_MEMORY: such queries take longer.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_prepare(scene: *mut SceneHandle) -> StatusCode {
     // SAFETY: the header's pointer rules.
     unsafe { change(scene, |scene| Ok(scene.prepare()?)) }
 }
 
-/// The least distance between two sets of objects, or between a set and all other objects (against is null), with its interval and
-/// a pair that has it. Of sets farther apart than cut_off (infinity: none are) no more than that is said.
+/// Returns the least distance between two sets, with its interval and a nearest pair. Null `against` means all other objects. For
+/// sets farther apart than cut_off the answer says only that; infinity means no limit. Only pairs that queries test count:
+/// activation, groups and the filter are respected. Two fixed objects are skipped, unless one of the sets has poses.
 ///
-/// Pairs are those that queries test: activation, groups and the filter are heeded. Two fixed objects are left out, unless one of
-/// the sets has poses. Any number of threads may ask a scene at once that nobody changes, each with its own scratch; a null scratch
-/// is made for the call.
-///
-/// On failure the answer's numbers are NaN. SWIFTPROX_ERROR_INVALID_ARGUMENT: cut_off is negative or NaN. SWIFTPROX_ERROR_BUSY: the
-/// scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER,
+/// Any number of threads may query a scene that no call changes, each with its own scratch. A null scratch means a temporary one.
+/// On failure the answer's numbers are NaN. SWIFTPROX_ERROR_INVALID_ARGUMENT: cut_off is negative or NaN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_least_distance(
     scene: *const SceneHandle,
@@ -101,13 +97,13 @@ pub unsafe extern "C" fn swiftprox_scene_least_distance(
     }
 }
 
-/// At which of many times a set of objects is no farther from something than margin: all other objects, and if set->among is not 0
-/// one another. poses are 12 doubles for each object at the first time, then at the second, and so on; set->poses is not looked at,
-/// nor are poses of times that are not tried. Pairs are those that queries test; both may be fixed. Threads and scratch as of
+/// Finds a time at which a set of objects is within margin of any other object, or of one another if set->among is not 0. poses
+/// holds 12 doubles per object for the first time, then for the second, and so on. set->poses and poses of untried times are not
+/// read. Only pairs that queries test count, but both objects may be fixed. Threads and scratch: as for
 /// swiftprox_scene_least_distance.
 ///
-/// On failure nothing is said: time and tried are 0, the pair's ids null. Errors as of swiftprox_scene_least_distance;
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT also for an empty set, an unknown order, and a margin that is negative, infinite or NaN.
+/// On failure time and tried are 0, the pair's ids null. SWIFTPROX_ERROR_INVALID_ARGUMENT: an empty set, an unknown order, or a
+/// margin that is negative, infinite or NaN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_first_hit(
     scene: *const SceneHandle,
@@ -129,12 +125,11 @@ pub unsafe extern "C" fn swiftprox_scene_first_hit(
     }
 }
 
-/// What a ray meets of the objects whose groups have a bit of mask (UINT32_MAX: all in some group): the first convex piece, all in
-/// order, or any, found soonest. Each as swiftprox_shape_cast_ray has it; pieces that are met at one place, as far as doubles tell,
-/// are in order of creation. Threads as of swiftprox_scene_least_distance; the scratch owns the hits and must not be null.
+/// Finds convex pieces that a ray meets, of objects whose groups have a bit of mask (UINT32_MAX: any group). `hits` selects the
+/// first piece, all in order, or any, found soonest. Each hit is as from swiftprox_shape_cast_ray. Hits at the same place are in
+/// order of creation. Threads: as for swiftprox_scene_least_distance. The scratch owns the hits and must not be null.
 ///
-/// On failure the answer is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT: the ray is refused as by swiftprox_shape_cast_ray, or hits is
-/// unknown. SWIFTPROX_ERROR_BUSY: the scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER,
+/// On failure the answer is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT: a ray that swiftprox_shape_cast_ray refuses, or unknown hits.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_cast_ray(
     scene: *const SceneHandle,
@@ -158,15 +153,14 @@ pub unsafe extern "C" fn swiftprox_scene_cast_ray(
     })
 }
 
-/// Whether moving objects stay farther than config->margin from all others, which rest, or when they first do not: certain at all
-/// times of the range, as swiftprox_pair_cast is. One motion moves all objects of the set as one body, else each has its own;
-/// pieces with poses of their own move with their object. Pairs of two of them are asked about if set->among is not 0; set->poses
-/// is not looked at. Pairs are those that queries test; both may be fixed. config->step_budget is that of each pair; config may be
-/// null for the defaults. Threads and scratch as of swiftprox_scene_least_distance.
+/// Tests whether moving objects stay farther than config->margin from all others, which rest. If not, it finds the first time. The
+/// answer is guaranteed for all times of the range, as in swiftprox_pair_cast. One motion moves the whole set as one body;
+/// set->count motions move one object each. Pieces with their own poses move with their object. set->among not 0 adds pairs within
+/// the set; set->poses is not read.
 ///
-/// On failure the answer is reset: its outcome is SWIFTPROX_CAST_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is
-/// neither 1 nor set->count, or as of swiftprox_pair_cast. SWIFTPROX_ERROR_BUSY: the scene is being changed. Others as of
-/// swiftprox_pair_cast, and SWIFTPROX_ERROR_MEMORY,
+/// Only pairs that queries test count, but both objects may be fixed. config->step_budget applies per pair; null config means the
+/// defaults. Threads and scratch: as for swiftprox_scene_least_distance. On failure the outcome is SWIFTPROX_CAST_OUTCOME_NONE.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is neither 1 nor set->count. Else same errors as swiftprox_pair_cast.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_cast(
     scene: *const SceneHandle,
@@ -188,11 +182,11 @@ pub unsafe extern "C" fn swiftprox_scene_cast(
     }
 }
 
-/// swiftprox_scene_cast of many edges: answers has room for edge_count. The motions of the edges stand one behind the other: one
-/// for each edge, or one for each object of the set at each edge. An edge is valid up to its answer's t_lo.
+/// Runs swiftprox_scene_cast for many edges; answers has room for edge_count. motions holds, edge after edge, either one motion per
+/// edge or one per object of the set. An edge is free up to its answer's t_lo.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is neither edge_count nor that times set->count. Others as of
-/// swiftprox_scene_cast; the message names the edge, and that and all edges behind it have answers that are reset.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is neither edge_count nor edge_count times set->count. Else same errors as
+/// swiftprox_scene_cast. The message names the edge; its answer and all later ones are reset.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_cast_batch(
     scene: *const SceneHandle,

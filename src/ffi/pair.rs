@@ -15,27 +15,27 @@ use crate::pair::verify::verify;
 use crate::pair::{self, DecidedBy, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Placed};
 use crate::shape::Shape;
 
-/// What a pair query is asked for. Begin with SWIFTPROX_PAIR_CONFIG_DEFAULT, then change what should differ.
+/// Options of a pair query. Initialise with SWIFTPROX_PAIR_CONFIG_DEFAULT.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CPairConfig {
     /// Set by SWIFTPROX_PAIR_CONFIG_DEFAULT.
     pub struct_size: usize,
-    /// Pairs farther apart than this are SWIFTPROX_OUTCOME_BEYOND; from 0 to infinity (the default: none is).
+    /// Pairs farther apart than this get SWIFTPROX_OUTCOME_BEYOND. From 0 to infinity (the default: never).
     pub distance_tolerance: f64,
     /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
-    /// Of swiftprox_pair_approximate: upper - lower may be as large as this ... Other queries do not look at this and the two that
-    /// follow, not even whether they are in range: from 0 to infinity, and 1 or more for the budget.
+    /// For swiftprox_pair_approximate: allowed upper - lower, from 0 to infinity. Default: 0. Other queries ignore this and the two
+    /// members below, even out of range.
     pub absolute_error: f64,
-    /// ... or as this times lower. Both 0 (the default): as narrow as exact answers.
+    /// For swiftprox_pair_approximate: allowed (upper - lower) / lower, from 0 to infinity. It is enough to meet one of the two
+    /// errors. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
-    /// Of swiftprox_pair_approximate: steps of marching after which it stops with what it has, 1 or more; UINT32_MAX (the default):
-    /// no limit. What marching leaves open is decided all the same, however long it takes; of bodies that intersect it may leave it
-    /// open only after as many steps as a query without a budget may make. The next query with the same cache goes on where this
-    /// one stopped, unless tuning->start says that it begin anew, at the tables or afresh: it may then stop there for ever.
+    /// For swiftprox_pair_approximate: the largest number of marching steps, 1 or more. UINT32_MAX (the default): no limit. It does
+    /// not limit the methods that decide what marching leaves open. The next query with the same cache continues, unless
+    /// tuning->start makes it begin anew; then it may stop there every time.
     pub step_budget: u32,
-    /// Where it starts and which levels of detail it goes through (swiftprox/tuning.h). Default: null, the automatic choice.
+    /// Start and levels of detail (swiftprox/tuning.h). Default: null, the automatic choice.
     pub tuning: *const CPairTuning,
 }
 
@@ -57,22 +57,22 @@ impl CPairConfig {
     };
 }
 
-/// A shape where it is: an argument of pair queries, by value. Both pointers are only read during the call.
+/// A shape at a pose, an argument of pair queries by value. Both pointers are only read during the call.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CPlaced {
     /// The shape.
     pub shape: *const Shape,
-    /// Where it is: 12 doubles, the row-major 3x4 matrix [R|T].
+    /// 12 doubles, the row-major 3x4 matrix [R|T].
     pub pose: *const f64,
 }
 
-/// What a pair remembers from its last query, for the caller to keep: all zero is cold, any bytes are safe. It changes how fast
-/// an answer comes, never the verdict. What the words mean is the library's own.
+/// The cache of a pair, owned by the caller. Zero it before the first query; any bytes are safe. It affects speed, never the
+/// verdict.
 #[derive(Debug, Clone, Copy, Default)]
 #[repr(C)]
 pub struct CPairCache {
-    /// Not to be looked at.
+    /// Opaque.
     pub words: [u32; 24],
 }
 
@@ -82,17 +82,15 @@ const _: () = {
     assert!(align_of::<PairCache>() <= align_of::<CPairCache>());
 };
 
-/// The distance of two objects with a rigorous interval, witness points, normal and features. Of an intersecting pair the
-/// distance is 0 and the proof is given; points, normal and features stay unset (see swiftprox_pair_contact). Of a pair farther
-/// apart than config->distance_tolerance less is said, see SWIFTPROX_OUTCOME_BEYOND. What an answer leaves out is NaN, or
+/// Computes the distance of two objects: a rigorous interval, witness points, normal and features. For intersecting pairs the
+/// distance is 0 and the answer holds the proof; points, normal and features are unset (see swiftprox_pair_contact). Pairs beyond
+/// config->distance_tolerance get less, see SWIFTPROX_OUTCOME_BEYOND. Unset numbers are NaN, unset features
 /// SWIFTPROX_FEATURE_KIND_NONE.
 ///
-/// A pose is 12 doubles, the row-major 3x4 matrix [R|T]: the object is R*v + T, exactly as the doubles give it. `cache` is what
-/// the pair remembers: all zero is cold, hand the same one back for the same pair in the same order, one for each pair.
-/// `config` may be null for the defaults. On failure the answer is reset: its outcome is SWIFTPROX_OUTCOME_NONE.
+/// Keep one `cache` per pair, zeroed at first, and pass the objects in the same order. On failure the answer is reset and its
+/// outcome is SWIFTPROX_OUTCOME_NONE; SWIFTPROX_ERROR_BUG also resets the cache.
 ///
-/// SWIFTPROX_ERROR_POSE: a pose is refused; the message says why. SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of config is out of
-/// range; those that are for swiftprox_pair_approximate alone only there. SWIFTPROX_ERROR_BUG: the cache is reset, too.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of config is out of range.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_distance(
     object1: CPlaced,
@@ -105,9 +103,9 @@ pub unsafe extern "C" fn swiftprox_pair_distance(
     unsafe { query(pair::distance, [object1, object2], cache, config, answer) }
 }
 
-/// The verdict alone: SWIFTPROX_OUTCOME_INTERSECTING, or SWIFTPROX_OUTCOME_SEPARATED with lower > 0 and an upper that holds but
-/// need not be tight; and SWIFTPROX_OUTCOME_BEYOND with a finite config->distance_tolerance. Faster than the distance where bodies
-/// intersect or nearly do. Arguments and errors as of swiftprox_pair_distance.
+/// Decides only whether two objects intersect. The outcome is SWIFTPROX_OUTCOME_INTERSECTING, SWIFTPROX_OUTCOME_SEPARATED with
+/// lower > 0 and an upper that may be loose, or, with a finite config->distance_tolerance, SWIFTPROX_OUTCOME_BEYOND. It is faster
+/// than the distance for bodies that intersect or nearly do. Same arguments and errors as swiftprox_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_intersection(
     object1: CPlaced,
@@ -120,9 +118,9 @@ pub unsafe extern "C" fn swiftprox_pair_intersection(
     unsafe { query(pair::intersection, [object1, object2], cache, config, answer) }
 }
 
-/// As swiftprox_pair_distance, and of an intersecting pair a common point (as witness point of both objects), the unit normal along
-/// which the objects overlap least and the features that meet there: those of swiftprox_pair_depth, which says how deep they are in
-/// each other, and where. Arguments and errors as of swiftprox_pair_distance.
+/// Like swiftprox_pair_distance, but intersecting pairs also get a common point, the unit normal of least overlap and the features
+/// there. The common point is the witness point of both objects. Normal and features are those of swiftprox_pair_depth, which also
+/// gives the depth. Same arguments and errors as swiftprox_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_contact(
     object1: CPlaced,
@@ -135,12 +133,13 @@ pub unsafe extern "C" fn swiftprox_pair_contact(
     unsafe { query(pair::contact, [object1, object2], cache, config, answer) }
 }
 
-/// The distance as narrow as asked for, or as exact answers are: the query stops as soon as upper - lower is at most
-/// config->absolute_error or config->relative_error * lower; both 0 ask for the exact distance. [lower, upper] holds the
-/// distance, `distance` is the lower end unless the answer is exact. The verdict is as certain as that of swiftprox_pair_distance,
-/// unless config->step_budget ran out: then decided_by is SWIFTPROX_DECIDED_BY_BUDGET, and the next call with the same cache
-/// goes on from there, unless config->tuning->start says that it begin anew. Points and features stay unset in an answer that
-/// comes from maps of support functions or from levels of detail. Arguments and errors as of swiftprox_pair_distance.
+/// Computes the distance to a given error: it stops when upper - lower is at most config->absolute_error or
+/// config->relative_error * lower. [lower, upper] contains the distance; `distance` is lower unless the answer is exact. Points and
+/// features are unset in answers from support maps or levels of detail.
+///
+/// The verdict is guaranteed as in swiftprox_pair_distance, unless the step budget ran out (SWIFTPROX_DECIDED_BY_BUDGET). The next
+/// call with the same cache then continues, unless config->tuning->start makes it begin anew. Same arguments and errors as
+/// swiftprox_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_approximate(
     object1: CPlaced,
@@ -153,24 +152,19 @@ pub unsafe extern "C" fn swiftprox_pair_approximate(
     unsafe { query(pair::approximate, [object1, object2], cache, config, answer) }
 }
 
-/// Re-checks an answer, trusting nothing of the search that found it. SWIFTPROX_OK: it holds for these shapes and poses.
+/// Checks an answer independently of the search that found it. SWIFTPROX_OK: it is right for these shapes and poses.
 ///
-/// Verdict and interval are proved for the exact objects R*v + T, with no tolerance. Separated and beyond: the distance is not 0,
-/// and it is in [lower, upper]; a lower of 0 is said only of a distance below all doubles, or beyond a tolerance. Intersecting: the
-/// differences of the proof's vertex pairs hold the origin in their hull. Undecided: the distance is at most upper. `distance` is
-/// in the interval.
+/// Verdict and interval are proved without tolerance for the exact objects R*v + T. `distance` must be in the interval. Other
+/// members may be off by 2^-47 * (both radii + distances of the centres from each other and from their local origins). The normal
+/// must have unit length, and separate separated objects by at least lower. Witness points must lie in their objects and agree in
+/// both frames: on the features if separated, one common point for a contact. Unset numbers must be NaN. decided_by, statistics and
+/// the direction of a contact's normal are not checked.
 ///
-/// The other members are rounded, so they hold up to an allowance of 2^-47 (radius 1 + radius 2 + distance of the centres in the
-/// world and of each from its local origin). The normal is of unit length; along it separated objects are at least lower apart.
-/// The witness points are in their objects, and the same in both frames. Those of separated objects are on their features, at a
-/// distance in [lower, upper]; those of a contact are one point. What an answer does not say is NaN. decided_by and statistics are
-/// not checked, nor is more of a contact's normal than its length.
+/// Time is linear in the number of vertices.
 ///
-/// Takes time linear in the number of vertices: double-double arithmetic proves most intervals, integers the others.
-///
-/// SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT: an enumerator in the
-/// answer is unknown, it holds no outcome, its proof has no such vertex, or a normal or points are said of objects so large or far
-/// apart that doubles cannot tell. SWIFTPROX_ERROR_POSE, SWIFTPROX_ERROR_NULL_POINTER: as of swiftprox_pair_distance.
+/// SWIFTPROX_ERROR_UNVERIFIED: the answer is wrong; the message says where. SWIFTPROX_ERROR_INVALID_ARGUMENT: the answer has an
+/// unknown enumerator, no outcome or no such vertex. It is also returned for normals or points of objects too large or far apart
+/// for doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_verify(
     object1: CPlaced,

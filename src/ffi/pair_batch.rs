@@ -12,31 +12,30 @@ use crate::base::memory::with_capacity;
 use crate::pair::{PairAnswer, PairCache, PairQuestion, Query, batch, distance};
 use crate::shape::Shape;
 
-/// A pair to be asked.
+/// One pair of a batch.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CPairQuestion {
     /// Shape 1.
     pub shape1: *const Shape,
-    /// Where it is, 12 doubles.
+    /// Pose of shape 1, 12 doubles.
     pub pose1: *const f64,
     /// Shape 2.
     pub shape2: *const Shape,
-    /// Where it is, 12 doubles.
+    /// Pose of shape 2, 12 doubles.
     pub pose2: *const f64,
-    /// What this pair alone remembers; no two pairs share one.
+    /// The pair's own cache; pairs must not share one.
     pub cache: *mut CPairCache,
 }
 
-/// Asks each of `count` pairs what `kind` names, into the answer at the same place. Answers and caches are bit for bit those of
-/// swiftprox_pair_intersection, swiftprox_pair_distance, swiftprox_pair_contact or swiftprox_pair_approximate; the memory of pairs
-/// that follow is asked for ahead. The workers of `scene` share 2,048 pairs or more; it may be null, and then the caller's thread
-/// does all. The scene is not changed, and no other call may use it meanwhile. `config` may be null for the defaults.
+/// Runs the query `kind` for `count` pairs; answers[k] belongs to pairs[k]. Answers and caches are bit for bit those of
+/// swiftprox_pair_intersection, swiftprox_pair_distance, swiftprox_pair_contact or swiftprox_pair_approximate. With a `scene`, its
+/// workers share batches of 2,048 pairs or more; null uses only the caller's thread. The scene does not change, but no other call
+/// may use it meanwhile.
 ///
-/// A pair that is refused gets an answer that says nothing, and all others are answered: the message names the first by its number.
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: kind is unknown, or a member of config is out of range. SWIFTPROX_ERROR_NULL_POINTER: an array
-/// or a member of a pair is null; then, and where memory is lacking, nothing is answered. SWIFTPROX_ERROR_BUG: all answers and
-/// caches are reset.
+/// A refused pair gets a reset answer, and all others are answered; the message names the first. Null pointers and lack of memory
+/// leave all unanswered. SWIFTPROX_ERROR_BUG resets all answers and caches. SWIFTPROX_ERROR_INVALID_ARGUMENT: kind is unknown, or a
+/// member of config is out of range.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_batch(
     kind: QueryNumber,
@@ -72,24 +71,23 @@ pub unsafe extern "C" fn swiftprox_pair_batch(
     status
 }
 
-/// A shape at one pose or at many: an argument of swiftprox_pair_distances, by value. All is only read during the call.
+/// A shape at one or many poses, an argument of swiftprox_pair_distances by value. Pointers are only read during the call.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CPoses {
     /// The shape.
     pub shape: *const Shape,
-    /// 12 doubles for each pose, the row-major 3x4 matrix [R|T].
+    /// 12 doubles per pose, the row-major 3x4 matrix [R|T].
     pub poses: *const f64,
-    /// How many poses; 1 for an object that stays where it is.
+    /// Number of poses; 1 for an object that does not move.
     pub count: usize,
 }
 
-/// The distances of one pair at many poses, one after the other: bit for bit what swiftprox_pair_distance says with the one cache,
-/// which it leaves as those calls would. Either object has as many poses as there are answers, or one. `answers` has room for the
-/// larger count. `config` may be null for the defaults.
+/// Computes the distances of one pair at many poses in turn. Answers and cache are bit for bit those of repeated calls of
+/// swiftprox_pair_distance. Both objects have the same number of poses, or one has one. `answers` has room for the larger count.
 ///
-/// A pose that is refused gets an answer that says nothing, and all others are answered; the message names the first by its number.
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the counts differ, and neither is 1. Other errors as of swiftprox_pair_distance.
+/// A refused pose gets a reset answer, and all others are answered; the message names the first. SWIFTPROX_ERROR_INVALID_ARGUMENT:
+/// the counts differ, and neither is 1. Other errors as in swiftprox_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_distances(
     object1: CPoses,

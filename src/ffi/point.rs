@@ -11,11 +11,11 @@ use crate::base::math::Pose;
 use crate::point::{PointAnswer, PointLocation, SupportVertex, locate_point, support};
 use crate::shape::Shape;
 
-/// Where a point of the world is relative to a shape at a pose: inside, on it or outside, how far from its surface, and what of
-/// that is nearest. Certain, whatever the magnitudes: integers decide where doubles cannot tell. It allocates.
+/// Locates a point of the world relative to a shape at a pose: inside, on or outside, distance from the surface and nearest part.
+/// The location is guaranteed: integers decide where doubles cannot. The function allocates.
 ///
-/// On failure the answer is reset: its location is SWIFTPROX_POINT_LOCATION_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: the point is
-/// not finite. SWIFTPROX_ERROR_MEMORY,
+/// On failure the answer is reset and its location is SWIFTPROX_POINT_LOCATION_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: the point is
+/// not finite.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_locate_point(
     shape: *const Shape,
@@ -34,11 +34,10 @@ pub unsafe extern "C" fn swiftprox_shape_locate_point(
     })
 }
 
-/// The vertex of a shape at a pose that is farthest along a direction of the world, of any length but 0: for certain no other is
-/// farther, whatever the magnitudes. Of a shape with a swept radius place and height are those of the ball about the vertex.
+/// Finds the vertex of a shape at a pose that is farthest along a direction of the world. The result is guaranteed. The direction
+/// may have any nonzero length. With a swept radius, place and height are those of the ball about the vertex.
 ///
-/// On failure the answer's numbers are NaN and 0. SWIFTPROX_ERROR_INVALID_ARGUMENT: the direction is 0 or not finite.
-/// SWIFTPROX_ERROR_MEMORY,
+/// On failure numbers are NaN or 0. SWIFTPROX_ERROR_INVALID_ARGUMENT: the direction is 0 or not finite.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_support(
     shape: *const Shape,
@@ -57,7 +56,7 @@ pub unsafe extern "C" fn swiftprox_shape_support(
     })
 }
 
-/// A location, in words. Never null, valid for ever; a number that is none gets a string that says so.
+/// Returns the text for a location. Never null, valid forever, also for unknown numbers.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_point_location_string(location: PointLocationNumber) -> *const c_char {
     let string = match PointLocation::from_number(location) {

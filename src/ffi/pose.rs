@@ -10,7 +10,7 @@ use crate::base::memory::collected;
 use crate::scene::Scene;
 use crate::scene::object::ObjectId;
 
-/// Moves an object, a fixed one too: `pose` is 12 doubles, row-major [R|T]. On failure it stays where it is.
+/// Moves an object, also a fixed one. `pose` is 12 doubles, row-major [R|T]. On failure the object does not move.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_pose(
     scene: *mut SceneHandle,
@@ -21,7 +21,7 @@ pub unsafe extern "C" fn swiftprox_scene_set_pose(
     unsafe { change(scene, |scene| Ok(scene.set_pose(id, input(pose.cast::<Pose>(), "pose")?)?)) }
 }
 
-/// As swiftprox_scene_set_pose, from a row-major 3x3 `rotation` and a `translation`.
+/// Like swiftprox_scene_set_pose, with a row-major 3x3 `rotation` and a `translation`.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_transform(
     scene: *mut SceneHandle,
@@ -39,9 +39,9 @@ pub unsafe extern "C" fn swiftprox_scene_set_transform(
     }
 }
 
-/// Moves the objects of `count` ids, fixed ones too: `poses` holds 12 doubles for each. Of an object that is given twice the later
-/// pose counts. Null `ids` are all objects that are not fixed, in order of creation. On failure all stay where they are; the
-/// message says which pose or id is refused. Workers share the work where it is in order of creation.
+/// Moves `count` objects, also fixed ones. `poses` holds 12 doubles per id; the last pose of a repeated id counts. Null `ids` means
+/// all objects that are not fixed, in order of creation. Workers share the work if ids are in order of creation. On failure no
+/// object moves; the message names the refused pose or id.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: ids is null, and count is not the number of objects that are not fixed.
 #[unsafe(no_mangle)]
@@ -60,7 +60,7 @@ pub unsafe extern "C" fn swiftprox_scene_set_poses(
     }
 }
 
-/// As swiftprox_scene_set_poses, from 9 doubles of `rotations` and 3 of `translations` for each object.
+/// Like swiftprox_scene_set_poses, with 9 doubles of `rotations` and 3 of `translations` per object.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_transforms(
     scene: *mut SceneHandle,
@@ -82,12 +82,11 @@ pub unsafe extern "C" fn swiftprox_scene_set_transforms(
     }
 }
 
-/// Moves one piece within its object, by its number from 0: `pose` is 12 doubles, row-major [R|T]. The piece is in the world where
-/// the object's pose times this one puts it, each of the twelve numbers rounded; its exact body is what these give. Points and
-/// features of results are in the piece's own frame. On failure it stays where it is.
+/// Moves a piece, numbered from 0, within its object. `pose` is 12 doubles, row-major [R|T]. The piece's pose in the world is the
+/// object's pose times this one, each entry rounded; queries take the rounded pose as exact. Points and features of results are in
+/// the piece's own frame. On failure the piece does not move.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece. SWIFTPROX_ERROR_POSE: the pose is refused, alone or with the
-/// object's.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such piece. SWIFTPROX_ERROR_POSE: the pose is refused, alone or with the object's.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_piece_pose(
     scene: *mut SceneHandle,
@@ -99,10 +98,10 @@ pub unsafe extern "C" fn swiftprox_scene_set_piece_pose(
     unsafe { change(scene, |scene| Ok(scene.set_piece_pose(id, piece, input(pose.cast::<Pose>(), "pose")?)?)) }
 }
 
-/// Writes where a piece of an object is in the world, 12 doubles, row-major [R|T]: the pose for which queries answer, as
-/// swiftprox_pair_verify takes it. On failure they are NaN.
+/// Writes a piece's pose in the world: 12 doubles, row-major [R|T]. Queries use this pose, and swiftprox_pair_verify takes it. On
+/// failure the doubles are NaN.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such piece.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_get_piece_pose(
     scene: *const SceneHandle,

@@ -14,44 +14,44 @@ use crate::scene::{
     Contact, ContactDetail, PairResult, Scene, SceneAnswer, SceneContacts, SceneQuery, SceneStatistics,
 };
 
-/// swiftprox_scene_query.distance_tolerance: 0 for swiftprox_scene_query_contact, infinity for all other queries.
+/// Default of swiftprox_scene_query.distance_tolerance: 0 for swiftprox_scene_query_contact, infinity for all other queries.
 pub const DEFAULT_TOLERANCE: f64 = -1.0;
 
-/// What a query over a scene is asked for. Begin with SWIFTPROX_SCENE_QUERY_DEFAULT, then change what should differ.
+/// Options of a query over a scene. Initialise with SWIFTPROX_SCENE_QUERY_DEFAULT.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CSceneQuery {
     /// Set by SWIFTPROX_SCENE_QUERY_DEFAULT.
     pub struct_size: usize,
-    /// List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
-    /// to infinity (all pairs, however many). Default: SWIFTPROX_DEFAULT_TOLERANCE, of contacts 0, of all others infinity.
-    /// swiftprox_scene_query_intersection does without it, but refuses one out of range.
+    /// Pairs whose true distance is at most this are listed, from 0 to infinity (all pairs). Intersecting pairs, and pairs that
+    /// a step budget leaves undecided, are always listed. Default: SWIFTPROX_DEFAULT_TOLERANCE, which is 0 for contacts, else
+    /// infinity. swiftprox_scene_query_intersection only checks its range.
     pub distance_tolerance: f64,
-    /// swiftprox_scene_query_approximate: upper - lower of a pair may be as large as this ... Default: 0.
+    /// swiftprox_scene_query_approximate: upper - lower of a pair may be at most the larger of this ... Default: 0.
     pub absolute_error: f64,
-    /// ... or as this times lower. Both 0 (the default): as narrow as exact answers.
+    /// ... and this times lower. Default: 0. If both are 0, intervals are as narrow as exact answers.
     pub relative_error: f64,
-    /// swiftprox_scene_query_approximate: finite, it is what upper - lower of all listed pairs together may come to,
-    /// whatever the two errors say, beside what exact answers take. Pairs that maps of support functions or levels of detail may
-    /// answer with a share of it take one, all the same; others are answered as by exact queries, and so are all where the scene
-    /// does not keep all pairs (swiftprox_scene_set_kept_pair_limit). Default: infinity.
+    /// swiftprox_scene_query_approximate: if finite, the limit of the sum of upper - lower over all listed pairs, beyond what
+    /// exact answers need. It replaces both errors. Only pairs that support maps or levels of detail can answer with a share of
+    /// it take one. All other pairs are answered exactly. So are all pairs if the scene does not keep all pairs
+    /// (swiftprox_scene_set_kept_pair_limit). Default: infinity.
     pub error_budget: f64,
-    /// swiftprox_scene_query_approximate: steps of marching after which a pair stops with what it has, 1 or more. Default:
-    /// UINT32_MAX, no limit.
+    /// swiftprox_scene_query_approximate: the largest number of marching steps per pair, 1 or more. A pair then stops with the
+    /// interval it has. Default: UINT32_MAX, no limit.
     pub step_budget: u32,
-    /// Not 0: stop at the first intersecting pair in the order of results, and list no pairs at all then:
-    /// swiftprox_scene_answer.found is it. Default: 0.
+    /// Not 0: stop at the first intersecting pair in the order of results. It is swiftprox_scene_answer.found; no pairs are
+    /// listed then. Default: 0.
     pub early_exit: i32,
-    /// Where pairs start and which levels of detail they go through (swiftprox/tuning.h). Default: null, the automatic choice.
+    /// Where pairs start and which levels of detail they use (swiftprox/tuning.h). Default: null, the automatic choice.
     pub tuning: *const CPairTuning,
-    /// swiftprox_scene_query_contact: pairs farther apart have no manifold, and points with a larger gap do not belong to one;
-    /// from 0 to infinity. It is the distance tolerance if that is less. Default: infinity.
+    /// swiftprox_scene_query_contact: pairs farther apart have no manifold; manifolds omit points with a larger gap. From 0 to
+    /// infinity; the distance tolerance limits it. Default: infinity.
     pub margin: f64,
-    /// swiftprox_scene_query_contact: what is said of each pair beside its answer. absolute_error, relative_error and step_budget
-    /// are then those of the depths. Queries of other kinds do as with none; all refuse an unknown number. Default:
+    /// swiftprox_scene_query_contact: what each pair's contact adds to its answer. absolute_error, relative_error and
+    /// step_budget then apply to the depths. Other queries ignore it. Every query refuses an unknown number. Default:
     /// SWIFTPROX_CONTACT_DETAIL_NONE.
     pub detail: ContactDetailNumber,
-    /// swiftprox_scene_query_placed: the groups of objects that are asked, one bit each. Default: 0, which stands for all.
+    /// swiftprox_scene_query_placed: the groups of objects to test, one bit each. Default: 0, which means all.
     pub mask: u32,
 }
 
@@ -77,21 +77,21 @@ impl CSceneQuery {
     };
 }
 
-/// What a query over a scene found.
+/// The results of a query over a scene.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CSceneAnswer {
-    /// The pairs that the query lists, by object 1, object 2, piece 1, piece 2, objects in order of creation. Owned by the
-    /// scene, valid until its next query, swiftprox_scene_shrink, or its end: objects may be moved, added and removed while they
-    /// are read. Null when count is 0.
+    /// The listed pairs, sorted by object 1, object 2, piece 1, piece 2, with objects in order of creation. The scene owns
+    /// them. They are valid until its next query, swiftprox_scene_shrink, or its end. Objects may be moved, added and removed
+    /// meanwhile. Null if count is 0.
     pub pairs: *const PairResult,
-    /// How many pairs.
+    /// Number of pairs.
     pub count: usize,
     /// 1 if any tested pair intersects, else 0.
     pub intersecting: i32,
-    /// The intersecting pair at which the query stopped, if it did (swiftprox_scene_query.early_exit), else null: of all that
-    /// intersect the first in the order of pairs, with what the query says of such pairs. (A step budget may leave an earlier one
-    /// undecided.) Owned and valid as pairs are.
+    /// The intersecting pair at which the query stopped (swiftprox_scene_query.early_exit), else null. It is the first
+    /// intersecting pair in the order of pairs, but a step budget may leave an earlier one undecided. It holds the query's
+    /// usual answer. Owned and valid as pairs.
     pub found: *const PairResult,
 }
 
@@ -109,12 +109,11 @@ impl CSceneAnswer {
     }
 }
 
-/// Lists the intersecting pairs (touching ones are), each with its verdict alone: of an answer outcome, decided_by, proof,
-/// statistics and distance, lower and upper, which are 0, are said. `query` may be null for the defaults.
+/// Lists the intersecting pairs, touching ones included. Each answer has only outcome, decided_by, proof, statistics, and distance,
+/// lower and upper, which are 0. A null `query` means the defaults. On failure the answer is empty.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of query is out of range, also where this query does without it.
-/// SWIFTPROX_ERROR_MEMORY: none for a changed list of pairs; the next query tries again. The answer is empty then. What a scene has
-/// accepted it answers: no pair makes a query fail.
+/// No accepted pair makes a query fail. SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of query is out of range, even one this query
+/// does not use. SWIFTPROX_ERROR_MEMORY: no memory for a changed list of pairs; the next query tries again.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_intersection(
     scene: *mut SceneHandle,
@@ -125,9 +124,9 @@ pub unsafe extern "C" fn swiftprox_scene_query_intersection(
     unsafe { ask(|scene, query| Ok(scene.query_intersection(query)?), f64::INFINITY, scene, query, answer) }
 }
 
-/// Lists the pairs whose distance is at most the distance tolerance, intersecting ones included, with what swiftprox_pair_distance
-/// says of each: of a separated pair distance, lower, upper, points in all frames, normal and features; of an intersecting one the
-/// proof, and distance, lower and upper, which are 0. Errors as of swiftprox_scene_query_intersection.
+/// Lists the pairs within the distance tolerance, intersecting ones included, with answers as from swiftprox_pair_distance.
+/// Separated pairs have distance, lower, upper, points in all frames, normal and features. Intersecting pairs have the proof; for
+/// them distance, lower and upper are 0. Same errors as swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_distance(
     scene: *mut SceneHandle,
@@ -138,9 +137,9 @@ pub unsafe extern "C" fn swiftprox_scene_query_distance(
     unsafe { ask(|scene, query| Ok(scene.query_distance(query)?), f64::INFINITY, scene, query, answer) }
 }
 
-/// As swiftprox_scene_query_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask
-/// for and no narrower, with what swiftprox_pair_approximate says of each pair. A pair whose step budget ran out before the verdict
-/// (SWIFTPROX_OUTCOME_UNDECIDED) is listed and does not count as intersecting. Errors as of swiftprox_scene_query_intersection.
+/// Like swiftprox_scene_query_distance, but each interval is only as narrow as query->absolute_error, relative_error or
+/// error_budget require. Answers are as from swiftprox_pair_approximate. A pair whose step budget ran out before the verdict
+/// (SWIFTPROX_OUTCOME_UNDECIDED) is listed, but does not count as intersecting. Same errors as swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_approximate(
     scene: *mut SceneHandle,
@@ -151,13 +150,11 @@ pub unsafe extern "C" fn swiftprox_scene_query_approximate(
     unsafe { ask(|scene, query| Ok(scene.query_approximate(query)?), f64::INFINITY, scene, query, answer) }
 }
 
-/// As swiftprox_scene_query_distance, with what swiftprox_pair_contact says of each pair; its tolerance is 0 unless query
-/// says otherwise, so that only pairs that touch or intersect are listed.
+/// Like swiftprox_scene_query_distance, with answers as from swiftprox_pair_contact. The tolerance defaults to 0, so only touching
+/// or intersecting pairs are listed.
 ///
-/// With a query->detail the answers say what those of swiftprox_scene_query_distance do. swiftprox_scene_get_contacts then
-/// hands over how deep each pair is, and where its objects meet: what swiftprox_pair_depth and swiftprox_pair_manifold say.
-///
-/// Errors as of swiftprox_scene_query_intersection; SWIFTPROX_ERROR_MEMORY also when there is too little for depths and points.
+/// With a query->detail the answers are those of swiftprox_scene_query_distance. swiftprox_scene_get_contacts then returns depths
+/// and contact points, as from swiftprox_pair_depth and swiftprox_pair_manifold. Same errors as swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_contact(
     scene: *mut SceneHandle,
@@ -168,19 +165,19 @@ pub unsafe extern "C" fn swiftprox_scene_query_contact(
     unsafe { ask(|scene, query| Ok(scene.query_contact(query)?), 0.0, scene, query, answer) }
 }
 
-/// What a query of contacts said beside its answers.
+/// The contacts of a query of contacts.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CSceneContacts {
-    /// One for each of the pairs that the query listed, in their order; of a query that stopped that of
-    /// swiftprox_scene_answer.found alone. Owned by the scene and valid as the answer's pairs are. Null when count is 0.
+    /// One contact per listed pair, in the same order; after an early exit, only that of swiftprox_scene_answer.found. Owned by
+    /// the scene and valid as the answer's pairs. Null if count is 0.
     pub contacts: *const Contact,
-    /// How many.
+    /// Number of contacts.
     pub count: usize,
-    /// The points of their manifolds: those of a contact begin at its first_point. Owned and valid as contacts are. Null when
+    /// The points of all manifolds; those of a contact begin at its first_point. Owned and valid as contacts. Null if
     /// point_count is 0.
     pub points: *const ManifoldPoint,
-    /// How many.
+    /// Number of points.
     pub point_count: usize,
 }
 
@@ -199,7 +196,7 @@ impl CSceneContacts {
     }
 }
 
-/// Hands over what the last query of a scene said beside its answers: nothing unless it was one of contacts with a
+/// Returns the contacts of the scene's last query. They are empty unless that was a query of contacts with a
 /// swiftprox_scene_query.detail. On failure `*contacts` is empty.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_get_contacts(
@@ -216,11 +213,11 @@ pub unsafe extern "C" fn swiftprox_scene_get_contacts(
     })
 }
 
-/// The distance of a pair of the last query of contacts, or minus how deep it is: one interval through zero, normal and witness
-/// points, as of swiftprox_pair_signed_distance. They come from swiftprox_pair_result.answer or swiftprox_contact.depth, at no
-/// further search. `number` is the pair's among swiftprox_scene_contacts.contacts. On failure the answer's numbers are NaN.
+/// Returns the signed distance of a pair of the last query of contacts: its distance, or minus its penetration depth. One interval
+/// spans zero; normal and witness points are as from swiftprox_pair_signed_distance. It takes no further search. `number` is an
+/// index into swiftprox_scene_contacts.contacts. On failure the answer's numbers are NaN.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: there are not so many contacts, or the last query was none of contacts with a
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: number is too large, or the last query was not of contacts with a
 /// swiftprox_scene_query.detail.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_get_signed_distance(
@@ -238,8 +235,8 @@ pub unsafe extern "C" fn swiftprox_scene_get_signed_distance(
     })
 }
 
-/// What the queries of a scene did since it was made or swiftprox_scene_reset_statistics was called. On failure error_spent is NaN,
-/// all else 0.
+/// Returns statistics of all queries since the scene was made or swiftprox_scene_reset_statistics was called. On failure
+/// error_spent is NaN, all else 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_get_statistics(
     scene: *const SceneHandle,

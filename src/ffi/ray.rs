@@ -11,12 +11,12 @@ use crate::base::math::Pose;
 use crate::ray::{Ray, RayAnswer, RayOutcome, cast_ray};
 use crate::shape::Shape;
 
-/// Where a ray meets a shape at a pose, the part of it that is in the closed body, a swept radius included: certain, whatever the
-/// magnitudes. A ray that only touches is a hit. Ends are intervals that hold the true ones; they are at most 2^-40 of the lengths
-/// that the ray and the body have wide, over that of the direction.
+/// Casts a ray at a shape at a pose and finds the part of the ray inside the closed body, swept radius included. The result is
+/// guaranteed; touching is a hit. Ends are intervals that contain the true ones. Their width is at most 2^-40 of the lengths of the
+/// ray and the body, divided by that of the direction.
 ///
-/// On failure the answer is reset: its outcome is SWIFTPROX_RAY_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: origin or direction
-/// is not finite, the direction is 0, or t_max is negative or NaN.
+/// On failure the answer is reset and its outcome is SWIFTPROX_RAY_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: origin or
+/// direction is not finite, the direction is 0, or t_max is negative or NaN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_cast_ray(
     shape: *const Shape,
@@ -34,7 +34,7 @@ pub unsafe extern "C" fn swiftprox_shape_cast_ray(
     })
 }
 
-/// How a ray cast came out, in words. Never null, valid for ever; for an unknown number the string says so.
+/// Returns the text for a ray outcome. Never null, valid forever, also for unknown numbers.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_ray_outcome_string(outcome: RayOutcomeNumber) -> *const c_char {
     let string = match RayOutcome::from_number(outcome) {

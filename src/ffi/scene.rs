@@ -16,7 +16,7 @@ use crate::scene::object::ObjectId;
 use crate::scene::{Scene, SceneOptions, Workers};
 use crate::shape::Shape;
 
-/// Objects, their poses and the pairs that queries test. Make one with swiftprox_scene_create.
+/// Objects, their poses, and the pairs that queries test. Create one with swiftprox_scene_create.
 #[derive(Debug)]
 pub struct SceneHandle {
     /// How many calls read the scene, and [`CHANGING`] while one changes it. Every call enters here before it makes a reference to
@@ -96,7 +96,7 @@ const _: () = {
     is_shared_between_threads::<Shape>();
 };
 
-/// How a scene is made. Begin with SWIFTPROX_SCENE_OPTIONS_DEFAULT, then change what should differ.
+/// How a scene is made. Initialise with SWIFTPROX_SCENE_OPTIONS_DEFAULT.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CSceneOptions {
@@ -104,18 +104,18 @@ pub struct CSceneOptions {
     pub struct_size: usize,
     /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
-    /// How many threads may work on a query or on poses that are set together, the caller's among them. It changes no bit of any
-    /// answer. Queries that stop early, those without a tolerance over many objects, and few pairs or objects stay in the caller's
-    /// thread. More than 256 count as 256. Default: 0, which means 1.
+    /// Number of threads for a query, or for poses that are set together, including the caller's. It changes no bit of any
+    /// answer. Some work uses the caller's thread only: queries that stop early, queries without a tolerance over many objects,
+    /// and few pairs or objects. Numbers above 256 mean 256. Default: 0, which means 1.
     pub worker_count: u32,
-    /// Shares the work out among the program's own threads. Default: null, together with finish_task: the scene has threads of its
-    /// own, which wait between calls. swiftprox_scene_create starts them, and does without those that cannot be started;
-    /// swiftprox_scene_destroy ends them and waits for that. The child of a fork() has none: its calls stay in the caller's
-    /// thread. exit() does not wait for them. A program that unloads the library destroys its scenes first.
+    /// Starts work on the program's own threads. Default: null, and finish_task too: the scene then has threads of its own,
+    /// which wait between calls. swiftprox_scene_create starts them, and does without threads that cannot start.
+    /// swiftprox_scene_destroy ends them and waits. After fork() the child has none; its calls use the caller's thread. exit()
+    /// does not wait for them. Destroy all scenes before the library is unloaded.
     pub enqueue_task: EnqueueTaskCallback,
-    /// Waits for what enqueue_task has shared out. Default: null.
+    /// Waits for the work that enqueue_task started. Default: null.
     pub finish_task: FinishTaskCallback,
-    /// Handed to both. Default: null.
+    /// Passed to both callbacks. Default: null.
     pub task_user: *mut c_void,
 }
 
@@ -138,11 +138,10 @@ impl CSceneOptions {
 
 // --- Scenes --------------------------------------------------------------------------------------------------------------
 
-/// Makes an empty scene; the caller owns it and gives it back with swiftprox_scene_destroy. On failure `*scene` is null. `options`
-/// may be null for the defaults.
+/// Creates an empty scene. The caller owns it and frees it with swiftprox_scene_destroy. Null `options` mean the defaults. On
+/// failure `*scene` is null.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range, or of enqueue_task and finish_task one is null and the
-/// other is not.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range, or only one of enqueue_task and finish_task is null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_create(
     options: *const CSceneOptions,
@@ -158,11 +157,10 @@ pub unsafe extern "C" fn swiftprox_scene_create(
     })
 }
 
-/// Ends a scene, which the caller owns, a poisoned one too. Its shares of shapes are given back; its ids and results end with it.
-/// Null is ignored.
+/// Destroys a scene, even a poisoned one. It releases its shares of shapes; its ids and results become invalid. Null is ignored.
 ///
-/// SWIFTPROX_ERROR_BUSY: another call uses the scene, which lives on. SWIFTPROX_ERROR_BUG: the scene is gone, but perhaps not all
-/// of its memory. SWIFTPROX_ERROR_FILE, SWIFTPROX_ERROR_MEMORY: the scene is gone, and its recording was not written to its end.
+/// SWIFTPROX_ERROR_BUSY: another call uses the scene, which stays alive. After all other errors the scene is gone.
+/// SWIFTPROX_ERROR_BUG: some memory may be lost. SWIFTPROX_ERROR_FILE, SWIFTPROX_ERROR_MEMORY: the end of its recording is missing.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_destroy(scene: *mut SceneHandle) -> StatusCode {
     guard(|| {
@@ -180,10 +178,10 @@ pub unsafe extern "C" fn swiftprox_scene_destroy(scene: *mut SceneHandle) -> Sta
     })
 }
 
-/// Queries without a tolerance are about all pairs of pieces. While these are no more than `limit`, each remembers its last answer,
-/// which makes the next one several times faster and takes about 150 bytes, if there is memory for that. Of more than `limit` only
-/// near pairs remember theirs. Results and their order are the same. Default: 1048576 pairs, about 150 MB, which 1448
-/// single pieces make. 0: none but near pairs.
+/// Sets for how many pairs of pieces a scene keeps caches. Queries without a tolerance test all pairs. Up to `limit` pairs, each
+/// keeps its last answer, in about 150 bytes if there is memory. The next answer is then several times faster. Beyond `limit` only
+/// near pairs keep theirs, as with 0. Results and their order stay the same. Default: 1048576 pairs, about 150 MB, from 1448 single
+/// pieces.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_kept_pair_limit(scene: *mut SceneHandle, limit: u64) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -195,10 +193,10 @@ pub unsafe extern "C" fn swiftprox_scene_set_kept_pair_limit(scene: *mut SceneHa
     }
 }
 
-/// Gives back the memory that a scene keeps for later: that of the last query's results, which end, and that of pairs that are no
-/// more. What the others remember stays. The next query takes anew what it needs.
+/// Frees memory that a scene keeps for later: the last query's results, which become invalid, and memory of removed pairs. Caches
+/// of other pairs stay. The next query allocates what it needs.
 ///
-/// SWIFTPROX_ERROR_MEMORY: there is not enough for a smaller list of pairs; nothing has changed.
+/// SWIFTPROX_ERROR_MEMORY: no memory for a smaller list of pairs; nothing has changed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_shrink(scene: *mut SceneHandle) -> StatusCode {
     // SAFETY: the header's pointer rules.
@@ -207,11 +205,11 @@ pub unsafe extern "C" fn swiftprox_scene_shrink(scene: *mut SceneHandle) -> Stat
 
 // --- Activation ----------------------------------------------------------------------------------------------------------
 
-/// Sets whether queries test pairs of objects: `active` other than 0, or 0. With two ids it is their pair, in either order, with all
-/// its pairs of pieces; with one null pointer all pairs that the other object is in now; with two all that there are now. Objects
-/// added later begin with all their pairs active; two fixed objects are never tested.
+/// Sets whether queries test pairs of objects: `active` is not 0, or 0. Two ids select their pair, in either order, with all its
+/// pairs of pieces. One null id selects all present pairs of the other object; two null ids select all present pairs. Pairs of
+/// objects added later are active. Two fixed objects are never tested.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: both ids are equal.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_pair_active(
     scene: *mut SceneHandle,
@@ -233,9 +231,9 @@ pub unsafe extern "C" fn swiftprox_scene_set_pair_active(
     }
 }
 
-/// Sets `*active` to 1 if queries test the pair of two objects, given in either order, else to 0 (also on failure).
+/// Sets `*active` to 1 if the pair of two objects is active, else to 0. The order of the ids does not matter. On failure it is 0.
 ///
-/// Errors as of swiftprox_scene_set_pair_active; SWIFTPROX_ERROR_NULL_POINTER also when active is null.
+/// Same errors as swiftprox_scene_set_pair_active.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_get_pair_active(
     scene: *const SceneHandle,

@@ -11,18 +11,17 @@ use crate::ground::Ground;
 use crate::pair::{HalfSpace, ManifoldConfig, ManifoldPoint};
 use crate::scene::{GroupFilter, ObjectSet, Scene, SceneGroundContact, SceneGroundContacts, SetScratch};
 
-/// Where objects of a scene meet a ground or a half-space. Owned by the scratch and valid until its next use.
+/// Contacts of objects of a scene with a ground or a half-space. Owned by the scratch and valid until its next use.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CSceneGroundAnswer {
-    /// By object, piece and triangle. Null when contact_count is 0.
+    /// Sorted by object, piece and triangle. Null if contact_count is 0.
     pub contacts: *const SceneGroundContact,
-    /// How many.
+    /// Number of contacts.
     pub contact_count: usize,
-    /// Points of contact c are those from its contact.first_point on, as many as its contact.manifold.point_count. Null when
-    /// point_count is 0.
+    /// Points of contact c begin at its contact.first_point; there are contact.manifold.point_count. Null if point_count is 0.
     pub points: *const ManifoldPoint,
-    /// How many.
+    /// Number of points.
     pub point_count: usize,
 }
 
@@ -31,16 +30,15 @@ impl CSceneGroundAnswer {
         CSceneGroundAnswer { contacts: std::ptr::null(), contact_count: 0, points: std::ptr::null(), point_count: 0 };
 }
 
-/// Where objects of a scene meet a ground that is in no scene, or are up to config->margin apart from it: piece by piece what
-/// swiftprox_pair_ground_contacts says. set is who is asked; null: all objects, in order of creation. An object is asked if its
-/// groups have a bit of filter->mask and its mask has a bit of filter->groups; a null filter has group 1 and all bits in its mask.
-/// Activation and the scene's filter are about pairs of objects, and do not count. Fixed objects are left out, unless set->poses
-/// says where they are; set->among is not looked at. config->rotation_limit is for the ground's pose. Threads as of
-/// swiftprox_scene_least_distance; the scratch owns contacts and points and must not be null. Once it is large enough, only
-/// integer arithmetic asks for memory.
+/// Finds the contacts of objects of a scene with a ground (grounds belong to no scene), up to config->margin apart. Contacts of
+/// each piece are as from swiftprox_pair_ground_contacts. Null set: all objects, in order of creation. Fixed objects are skipped,
+/// unless set->poses gives their poses; set->among is not read.
 ///
-/// On failure the answer is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT, SWIFTPROX_ERROR_STRUCT_SIZE: as of swiftprox_pair_manifold.
-/// SWIFTPROX_ERROR_BUSY: the scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER,
+/// An object is tested if its groups have a bit of filter->mask, and its mask a bit of filter->groups. A null filter means group 1
+/// and a full mask. Activation and the scene's pair filter do not apply. config->rotation_limit is for the ground's pose.
+///
+/// Threads: as for swiftprox_scene_least_distance. The scratch owns the results and must not be null. Once it is large enough, only
+/// integer arithmetic allocates. On failure the answer is empty. Same errors as swiftprox_pair_manifold.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_ground_contacts(
     scene: *const SceneHandle,
@@ -62,8 +60,8 @@ pub unsafe extern "C" fn swiftprox_scene_ground_contacts(
     }
 }
 
-/// The same of a half-space: a contact for each piece that is within the margin, as swiftprox_pair_half_space_manifold says; its
-/// triangle is UINT32_MAX. Errors as of swiftprox_scene_ground_contacts; SWIFTPROX_ERROR_INVALID_ARGUMENT also as of
+/// Like swiftprox_scene_ground_contacts for a half-space: one contact for each piece within the margin, as from
+/// swiftprox_pair_half_space_manifold. Its triangle is UINT32_MAX. Same errors as swiftprox_scene_ground_contacts and
 /// swiftprox_pair_half_space_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_half_space_contacts(

@@ -13,40 +13,38 @@ use crate::build::hull::check_points;
 use crate::shape::file as shape_file;
 use crate::shape::{Shape, precision_tolerance};
 
-/// What a shape is. Set struct_size to sizeof(swiftprox_shape_info) before asking for it.
+/// Properties of a shape. Set struct_size to sizeof(swiftprox_shape_info) before the call.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct ShapeInfo {
     /// Set by the caller.
     pub struct_size: usize,
-    /// Dimension of the hull: 3; 2 (a two-sided polygon), 1 (a segment) or 0 (a point) only where the input policy admits it.
+    /// Dimension of the hull: 3. With some input policies also 2 (a two-sided polygon), 1 (a segment) or 0 (a point).
     pub dimension: i32,
     /// Vertices of the hull.
     pub vertex_count: usize,
     /// Edges between faces that are not coplanar.
     pub edge_count: usize,
-    /// Faces, coplanar triangles counted as one.
+    /// Faces; coplanar triangles count as one.
     pub face_count: usize,
-    /// Triangles of the hull, as swiftprox_shape_copy_triangles gives them.
+    /// Triangles of the hull, as in swiftprox_shape_copy_triangles.
     pub triangle_count: usize,
     /// Volume; 0 without interior.
     pub volume: f64,
-    /// Centre of mass of the volume, in the local frame; of a body without interior that of its area or length.
+    /// Centre of mass of the volume, in the local frame. Bodies without interior: centre of their area or length.
     pub centre_of_mass: [f64; 3],
     /// Largest distance of a vertex from the centre of mass.
     pub radius: f64,
-    /// The corner of the bounding box where all coordinates are least, in the local frame.
+    /// The corner of the bounding box with the least coordinates, in the local frame.
     pub lower_corner: [f64; 3],
-    /// The corner where they are greatest.
+    /// The corner of the bounding box with the greatest coordinates, in the local frame.
     pub upper_corner: [f64; 3],
-    /// Memory that the shape holds, in bytes, levels included, however many share it.
+    /// Memory of the shape in bytes, levels included; sharing does not change it.
     pub bytes: usize,
-    /// Inertia tensor of a body of mass 1 and of uniform density about the centre of mass, in the axes of the local frame:
-    /// row-major, symmetric, in units of length squared. Times a body's mass, density times volume, it is the inertia of that body.
-    /// Of a body without interior the mass is spread over its area or length.
+    /// Inertia tensor for mass 1 and uniform density about the centre of mass, in local axes. Row-major, symmetric, in length
+    /// squared; multiply it by the mass. Without interior the mass is spread over area or length.
     pub inertia: [f64; 9],
-    /// The radius of the ball that is swept over the body (swiftprox_shape_options), in the local frame; all other members are of
-    /// the body without it.
+    /// Radius of the swept ball (swiftprox_shape_options), in the local frame. All other members describe the body without it.
     pub swept_radius: f64,
 }
 
@@ -75,16 +73,14 @@ impl ShapeInfo {
     };
 }
 
-/// Makes a shape from a polygon mesh; the caller owns it and gives it back with swiftprox_shape_release. The arrays are copied.
+/// Creates a shape from a polygon mesh. Release it with swiftprox_shape_release. The arrays are copied.
 ///
-/// `vertices` holds 3 * vertex_count coordinates. `indices` holds the 0-based vertex numbers of all faces, one face after the
-/// other, each counter-clockwise seen from outside; `valences` the number of vertices of each face, or null when all are
-/// triangles. The mesh must be closed, a 2-manifold, consistently oriented, connected, convex and without unused vertices,
-/// unless the options say otherwise. Answers name features by these numbers.
+/// `vertices` holds 3 * vertex_count coordinates. `indices` holds the 0-based vertex numbers of all faces in turn,
+/// counter-clockwise seen from outside. `valences` holds the number of vertices of each face; null means triangles. Answers name
+/// features by these numbers. Unless the options allow more, the mesh must be a closed, consistently oriented, connected, convex
+/// 2-manifold without unused vertices.
 ///
-/// On failure `*shape` is null. `options` may be null for the defaults.
-///
-/// SWIFTPROX_ERROR_MESH: the mesh breaks the contract, or a coordinate is not finite.
+/// On failure `*shape` is null. SWIFTPROX_ERROR_MESH: the mesh breaks these rules, or a coordinate is not finite.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_from_mesh(
     vertices: *const f64,
@@ -103,9 +99,9 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_mesh(
     })
 }
 
-/// Writes how far from convex a mesh may be because of the precision of its coordinates, relative to its bounding box's diagonal:
-/// four units of the last place in which they are written (decimals, significant digits, floats), at least 1e-9 and at most 0.005.
-/// `vertices` holds 3 * vertex_count coordinates as they were written down, before any transform. On failure it is NaN.
+/// Estimates how far from convex a mesh may be through the precision of its coordinates, relative to its bounding-box diagonal. The
+/// result is four units in the last written place (decimals, significant digits or floats), from 1e-9 to 0.005. `vertices` holds
+/// 3 * vertex_count coordinates as written, before any transform. On failure the tolerance is NaN.
 ///
 /// SWIFTPROX_ERROR_MESH: a coordinate is not finite. SWIFTPROX_ERROR_INVALID_ARGUMENT: there are no vertices.
 #[unsafe(no_mangle)]
@@ -124,14 +120,12 @@ pub unsafe extern "C" fn swiftprox_mesh_estimate_tolerance(
     })
 }
 
-/// Makes a shape from the convex hull of `point_count` points, 3 coordinates each; the caller owns it and gives it back with
-/// swiftprox_shape_release. The array is copied. Features of answers name vertices by their place in `points` (the first of equal
-/// ones), faces by numbers of the hull's own, from 0 and below swiftprox_shape_info.face_count.
+/// Creates a shape from the convex hull of `point_count` points, 3 coordinates each. Release it with swiftprox_shape_release. The
+/// array is copied. Answers name vertices by their place in `points` (the first of equal points). Faces are numbered from 0 to
+/// below swiftprox_shape_info.face_count.
 ///
-/// On failure `*shape` is null. `options` may be null for the defaults, which refuse a hull without interior.
-///
-/// SWIFTPROX_ERROR_MESH: a coordinate is not finite, or the options do not admit a hull of that dimension.
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: no points, or an option out of range. SWIFTPROX_ERROR_LIMIT: too many points.
+/// On failure `*shape` is null. SWIFTPROX_ERROR_MESH: a coordinate is not finite, or the options refuse the hull's dimension (the
+/// defaults require an interior). SWIFTPROX_ERROR_INVALID_ARGUMENT: no points, or an option out of range.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_from_points(
     points: *const f64,
@@ -147,11 +141,11 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_points(
     })
 }
 
-/// Makes the box [-x, x] x [-y, y] x [-z, z] from its half extents, 3 numbers. A ball of `radius` is swept over it: 0 leaves edges
-/// and corners sharp, more rounds them and makes the box larger by as much. Vertex i has bit 0 of i set where x is positive, bit 1
-/// for y, bit 2 for z. The caller owns the shape and gives it back with swiftprox_shape_release. On failure `*shape` is null.
+/// Creates the box [-x, x] x [-y, y] x [-z, z] from its half extents, 3 numbers. A ball of `radius` is swept over it: it rounds
+/// edges and corners and enlarges the box; 0 keeps them sharp. In vertex i, bits 0, 1 and 2 of i mean positive x, y and z. Release
+/// it with swiftprox_shape_release. On failure `*shape` is null.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a half extent is not positive, or a number is negative, larger than 2^1000 or NaN.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a half extent is not positive, the radius is negative, or a number is above 2^1000 or NaN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_box(
     half_extents: *const f64,
@@ -165,19 +159,20 @@ pub unsafe extern "C" fn swiftprox_shape_create_box(
     })
 }
 
-/// Makes the sphere of a radius about the local origin. Owned and given back as any shape. On failure `*shape` is null.
+/// Creates the sphere with this radius about the local origin. Release it with swiftprox_shape_release. On failure `*shape` is
+/// null.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the radius is negative, larger than 2^1000 or NaN.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the radius is negative, above 2^1000 or NaN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_sphere(radius: f64, shape: *mut *const Shape) -> StatusCode {
     // SAFETY: the header's pointer rules.
     create(shape, || Ok(Shape::from_sphere(radius)?))
 }
 
-/// Makes the capsule of a radius about the segment from (0, 0, -half_length), vertex 0, to (0, 0, half_length), vertex 1: a
-/// cylinder along z with half a sphere at either end. Owned and given back as any shape. On failure `*shape` is null.
+/// Creates a capsule: all points within `radius` of the segment with vertices 0 at (0, 0, -half_length) and 1 at (0, 0,
+/// half_length). Release it with swiftprox_shape_release. On failure `*shape` is null.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a number is negative, larger than 2^1000 or NaN.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a number is negative, above 2^1000 or NaN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_capsule(
     half_length: f64,
@@ -188,18 +183,13 @@ pub unsafe extern "C" fn swiftprox_shape_create_capsule(
     create(shape, || Ok(Shape::from_capsule(half_length, radius)?))
 }
 
-/// Makes a shape from a mesh file; the caller owns it and gives it back with swiftprox_shape_release.
+/// Creates a shape from a mesh file. Release it with swiftprox_shape_release. The format is that of a registered reader
+/// (swiftprox_library_register_mesh_reader) for the first bytes, else TRI, POLY, OFF, OBJ or STL by extension, else by content.
+/// Answers count vertices and faces from 0 in file order or reader order. STL vertices count by first mention; STL triangles with
+/// two equal corners do not count.
 ///
-/// The file is read by the reader that swiftprox_library_register_mesh_reader has registered for its first bytes if there is one,
-/// else as TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. Features of answers count vertices and faces from 0
-/// in the order of the file, or in which the reader adds them; of STL vertices in the order in which they are first mentioned, and
-/// no triangles with two equal corners.
-///
-/// On failure `*shape` is null. `options` may be null for the defaults.
-///
-/// SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file (a pipe and a device are refused, not waited for), is larger
-/// than 4 GiB (4,294,967,296 bytes) or does not parse; the message names the line, or the registered reader and what it says.
-/// SWIFTPROX_ERROR_MESH: its mesh breaks the contract (see swiftprox_shape_create_from_mesh). Both messages name the file.
+/// On failure `*shape` is null. SWIFTPROX_ERROR_FILE: the file is unreadable, not a regular file, above 4 GiB or malformed; the
+/// message names file and line. SWIFTPROX_ERROR_MESH: see swiftprox_shape_create_from_mesh.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_from_file(
     path: *const c_char,
@@ -214,17 +204,14 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_file(
     })
 }
 
-/// Makes a copy of a shape with every length multiplied by `scale`, a power of two; the caller owns it and gives it back with
-/// swiftprox_shape_release. Vertices, levels of detail and distances are exactly those multiplied, and labels are the same. Levels
-/// are not built anew, automatic ones are taken over if they are made; what answers rely on is proved and measured again, which
-/// takes up to half as long as making the shape did. `progress` learns how far it is and can cancel it, or is null; `progress_user`
-/// is handed to it.
+/// Creates a copy of a shape with every length multiplied by `scale`, a power of two. Release it with swiftprox_shape_release.
+/// Vertices, levels of detail and distances scale exactly; labels stay. It takes up to half the time of making the shape.
+/// `progress` (may be null, gets `progress_user`) reports progress and can cancel.
 ///
-/// A shape that is turned or moved needs no copy: objects share it, each with a pose, and so do pieces of one object. At any other
-/// scale vertices would be rounded, so such a shape is made anew with swiftprox_shape_options.scale; one that is stretched or
-/// mirrored is made from other vertices. On failure `*shape` is null.
+/// For other scales make the shape anew with swiftprox_shape_options.scale. To turn or move a shape, use poses.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: scale is no positive power of two, or lengths would leave the range of doubles.
+/// On failure `*shape` is null. SWIFTPROX_ERROR_INVALID_ARGUMENT: scale is not a positive power of two, or lengths leave the range
+/// of doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_scaled(
     source: *const Shape,
@@ -240,13 +227,11 @@ pub unsafe extern "C" fn swiftprox_shape_create_scaled(
     })
 }
 
-/// Saves a shape in a file, replacing what was there: with its levels of detail, except automatic ones, which are made again
-/// when they are needed, as the look-up table is. Any machine can load it, with the levels that are saved: built anew, those of a
-/// machine with other vector units may be slightly different ones. A version of this library that does not know the version of the
-/// file refuses it.
+/// Saves a shape in a file and replaces its content. Levels of detail are saved, except automatic ones; these and the look-up table
+/// are made again when needed. Any machine can load the file; older libraries may refuse it.
 ///
-/// SWIFTPROX_ERROR_FILE: the file cannot be written or is no regular one (nothing waits for the reader of a pipe); the message
-/// names it and says why. SWIFTPROX_ERROR_MEMORY: the file is as it was.
+/// SWIFTPROX_ERROR_FILE: the file cannot be written or is not a regular file; the message names it and the cause.
+/// SWIFTPROX_ERROR_MEMORY leaves the file as it was.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_save(shape: *const Shape, path: *const c_char) -> StatusCode {
     guard(|| {
@@ -256,16 +241,12 @@ pub unsafe extern "C" fn swiftprox_shape_save(shape: *const Shape, path: *const 
     })
 }
 
-/// Loads a shape that swiftprox_shape_save has saved; the caller owns it and gives it back with swiftprox_shape_release. It has the
-/// same hull, labels, levels and table, for the same answers. What answers
-/// rely on is not believed but proved and measured again, so loading takes up to about half as long as making the shape did,
-/// levels included; a damaged file is refused. `progress` learns how far it is and can cancel it, or is null; `progress_user` is
-/// handed to it.
+/// Loads a shape saved by swiftprox_shape_save. Release it with swiftprox_shape_release. Hull, labels, levels, table and answers
+/// are the same. Data is checked again, so loading takes up to half the time of making the shape. `progress` (may be null, gets
+/// `progress_user`) reports progress and can cancel.
 ///
-/// On failure `*shape` is null.
-///
-/// SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file, is larger than 4 GiB (4,294,967,296 bytes), is no shape file,
-/// of another version or damaged; the message names it and says what is wrong.
+/// On failure `*shape` is null. SWIFTPROX_ERROR_FILE: the file is unreadable, not a regular file, above 4 GiB, not a shape file, of
+/// another version or damaged; the message says which.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_load(
     path: *const c_char,
@@ -280,8 +261,8 @@ pub unsafe extern "C" fn swiftprox_shape_load(
     })
 }
 
-/// Gives the caller one more share of a shape, to be given back with a swiftprox_shape_release of its own; returns the shape. Safe
-/// from any thread. Of null it returns null.
+/// Adds one reference to a shape and returns the shape. Each call needs its own swiftprox_shape_release. Safe from any thread. Null
+/// returns null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_retain(shape: *const Shape) -> *const Shape {
     if !shape.is_null() {
@@ -291,8 +272,8 @@ pub unsafe extern "C" fn swiftprox_shape_retain(shape: *const Shape) -> *const S
     shape
 }
 
-/// Gives back one share of a shape that the caller owns, from a function that made the shape or from swiftprox_shape_retain. The
-/// last share frees the shape; scenes hold shares of their own. Safe from any thread. Null is ignored.
+/// Drops one reference to a shape that the caller owns. The last reference frees the shape; scenes hold their own. Safe from any
+/// thread. Null is ignored.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_release(shape: *const Shape) {
     // A bug in the freeing is told by the message and the log.
@@ -305,16 +286,13 @@ pub unsafe extern "C" fn swiftprox_shape_release(shape: *const Shape) {
     });
 }
 
-/// Makes now what a query of a shape would make when it first needs it: the look-up table, maps of the support function, and
-/// automatic levels of detail, which take about twice as long as making the shape did. After that no query of this shape allocates
-/// or waits for that.
+/// Makes in advance the look-up table, support maps and automatic levels of detail, which queries make on first use. The levels
+/// take about twice as long as making the shape. After that no query of this shape allocates or waits for them.
 ///
-/// `progress` learns how far it is and can cancel it, or is null; `progress_user` is handed to it. Nothing is reported while
-/// the table is made, a small part of the time, of needles up to a third. Safe from any thread: a query that needs the levels
-/// meanwhile, or another swiftprox_shape_prepare, does not wait but makes them, too, and what comes second is dropped.
+/// `progress` (may be null, gets `progress_user`) reports progress, except while the table is made, and can cancel. Safe from any
+/// thread; concurrent queries do not wait but may make the levels twice.
 ///
-/// SWIFTPROX_ERROR_CANCELLED: progress said so; SWIFTPROX_ERROR_MEMORY: in both cases no levels are made, a table that was made
-/// stays, and the shape can be used as before.
+/// SWIFTPROX_ERROR_CANCELLED, SWIFTPROX_ERROR_MEMORY: no levels are made, a finished table stays, and the shape stays usable.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_prepare(
     shape: *const Shape,
@@ -328,8 +306,8 @@ pub unsafe extern "C" fn swiftprox_shape_prepare(
     })
 }
 
-/// Says what a shape is: set info->struct_size to sizeof(swiftprox_shape_info) first. On failure real numbers are NaN, all else 0.
-/// The inertia takes time in proportion to the triangles.
+/// Writes the properties of a shape. Set info->struct_size to sizeof(swiftprox_shape_info) first. The inertia takes time linear in
+/// the number of triangles. On failure real numbers are NaN, all else 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_get_info(shape: *const Shape, info: *mut ShapeInfo) -> StatusCode {
     guard(|| {
@@ -359,8 +337,8 @@ pub unsafe extern "C" fn swiftprox_shape_get_info(shape: *const Shape, info: *mu
     })
 }
 
-/// Copies the vertices of the hull, in the local frame: `capacity` is how many `vertices` has room for (3 coordinates each),
-/// at least swiftprox_shape_info.vertex_count. `labels` receives the caller's number of each vertex, or is null.
+/// Copies the vertices of the hull in the local frame, 3 coordinates each. `capacity` is the room in vertices, at least
+/// swiftprox_shape_info.vertex_count. `labels`, if not null, receives the caller's number of each vertex.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written.
 #[unsafe(no_mangle)]
@@ -384,10 +362,9 @@ pub unsafe extern "C" fn swiftprox_shape_copy_vertices(
     })
 }
 
-/// Copies the triangles of the hull, 3 corners each, counter-clockwise seen from outside, as places in what
-/// swiftprox_shape_copy_vertices gives: `capacity` is how many triangles `corners` has room for, at least
-/// swiftprox_shape_info.triangle_count. Faces of more than three sides come as several triangles; a body of dimension 1 or 0 has
-/// none.
+/// Copies the triangles of the hull: 3 corners each, counter-clockwise seen from outside, as indices into the vertices of
+/// swiftprox_shape_copy_vertices. `capacity` is the room in triangles, at least swiftprox_shape_info.triangle_count. Larger faces
+/// are split into triangles; bodies of dimension 1 or 0 have none.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written.
 #[unsafe(no_mangle)]
@@ -404,17 +381,17 @@ pub unsafe extern "C" fn swiftprox_shape_copy_triangles(
     })
 }
 
-/// A face of a shape's hull: all coplanar triangles, a convex polygon.
+/// A face of a shape's hull: a convex polygon of all coplanar triangles.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CFace {
-    /// Outward, a unit vector up to rounding, in the local frame.
+    /// Outward unit normal, rounded, in the local frame.
     pub normal: [f64; 3],
-    /// The product of the normal with a corner, rounded: normal * x = offset in the face's plane.
+    /// The face's plane is normal * x = offset, rounded.
     pub offset: f64,
-    /// How many corners the face has.
+    /// Number of corners.
     pub corner_count: usize,
-    /// How many of the caller's polygons are merged in it, 1 at least.
+    /// Number of the caller's polygons merged in the face, at least 1.
     pub label_count: usize,
 }
 
@@ -423,12 +400,12 @@ impl CFace {
     const UNKNOWN: CFace = CFace { normal: [f64::NAN; 3], offset: f64::NAN, corner_count: 0, label_count: 0 };
 }
 
-/// Says what a face of a shape is, by its place from 0 to below swiftprox_shape_info.face_count. `corners` receives its corners,
-/// counter-clockwise seen from outside, as places in what swiftprox_shape_copy_vertices gives; `labels` the caller's polygons that
-/// are merged in it, ascending, or the face's own number where the hull was made without polygons. Each gets as many as there is
-/// room for, and may be null with no room. swiftprox_shape_find_face tells the place of a face of an answer.
+/// Writes a face of a shape; `index` is from 0 to below swiftprox_shape_info.face_count. `corners` receives its corners
+/// counter-clockwise seen from outside, as indices into the vertices of swiftprox_shape_copy_vertices. `labels` receives the
+/// caller's polygons of the face, ascending, or the face's own number if the hull was made without polygons. Both are cut at their
+/// capacity, and may be null with capacity 0. For a face of an answer use swiftprox_shape_find_face.
 ///
-/// On failure `*face` is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the shape has no such face.
+/// On failure `*face` is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such face.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_get_face(
     shape: *const Shape,
@@ -472,8 +449,8 @@ pub unsafe extern "C" fn swiftprox_shape_get_face(
     })
 }
 
-/// The place of a face, for swiftprox_shape_get_face: of the one that the caller's polygon `label` is a part of, which is the id
-/// of a face in an answer. Of several the first. Takes time in proportion to the faces. On failure `*index` is SIZE_MAX.
+/// Finds the index, for swiftprox_shape_get_face, of the first face that contains the caller's polygon `label`. Face ids of answers
+/// are such labels. Time is linear in the number of faces. On failure `*index` is SIZE_MAX.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: no face has the label.
 #[unsafe(no_mangle)]

@@ -12,45 +12,43 @@ use crate::base::math::{Matrix, Vector};
 use crate::base::progress::Progress;
 use crate::shape::{InputPolicy, Shape, ShapeOptions};
 
-/// Learns how far the building, loading or preparing of a shape is: a fraction from 0 to 1 that never falls, and the pointer given
-/// with the callback. Returns 0 to go on; anything else ends the call with SWIFTPROX_ERROR_CANCELLED. It runs in the thread that
-/// builds, must return, and must not use what the call is working on; a C++ exception that leaves it ends the program.
+/// Receives the progress of a long call: a fraction from 0 to 1 that never falls, and the caller's pointer. It returns 0 to
+/// continue; other numbers end the call with SWIFTPROX_ERROR_CANCELLED. It runs in the calling thread, must return and must not use
+/// the call's objects. A C++ exception that leaves it ends the program.
 pub type ProgressCallback = Option<unsafe extern "C-unwind" fn(user: *mut c_void, fraction: f64) -> i32>;
 
-/// How a shape is made. Begin with SWIFTPROX_SHAPE_OPTIONS_DEFAULT, then change what should differ.
+/// Options of a new shape. Initialise with SWIFTPROX_SHAPE_OPTIONS_DEFAULT.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CShapeOptions {
     /// Set by SWIFTPROX_SHAPE_OPTIONS_DEFAULT.
     pub struct_size: usize,
-    /// What to do with input that is not a closed convex mesh with interior. Default: refuse it.
+    /// How to treat input that is not a closed convex mesh with interior. Default: refuse it.
     pub input: InputNumber,
-    /// Row-major rotation; with translation and scale the input transform, applied once when the shape is made: stored vertex =
-    /// scale * (rotation * v) + translation, rounded to doubles. "Local frame" means the frame after it. Default: identity.
+    /// Row-major rotation. A stored vertex is scale * (rotation * v) + translation, rounded to doubles once. The local frame is the
+    /// frame after this transform. Default: identity.
     pub rotation: [f64; 9],
     /// See rotation. Default: 0.
     pub translation: [f64; 3],
     /// See rotation; positive. Default: 1.
     pub scale: f64,
-    /// How far a vertex may lie outside a face of accepted input, relative to the bounding-box diagonal. Default: negative,
-    /// which means 1e-9, and 1e-6 for meshes that went through single precision (STL); with SWIFTPROX_INPUT_NEARLY_CONVEX, if that
-    /// is more, what swiftprox_mesh_estimate_tolerance says.
+    /// How far a vertex may lie outside a face, relative to the bounding-box diagonal. Default: negative, which means 1e-9, or 1e-6
+    /// for single-precision meshes (STL). With SWIFTPROX_INPUT_NEARLY_CONVEX it is at least the result of
+    /// swiftprox_mesh_estimate_tolerance.
     pub convexity_tolerance: f64,
-    /// Learns how far the building of the shape is, and can cancel it. Default: null.
+    /// Reports progress and can cancel. Default: null.
     pub progress: ProgressCallback,
-    /// Handed to progress. Default: null.
+    /// Passed to progress. Default: null.
     pub progress_user: *mut c_void,
-    /// Levels of detail and look-up table (swiftprox/tuning.h). Default: null, the automatic ones.
+    /// Levels of detail and look-up table (swiftprox/tuning.h). Default: null, automatic.
     pub tuning: *const CShapeTuning,
-    /// By how much a coordinate may be off, in the units of the input, before scale: vertices that could lie in one plane up to
-    /// this are one face to manifolds. Distance and depth do not change; the intervals of gaps contain what is joined. Less than 0
-    /// (the default): found from the coordinates and polygons, at least 1e-6 of half the box's diagonal. 0: rounding of doubles
-    /// only. A number that is not finite is SWIFTPROX_ERROR_INVALID_ARGUMENT.
+    /// Error of input coordinates, before scale. Manifolds treat vertices within it of one plane as one face. Distance and depth do
+    /// not change; gap intervals include it. Negative (the default): estimated from the input, at least 1e-6 of half the box's
+    /// diagonal. 0: rounding of doubles only. It must be finite (else SWIFTPROX_ERROR_INVALID_ARGUMENT).
     pub face_noise: f64,
-    /// The radius of a ball that is swept over the body, in the units of the input, before scale: a point with one is a sphere, a
-    /// segment a capsule, any other body has its edges and corners rounded. Distances, depths, manifolds, rays and scenes are of
-    /// the swept body: witness points are on it, features are those of the body without the ball; swept_radius of
-    /// swiftprox_shape_info tells it. From 0 (the default) to 2^1000; another number is SWIFTPROX_ERROR_INVALID_ARGUMENT.
+    /// Radius of a ball swept over the body, in input units before scale. A point becomes a sphere, a segment a capsule; other
+    /// bodies get round edges and corners. All queries are of the swept body: witness points are on it, features are those of the
+    /// body without the ball. From 0 (the default) to 2^1000 (else SWIFTPROX_ERROR_INVALID_ARGUMENT).
     pub swept_radius: f64,
 }
 

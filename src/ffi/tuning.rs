@@ -15,32 +15,29 @@ use crate::tables::{LookupKind, LookupOptions};
 
 // --- How shapes are made -------------------------------------------------------------------------------------------------
 
-/// Which levels of detail and which look-up table a shape is made with, for swiftprox_shape_options.tuning. Begin with
-/// SWIFTPROX_SHAPE_TUNING_DEFAULT, then change what should differ.
+/// Levels of detail and look-up table of a new shape, for swiftprox_shape_options.tuning. Initialise with
+/// SWIFTPROX_SHAPE_TUNING_DEFAULT.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CShapeTuning {
     /// Set by SWIFTPROX_SHAPE_TUNING_DEFAULT.
     pub struct_size: usize,
-    /// How levels of detail are made. Default: automatic.
+    /// How to make levels of detail. Default: automatic.
     pub hierarchy: HierarchyNumber,
-    /// Which table says where a query starts when the last one of the pair tells nothing. It is made by the first query that looks
-    /// into it: less than a quarter of the time that making the shape took. A body smaller than 2^-200 or larger than 2^200 has
-    /// none. Default: automatic.
+    /// The table of starting points for queries with a cold cache. The first query that needs it makes it, in less than a quarter
+    /// of the time of making the shape. Bodies smaller than 2^-200 or larger than 2^200 have none. Default: automatic.
     pub lookup: LookupNumber,
-    /// The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1, both exclusive; less
-    /// where that many would have more features than faces of many corners have. Default: 0.25. This and the two that follow
-    /// do not count for automatic levels.
+    /// Fraction of triangles that each level keeps from the next finer one, strictly between 0 and 1. Faces with many corners may
+    /// lower it. Default: 0.25. Automatic levels ignore this and the two members below.
     pub decimation: f64,
-    /// No level has fewer triangles. Default: 50.
+    /// The least number of triangles in a level. Default: 50.
     pub minimum_triangles: usize,
-    /// No more levels than these. Default: 32.
+    /// The largest number of levels. Default: 32.
     pub most_levels: usize,
-    /// Radius of the sphere of a spherical table's sample points as a multiple of the body's radius, at least 1. Default: 2.
+    /// For a spherical table: radius of the sphere of sample points as a multiple of the body's radius, at least 1. Default: 2.
     pub lookup_radius_factor: f64,
-    /// Resolution of the table: of shells, cells along a side of the square that all directions are mapped to, a power of two
-    /// from 4 to 512; of a spherical table, increments from pole to pole, 2 to 512 (32, 16, 8: 5.625, 11.25, 22.5 degrees).
-    /// Default: 0, which means what the number of vertices asks for, or 32.
+    /// Resolution of the table. Shells: cells along a side of the square of directions, a power of two from 4 to 512. Spherical:
+    /// increments from pole to pole, 2 to 512 (32 means 5.625 degrees). Default: 0, chosen by the number of vertices, or 32.
     pub lookup_resolution: u32,
 }
 
@@ -82,9 +79,8 @@ pub(super) unsafe fn read_shape_tuning(tuning: *const CShapeTuning) -> Checked<(
 
 // --- How queries use them ------------------------------------------------------------------------------------------------
 
-/// Where queries start and which levels of detail they go through, for swiftprox_pair_config.tuning and
-/// swiftprox_scene_query.tuning. It changes how fast an answer comes, never the verdict. Begin with SWIFTPROX_PAIR_TUNING_DEFAULT,
-/// then change what should differ.
+/// Start and levels of detail of queries, for swiftprox_pair_config.tuning and swiftprox_scene_query.tuning. It affects speed,
+/// never the verdict. Initialise with SWIFTPROX_PAIR_TUNING_DEFAULT.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CPairTuning {
@@ -92,9 +88,9 @@ pub struct CPairTuning {
     pub struct_size: usize,
     /// Where marching starts. Default: the automatic choice.
     pub start: StartNumber,
-    /// Which levels of detail queries go through. Default: the automatic choice.
+    /// Which levels of detail queries use. Default: the automatic choice.
     pub levels: LevelsNumber,
-    /// How they go from level to level. Default: the adaptive way.
+    /// How queries go from level to level. Default: adaptive.
     pub refinement: RefinementNumber,
 }
 
@@ -142,8 +138,7 @@ pub(super) unsafe fn read_pair_tuning(tuning: *const CPairTuning) -> Checked<Pai
 
 // --- What a shape has ----------------------------------------------------------------------------------------------------
 
-/// Which levels of detail and which look-up table a shape has. Set struct_size to sizeof(swiftprox_shape_tuning_info) before asking
-/// for it.
+/// Levels of detail and look-up table of a shape. Set struct_size to sizeof(swiftprox_shape_tuning_info) before the call.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct TuningInfo {
@@ -151,17 +146,17 @@ pub struct TuningInfo {
     pub struct_size: usize,
     /// How the levels of detail are made.
     pub hierarchy: HierarchyNumber,
-    /// The look-up table that the shape has, never SWIFTPROX_LOOKUP_AUTOMATIC.
+    /// The look-up table, never SWIFTPROX_LOOKUP_AUTOMATIC.
     pub lookup: LookupNumber,
-    /// The number of levels of detail, the body itself not counted; they are numbered from 1, the finest, on, and the body is
-    /// level 0. Automatic ones are made by the first query that goes through them: 0 until then.
+    /// Number of levels of detail without the body, which is level 0. Level 1 is the finest. Automatic levels count after the first
+    /// query that uses them.
     pub level_count: usize,
-    /// Of swiftprox_shape_info.bytes, what the levels take, with their look-up tables once queries have made these.
+    /// The part of swiftprox_shape_info.bytes for levels, including their look-up tables once made.
     pub level_bytes: usize,
-    /// Of swiftprox_shape_info.bytes, what the table takes, and maps of the support function: 0 until a query, or the making of
-    /// levels, looks into the table, which makes it; of maps until an approximate distance does. Those of levels are the levels'.
+    /// The part of swiftprox_shape_info.bytes for the shape's table and support maps. The table is made when a query or the making
+    /// of levels needs it; maps when an approximate distance does. Those of levels are in level_bytes.
     pub lookup_bytes: usize,
-    /// The table's resolution, as in swiftprox_shape_tuning; 0 without one.
+    /// The table's resolution as in swiftprox_shape_tuning; 0 without a table.
     pub lookup_resolution: u32,
 }
 
@@ -183,8 +178,8 @@ impl TuningInfo {
     };
 }
 
-/// Says which levels of detail and which look-up table a shape has: set info->struct_size to sizeof(swiftprox_shape_tuning_info)
-/// first. On failure all is 0.
+/// Writes which levels of detail and look-up table a shape has. Set info->struct_size to sizeof(swiftprox_shape_tuning_info) first.
+/// On failure all members are 0.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_get_tuning_info(shape: *const Shape, info: *mut TuningInfo) -> StatusCode {
     guard(|| {

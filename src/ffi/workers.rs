@@ -7,13 +7,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 use super::log::must_return;
 use crate::base::workers::Workers;
 
-/// Does the items from `first` on and before `end` of a task; `context` is what came with it. It may be called from any threads,
-/// several at once, each item once.
+/// Runs the items of a task from `first` up to, but not including, `end`; `context` is the one passed with the task. Any threads
+/// may call it, several at once, each item once.
 pub type TaskCallback = unsafe extern "C" fn(first: u32, end: u32, context: *mut c_void);
 
-/// Is to call `task` for all items below `item_count`, in ranges of its choice, by any threads, with `context`; `user` is the
-/// pointer given with the callback. Returns what swiftprox_finish_task_callback is to get, or null if all is done already. It must
-/// return; a C++ exception that leaves it ends the program.
+/// Must call `task` once for each item below `item_count`, in any ranges, from any threads, with `context`. `user` is the pointer
+/// given with the callback. Returns the task for swiftprox_finish_task_callback, or null if all is done already. It must return; a
+/// C++ exception that leaves it ends the program.
 pub type EnqueueTaskCallback = Option<
     unsafe extern "C-unwind" fn(
         task: TaskCallback,
@@ -29,7 +29,8 @@ type EnqueueTask = unsafe extern "C-unwind" fn(
     user: *mut c_void,
 ) -> *mut c_void;
 
-/// Is to return when the task that swiftprox_enqueue_task_callback returned is done. It must return, as that.
+/// Must return when the task from swiftprox_enqueue_task_callback is done. It must return; a C++ exception that leaves it ends the
+/// program.
 pub type FinishTaskCallback = Option<unsafe extern "C-unwind" fn(task: *mut c_void, user: *mut c_void)>;
 type FinishTask = unsafe extern "C-unwind" fn(task: *mut c_void, user: *mut c_void);
 
