@@ -280,7 +280,7 @@ fn steps_of_disjoint_pairs(half_axes: [f64; 3]) -> ([f64; 2], [f64; 2]) {
     (steps.map(|count| f64::from(count) / disjoint), undecided.map(|count| count as f64 / disjoint))
 }
 
-/// The table of docs/research/levels.md, on fewer poses.
+/// Needles and wafers at random poses, on few of them.
 #[test]
 fn tables_of_thin_bodies_save_two_fifths_of_the_steps() {
     for thickness in [1e-1, 1e-2, 1e-3, 1e-4] {
