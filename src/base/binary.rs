@@ -35,6 +35,7 @@ impl Writer {
     }
 
     pub(crate) fn numbers(&mut self, list: &[u32]) -> Result<()> {
+        debug_assert!(u32::try_from(list.len()).is_ok());
         self.number(list.len() as u32)?;
         list.iter().try_for_each(|x| self.number(*x))
     }

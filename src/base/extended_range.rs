@@ -16,6 +16,7 @@ pub struct Extended {
 impl Extended {
     /// p − q, off by u of itself at most: finite doubles.
     pub fn difference(p: f64, q: f64) -> Extended {
+        debug_assert!(p.is_finite() && q.is_finite());
         let difference = p - q;
         if difference.is_finite() {
             return Extended::from(difference);

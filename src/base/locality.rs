@@ -16,6 +16,7 @@ const FEWEST: usize = 4096;
 /// # Errors
 /// [`crate::base::error::Error::Cancelled`] when the caller does not want to go on, here and below.
 pub fn along_curve(points: &[Vector], progress: &mut Progress) -> Result<Vec<u32>> {
+    debug_assert!(u32::try_from(points.len()).is_ok());
     let mut order: Vec<u32> = collected(0..points.len() as u32)?;
     if points.len() >= FEWEST {
         sort_along_curve(&mut order, points, progress)?;
@@ -110,6 +111,7 @@ fn spread(x: u64) -> u64 {
 
 /// Turns each triangle so that it begins at its lowest corner, all below `vertex_count`, and sorts the triangles.
 pub fn sort_triangles(triangles: &mut Vec<[u32; 3]>, vertex_count: usize, progress: &mut Progress) -> Result<()> {
+    debug_assert!(triangles.as_flattened().iter().all(|v| (*v as usize) < vertex_count));
     let all = 3 * triangles.len();
     // Counting sort by the lowest corner, then a sort of the few of each: in time linear where a comparison sort is not.
     let mut starts = filled(0_u32, vertex_count + 1)?;

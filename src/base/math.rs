@@ -40,6 +40,18 @@ pub fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((exponent + 1023) as u64) << 52)
 }
 
+/// Whether all coordinates are finite.
+#[inline]
+pub fn are_finite(v: &Vector) -> bool {
+    v.iter().all(|x| x.is_finite())
+}
+
+/// Whether |v|² is 1 up to 1e-9: what is asserted of unit vectors.
+#[inline]
+pub fn is_unit(v: &Vector) -> bool {
+    (v.norm_squared() - 1.0).abs() <= 1e-9
+}
+
 /// R·d in plain rounded arithmetic.
 #[inline(always)]
 pub fn rotated<S: Scalar>([a, b, c]: &[[S; 4]; 3], d: [S; 3]) -> [S; 3] {

@@ -25,7 +25,7 @@ use robust::{Coord, Coord3D, orient2d, orient3d};
 use crate::base::double_double::{two_sum, wide_cross, wide_dot};
 use crate::base::error::Result;
 use crate::base::extended_range::Extended;
-use crate::base::math::{UNIT_ROUNDOFF, Vector, power_of_two};
+use crate::base::math::{UNIT_ROUNDOFF, Vector, are_finite, power_of_two};
 use crate::base::memory::{collected, copied, push, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::scalar::{Ring, Scalar, constant, dot};
@@ -89,6 +89,7 @@ impl ExactPoints {
     /// # Errors
     /// [`crate::base::error::Error::Cancelled`] when the caller does not want to go on.
     pub fn new_in_steps(points: &[Vector], progress: &mut Progress) -> Result<ExactPoints> {
+        debug_assert!(u32::try_from(points.len()).is_ok() && points.iter().all(are_finite));
         let largest = points.iter().flat_map(|p| p.iter()).fold(0.0_f64, |m, x| m.max(x.abs()));
         let scale = -exponent_above(largest);
         let mut scaled: Vec<[f64; 3]> = with_capacity(points.len())?;
@@ -117,6 +118,7 @@ impl ExactPoints {
     /// # Errors
     /// [`crate::base::error::Error::Memory`].
     pub fn push_average(&mut self, corners: [u32; 4]) -> Result<()> {
+        debug_assert!(corners.iter().all(|i| (*i as usize) < self.scaled.len() - self.averages.len()));
         if self.original.is_none() {
             self.original = Some(copied(&self.scaled)?);
         }
@@ -189,6 +191,7 @@ impl ExactPoints {
     /// in cyclic order (axis 2: x, y; axis 0: y, z; axis 1: z, x): positive when counter-clockwise.
     /// It is the sign of component `axis` of (b − a) × (c − a).
     pub fn projected_orientation(&self, axis: usize, [a, b, c]: [u32; 3]) -> f64 {
+        debug_assert!(axis < 3);
         let (first, second) = ((axis + 1) % 3, (axis + 2) % 3);
         if let Some(original) = self.original_where_needed(&[a, b, c]) {
             let [x, y] = [first, second].map(|axis| self.integers(original, [a, b, c], axis));
@@ -381,12 +384,14 @@ pub fn mantissa_and_exponent(x: f64) -> (i64, i32) {
 
 /// The e with 2^(e−1) ≤ x < 2^e, for x ≥ 0; 0 for x = 0.
 fn exponent_above(x: f64) -> i32 {
+    debug_assert!(x >= 0.0);
     let (mantissa, exponent) = mantissa_and_exponent(x);
     if mantissa == 0 { 0 } else { exponent + 64 - mantissa.leading_zeros() as i32 }
 }
 
 /// x·2^exponent, for |exponent| ≤ 2000; rounded only where the result is subnormal.
 fn times_power_of_two(x: f64, exponent: i32) -> f64 {
+    debug_assert!(exponent.abs() <= 2000);
     // Two factors, because 2^exponent alone may be out of range.
     let half = exponent / 2;
     x * power_of_two(half) * power_of_two(exponent - half)

@@ -26,6 +26,7 @@ impl<'a> Progress<'a> {
 
     /// A part of it: what reports to the part from 0 to 1 appears between `start` and `end` of the whole.
     pub fn part(&mut self, start: f64, end: f64) -> Progress<'_> {
+        debug_assert!(0.0 <= start && start <= end && end <= 1.0);
         let length = self.end - self.start;
         let [start, end] = [start, end].map(|fraction| self.start + fraction * length);
         Progress { callback: &mut *self.callback, start, end, steps: 0 }

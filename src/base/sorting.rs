@@ -53,6 +53,8 @@ fn merge<T: Copy>(
     merged: &mut Vec<T>,
     tell: &mut impl FnMut(usize) -> Result<()>,
 ) -> Result<()> {
+    debug_assert!(merged.capacity() - merged.len() >= left.len() + right.len());
+    debug_assert!(left.is_sorted_by(|a, b| compare(a, b).is_le()) && right.is_sorted_by(|a, b| compare(a, b).is_le()));
     if let (Some(last), Some(first)) = (left.last(), right.first())
         && compare(last, first) == Ordering::Greater
     {

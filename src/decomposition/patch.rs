@@ -126,6 +126,7 @@ impl Growth<'_> {
 
     /// The triangles of the patch around a seed, which it takes. `done` triangles are taken.
     pub fn grow(&mut self, seed: u32, done: usize, progress: &mut Progress) -> Result<Vec<u32>> {
+        debug_assert!(!self.taken[seed as usize]);
         let surface = self.surface;
         let corners = surface.triangles[seed as usize];
         let bounds = Bounds::of(surface, &corners);
@@ -162,6 +163,7 @@ impl Growth<'_> {
     }
 
     fn take(&mut self, t: u32, patch: &mut Patch, open: &mut VecDeque<u32>) -> Result<()> {
+        debug_assert!(!self.taken[t as usize]);
         self.taken[t as usize] = true;
         push(&mut patch.triangles, t)?;
         push(&mut patch.planes, self.surface.plane(self.surface.triangles[t as usize]))?;

@@ -42,6 +42,7 @@ impl Surface {
     /// # Errors
     /// As [`decompose`](crate::decomposition::decompose).
     pub fn new(mesh: &PolygonMesh, margin: f64, progress: &mut Progress) -> Result<Surface> {
+        debug_assert!(margin >= 0.0);
         check_indices(mesh)?;
         let first = first_of_equal(&mesh.vertices, &mut progress.part(0.0, 0.3))?;
         let points = ExactPoints::new_in_steps(&mesh.vertices, &mut progress.part(0.3, 0.4))?;
@@ -132,6 +133,7 @@ impl Surface {
 
     /// 1, −1, or 0 where rounding might have made the sign.
     fn sign_of_volume(&self, part: &[u32]) -> f64 {
+        debug_assert!(!part.is_empty());
         let origin = self.position[self.triangles[part[0] as usize][0] as usize];
         let (mut sum, mut magnitude) = (0.0, 0.0);
         for t in part {
@@ -153,6 +155,7 @@ fn triangles_of(
     points: &ExactPoints,
     progress: &mut Progress,
 ) -> Result<(Vec<[u32; 3]>, Vec<u32>)> {
+    debug_assert_eq!(first.len(), mesh.vertices.len());
     let (mut triangles, mut faces) = (with_capacity(mesh.face_count())?, with_capacity(mesh.face_count())?);
     let mut polygon = Vec::new();
     for f in 0..mesh.face_count() {
@@ -180,6 +183,7 @@ fn triangles_of(
 
 /// The triangles across the edges of each.
 fn across_edges(triangles: &[[u32; 3]], faces: &[u32]) -> Result<Vec<[u32; 3]>> {
+    debug_assert_eq!(faces.len(), triangles.len());
     let edge = |e: u32| {
         let corners = triangles[e as usize / 3];
         (corners[e as usize % 3], corners[(e as usize + 1) % 3])

@@ -12,6 +12,7 @@ use crate::base::predicates::ExactPoints;
 /// # Errors
 /// [`crate::base::error::Error::Memory`].
 pub fn triangulate(points: &ExactPoints, polygon: &mut Vec<u32>, triangles: &mut Vec<[u32; 3]>) -> Result<bool> {
+    debug_assert!(polygon.len() >= 3);
     let normal = newell_normal(points, polygon);
     let axis = normal.iamax();
     let turn = |corners: [u32; 3]| points.projected_orientation(axis, corners) * normal[axis].signum();

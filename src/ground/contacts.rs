@@ -9,7 +9,7 @@ use super::reach::{LEAST_STRETCH, Reach};
 use super::room::{Room, Touch};
 use super::tree::{Bounds, Visit};
 use crate::base::error::Result;
-use crate::base::math::{UNIT_ROUNDOFF, Vector};
+use crate::base::math::{UNIT_ROUNDOFF, Vector, is_unit};
 use crate::base::memory::push;
 use crate::base::simd::environment::with_default;
 use crate::pair::{
@@ -201,6 +201,7 @@ impl Meeting<'_> {
 /// A contact turned to the normal of its triangle, of which a corner is given in the world: a low point of the body, the witness
 /// point unless it was above, and what is below that on the plane. `lower` and `upper` become its height over the plane.
 fn along(up: &Vector, corner: &Vector, contact: &SignedDistance, body: &Placed) -> SignedDistance {
+    debug_assert!(is_unit(up));
     let (polyhedron, radius) = (body.shape.polyhedron(), body.shape.swept_radius());
     let normal = Vector::from(contact.normal);
     // Of the polyhedron; from there it is the radius to the ball's lowest.
@@ -230,6 +231,7 @@ fn along(up: &Vector, corner: &Vector, contact: &SignedDistance, body: &Placed) 
 
 /// Whether a point of the plane of a triangle is in it, rounding included.
 fn is_over(corners: &[Vector; 3], normal: &Vector, point: &Vector) -> bool {
+    debug_assert!(is_unit(normal));
     (0..3).all(|k| {
         let [tail, head] = [corners[k], corners[(k + 1) % 3]];
         let inward = normal.cross(&(head - tail));

@@ -65,6 +65,7 @@ pub(super) fn group(found: &mut GroundContacts, reduces: bool, size: f64) -> Res
 
 /// The least gap of points, as an interval.
 fn least_gap(points: &[ManifoldPoint]) -> (f64, f64) {
+    debug_assert!(!points.is_empty());
     let least = |of: fn(&ManifoldPoint) -> f64| points.iter().map(of).fold(f64::INFINITY, f64::min);
     (least(|point| point.gap_lower), least(|point| point.gap_upper))
 }

@@ -6,7 +6,7 @@
 //! hollow only the triangles' normals are in it. Any other contact takes the normal of its triangle.
 
 use super::surface::{Ground, NONE, next, previous};
-use crate::base::math::Vector;
+use crate::base::math::{Vector, is_unit};
 
 /// How far, as an angle, a normal may be out of the cone and count as in it, 2⁻²⁰: above what rounding to float does to the normals
 /// of a plane, and far below what a simulation feels.
@@ -16,6 +16,7 @@ impl Ground {
     /// Whether a contact may have a normal, a unit vector in the frame of the ground, of which it is told that no point of the
     /// triangle is farther out along it than the point that is touched.
     pub(super) fn allows(&self, triangle: u32, normal: &Vector) -> bool {
+        debug_assert!(is_unit(normal));
         let own = self.normal(triangle);
         if (normal - own).norm() <= TILT {
             return true;

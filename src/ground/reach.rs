@@ -3,7 +3,7 @@
 use super::PlacedGround;
 use super::tree::Bounds;
 use crate::base::error::{Error, Result};
-use crate::base::math::{Matrix, UNIT_ROUNDOFF, Vector};
+use crate::base::math::{Matrix, UNIT_ROUNDOFF, Vector, is_unit};
 use crate::pair::Placed;
 
 /// The least and, inverted, the greatest factor by which an accepted rotation changes lengths, √(1 ± 3·[`ROTATION_LIMIT`]), with
@@ -64,6 +64,7 @@ impl Reach {
 
     /// A normal of the world as one of the ground's frame, of unit length: Rᵀ takes normals back.
     pub fn local_normal(&self, world: &Vector) -> Vector {
+        debug_assert!(is_unit(world));
         self.turn.tr_mul(world).normalize()
     }
 

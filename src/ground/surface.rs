@@ -119,6 +119,7 @@ impl Ground {
     }
 
     fn new(vertices: Vec<Vector>, triangles: &[[u32; 3]]) -> Result<Ground> {
+        debug_assert!(triangles.as_flattened().iter().all(|v| (*v as usize) < vertices.len()));
         let mut records = with_capacity(triangles.len())?;
         for &corners in triangles {
             let [a, b, c] = corners.map(|v| vertices[v as usize]);

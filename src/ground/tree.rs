@@ -131,6 +131,7 @@ impl Tree {
 
 /// Adds the node of some triangles, the first of which has this place, and those below it.
 fn grow(nodes: &mut Vec<Node>, items: &mut [(u32, Bounds)], first: usize) -> Result<()> {
+    debug_assert!(!items.is_empty());
     let all = items.iter().map(|(_, bounds)| *bounds).reduce(|a, b| a.union(&b));
     let Some(bounds) = all else { return Ok(()) };
     let number = nodes.len();

@@ -50,6 +50,7 @@ impl<'a> PointDistance<'a> {
     /// The point of the polyhedron nearest to a `point`, which is itself, at distance 0, if it is inside. `hint` is a vertex
     /// from which to walk, best one near by.
     pub fn nearest(&self, point: &Vector, hint: u32) -> NearestPoint {
+        debug_assert!((hint as usize) < self.polyhedron.vertices.len());
         let ends = [0, self.polyhedron.vertices.len() as u32 - 1];
         let Some(surface) = &self.surface else {
             return self.answer(point, &on_segment(self.polyhedron, point, ends, NONE), &ends);

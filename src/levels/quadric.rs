@@ -405,6 +405,7 @@ impl Collapse {
 
     /// Replaces the edge by one vertex, `at` relative to its tail.
     fn collapse(&mut self, h: u32, at: &Vector) -> Result<()> {
+        debug_assert!(self.tail(h) != GONE);
         let (quadric, _) = self.places(h);
         let twin = self.twins[h as usize];
         let (dropped, kept) = (self.tail(h), self.head(h));

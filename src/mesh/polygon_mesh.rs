@@ -109,6 +109,7 @@ impl PolygonMesh {
     /// # Errors
     /// [`Error::Cancelled`] when the caller does not want to go on.
     pub(crate) fn in_order(&self, order: Vec<u32>, progress: &mut Progress) -> Result<Option<(PolygonMesh, Numbers)>> {
+        debug_assert_eq!(order.len(), self.vertices.len());
         let count = self.vertices.len();
         if !self.divides_indices() || self.indices.iter().any(|v| *v as usize >= count) {
             return Ok(None);
@@ -168,6 +169,7 @@ impl PolygonMesh {
 
     /// Turns every face round; the starts divide the indices.
     pub(crate) fn turn(&mut self) {
+        debug_assert!(self.divides_indices());
         for ends in self.starts.windows(2) {
             self.indices[ends[0] as usize..ends[1] as usize].reverse();
         }

@@ -30,6 +30,7 @@ impl Cells {
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn new(cells: &[u32], vertex_count: usize) -> Result<Cells> {
+        debug_assert!(cells.iter().all(|v| (*v as usize) < vertex_count));
         if vertex_count <= 1 << 16 {
             Ok(Cells::Narrow(collected(cells.iter().map(|v| *v as u16))?))
         } else {
@@ -125,6 +126,8 @@ impl Shells {
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn new(samples: ShellSamples, core: f64, outward: [[f32; 3]; 3], rounds: u32) -> Result<Shells> {
+        debug_assert!(samples.resolution.is_power_of_two() && samples.radii.is_sorted_by(|a, b| a < b));
+        debug_assert_eq!(samples.cells.len(), samples.radii.len() * samples.resolution * samples.resolution);
         let ShellSamples { resolution, radii, positions, cells } = samples;
         // Between two shells the nearer one on a scale of reciprocal distances serves: the squared distance of a vertex v from a
         // point r·d is r² + |v|² − 2r·d·v, so the nearest one is that with the greatest d·v − |v|²/2r, which is linear in 1/r.
@@ -164,6 +167,7 @@ impl Shells {
 
     /// The direction of a cell's middle, a unit vector.
     pub fn direction(resolution: usize, row: usize, column: usize) -> Vector {
+        debug_assert!(row < resolution && column < resolution);
         let coordinate = |i: usize| (2 * i + 1) as f64 / resolution as f64 - 1.0;
         let (u, v) = (coordinate(column), coordinate(row));
         let z = 1.0 - u.abs() - v.abs();
@@ -185,6 +189,7 @@ struct Grid {
 
 impl Grid {
     fn new(resolution: usize) -> Grid {
+        debug_assert!(resolution.is_power_of_two());
         let half = 0.5 * resolution as f32;
         Grid { scale: half * GRID_SCALE, shift: half + MAGIC, mask: resolution as u32 - 1, bits: resolution.ilog2() }
     }
@@ -231,6 +236,7 @@ impl Spherical {
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn new(resolution: usize, radius_factor: f64, cells: &[u32], vertex_count: usize) -> Result<Spherical> {
+        debug_assert_eq!(cells.len(), Spherical::cell_count(resolution));
         let halfway = |i: usize| (i as f64 + 0.5) * PI / resolution as f64;
         let altitude = |i| {
             let cosine = f64::cos(halfway(i));
@@ -269,6 +275,7 @@ impl Spherical {
 
     /// The direction of an entry.
     pub fn direction(resolution: usize, cell: usize) -> Vector {
+        debug_assert!(cell < Spherical::cell_count(resolution));
         let last = (resolution - 1) * 2 * resolution + 1;
         let increment = PI / resolution as f64;
         match cell {
@@ -284,6 +291,7 @@ impl Spherical {
 
     /// How many entries a table has: one for each increment in altitude and azimuth without the poles, and two for the poles.
     pub fn cell_count(resolution: usize) -> usize {
+        debug_assert!(resolution > 0);
         (resolution - 1) * 2 * resolution + 2
     }
 }
@@ -351,6 +359,7 @@ impl Lookup {
 
     /// A plan with its table.
     pub fn with_table(plan: Plan, jump: f64, table: Table) -> Lookup {
+        debug_assert!(jump >= 0.0);
         // Made, so that no query has to: small bodies are shared without a lock.
         Lookup { plan, jump, made: OnNeed::from(table) }
     }

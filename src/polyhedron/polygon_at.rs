@@ -9,6 +9,7 @@ impl Polyhedron {
     /// The caller's polygon that holds a (centred) point of a face, the lowest where several do; the one that misses it least if
     /// rounding puts it in none: that alone takes time in proportion to the polygons merged into the face.
     pub fn polygon_at(&self, face: u32, point: &Vector) -> u32 {
+        debug_assert!((face as usize) < self.faces.len());
         let labels = self.labels_of_face(face);
         if labels.len() == 1 || self.polygon_starts.is_empty() {
             return labels[0];

@@ -113,6 +113,7 @@ impl Partitions {
         faces: impl Iterator<Item = (Range<u32>, Vector)>,
         radius: f64,
     ) -> Result<Partitions> {
+        debug_assert!(radius >= 0.0);
         let margin = 64.0 * UNIT_ROUNDOFF * radius;
         let mut partitions = Partitions { roots: Vec::new(), nodes: Vec::new(), order: Vec::new(), margin };
         for (range, normal) in faces {
@@ -130,6 +131,7 @@ impl Partitions {
 
     /// Adds the partition of a range of `order`.
     fn divide(&mut self, face: &mut FaceToDivide, first: usize, end: usize) -> Result<()> {
+        debug_assert!(first < end && end <= self.order.len());
         let node = self.nodes.len();
         let (normal, count) = (Vector::zeros(), (end - first) as u32);
         push(&mut self.nodes, Node { normal, reaches: [0.0; 2], next: NONE, first: first as u32, count })?;
@@ -222,6 +224,7 @@ struct FaceToDivide<'a> {
 
 impl<'a> FaceToDivide<'a> {
     fn new(polygons: Polygons<'a>, range: Range<u32>, normal: Vector, margin: f64) -> Result<FaceToDivide<'a>> {
+        debug_assert!(margin >= 0.0);
         let middle = |k: u32| {
             let corners = polygons.corners_of(k);
             corners.iter().sum::<Vector>() / corners.len() as f64
@@ -241,6 +244,7 @@ impl<'a> FaceToDivide<'a> {
     /// Of lines along edges of three of the polygons the one that leaves the fewest to look at. Where all leave too many on one
     /// side, the polygons are halved across the direction in which they spread most.
     fn best_line(&self, range: &mut [u32]) -> Line {
+        debug_assert!(range.len() > LEAF);
         let mut best = (range.len() - range.len() / LEAST_SHARE + 1, None);
         for part in [2, 1, 3] {
             let corners = self.polygons.corners_of(range[part * range.len() / 4]);

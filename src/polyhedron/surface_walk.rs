@@ -142,6 +142,7 @@ impl<'a> Surface<'a> {
 
 /// The vertex nearest to a point.
 pub fn nearest_of(polyhedron: &Polyhedron, point: &Vector, vertices: &[u32]) -> u32 {
+    debug_assert!(!vertices.is_empty());
     let square = |v: u32| (polyhedron.vertices[v as usize].position - point).norm_squared();
     vertices.iter().copied().min_by(|v, w| square(*v).total_cmp(&square(*w))).unwrap_or(0)
 }

@@ -51,6 +51,8 @@ impl Triangulation {
         vertex_count: usize,
         progress: &mut Progress,
     ) -> Result<Triangulation> {
+        debug_assert_eq!(normals.len(), triangles.len());
+        debug_assert!(triangles.as_flattened().iter().all(|v| (*v as usize) < vertex_count));
         let half_edge_count = 3 * triangles.len();
         let mut outgoing_starts = filled(0_u32, vertex_count + 1)?;
         for &corner in triangles.iter().flatten() {
@@ -105,6 +107,7 @@ impl Triangulation {
     /// A free half-edge opposite to `h`, on the same side of a flat hull if there is one. Looked for at the end of lower
     /// valence, so that a fan of n triangles costs n steps and not n².
     fn find_twin(&self, h: u32, normals: &[Vector]) -> Option<u32> {
+        debug_assert!(self.twins[h as usize] == u32::MAX);
         let (tail, head) = (self.tail(h), self.head(h));
         let from_head = self.around(head).len() <= self.around(tail).len();
         let candidates = if from_head { self.around(head) } else { self.around(tail) };
@@ -124,6 +127,7 @@ impl Triangulation {
 
     /// Puts the half-edges out of each vertex into counter-clockwise order.
     fn sort_around_vertices(&mut self, progress: &mut Progress) -> Result<()> {
+        debug_assert!((0..).zip(&self.twins).all(|(h, twin)| self.twins[*twin as usize] == h));
         for v in 0..self.outgoing_starts.len() - 1 {
             let range = self.outgoing_starts[v] as usize..self.outgoing_starts[v + 1] as usize;
             let Some(&first) = self.outgoing.get(range.start).filter(|_| !range.is_empty()) else {

@@ -269,6 +269,7 @@ impl Place {
 
     /// Against a double from 0 on.
     fn compare(&self, other: f64) -> Ordering {
+        debug_assert!(other >= 0.0);
         if other == f64::INFINITY {
             return Ordering::Less;
         }
@@ -289,6 +290,7 @@ impl Place {
 
     /// The doubles next to it, from 0 on.
     fn bounds(&self) -> [f64; 2] {
+        debug_assert!(self.numerator >= IBig::ZERO);
         if self.numerator.is_zero() {
             return [0.0; 2];
         }

@@ -126,6 +126,7 @@ impl<'a> Line<'a> {
     /// Where it crosses the plane through a vertex whose unit outward normal n is given in the body's axes, and behind which, up to
     /// its slack, the body lies.
     pub fn crossing(&self, normal: &Vector, slack: f64, vertex: u32) -> Option<Crossing> {
+        debug_assert!(slack >= 0.0);
         // For any U, and g = RᵀU = n + r: of U·(R·p + T) over the body the largest is less than that of the vertex plus the slack
         // plus 2ρ|r|. The computed r is off by 8u.
         let world = self.inverse.tr_mul(normal);
@@ -178,6 +179,7 @@ impl<'a> Line<'a> {
     /// distance of the line from it, off by 8u more, c·d/|d| the middle of the chord, off by 4u, half the chord by 4u of the
     /// radius. The quotients by |d| are off by 4u of themselves, of 2.1 times the reach.
     pub fn chord(&self, point: &Vector) -> Option<[[f64; 2]; 2]> {
+        debug_assert!(self.swept_radius > 0.0);
         let (length, error) = (self.direction.norm(), 48.0 * U * self.reach);
         let distance = self.direction.cross(point).norm() / length;
         let half = |distance: f64| ((self.swept_radius - distance) * (self.swept_radius + distance)).sqrt();
@@ -195,6 +197,7 @@ impl<'a> Line<'a> {
     /// Seen along the line, they are the corners of a closed polygon. If the line is on the inner side of each of its sides, it
     /// winds around the line, which is then in the hull of the corners, whether these are in one plane or not.
     pub fn passes_through(&self, corners: &[u32], faces: bool) -> bool {
+        debug_assert!(corners.len() >= 3);
         let inner = if faces { Side::Left } else { Side::Right };
         (0..corners.len()).all(|k| self.side([corners[k], corners[(k + 1) % corners.len()]]) == Some(inner))
     }
@@ -227,6 +230,7 @@ fn norm1(v: &Vector) -> f64 {
 
 /// An interval that holds all quotients; no denominator is 0, and all have one sign.
 fn quotient(numerators: [f64; 2], denominators: [f64; 2]) -> [f64; 2] {
+    debug_assert!(denominators[0] * denominators[1] > 0.0);
     let quotients = numerators.map(|n| denominators.map(|d| n / d));
     let all = quotients.as_flattened();
     let (low, high) = all[1..].iter().fold((all[0], all[0]), |(low, high), &q| (low.min(q), high.max(q)));

@@ -4,7 +4,7 @@
 //! Of a hull of up to four corners with a ball that is the first of what its points, sides and triangles say. The line goes from
 //! the origin along a unit vector.
 
-use crate::base::math::Vector;
+use crate::base::math::{Vector, is_unit};
 
 /// A vertex in the world, relative to the ray's origin.
 #[derive(Debug, Clone, Copy)]
@@ -31,6 +31,7 @@ pub(super) struct Touch {
 
 /// Of corners that have none that `new` has no part in, the first touch, if the line meets any.
 pub(super) fn first_touch(along: &Vector, radius: f64, kept: &[Corner], new: Corner) -> Option<Touch> {
+    debug_assert!(is_unit(along) && radius > 0.0 && kept.len() <= 3);
     let mut first = of_point(along, radius, new);
     let mut look = |touch: Option<Touch>| {
         if let Some(touch) = touch

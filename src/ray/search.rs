@@ -163,6 +163,7 @@ pub(super) fn fill(answer: &mut RayAnswer, line: &Line, ray: &Ray, entry: [f64; 
 
 /// The corner at which a side begins, seen from outside.
 fn corner(polyhedron: &Polyhedron, face: u32, side: u32) -> u32 {
+    debug_assert!(side < polyhedron.faces[face as usize].side_count);
     let edge = &polyhedron.edges[polyhedron.side(&polyhedron.faces[face as usize], side) as usize];
     if edge.left() == face { edge.tail() } else { edge.head() }
 }

@@ -12,7 +12,7 @@ use super::line::Line;
 use super::rounded::{Beside, Corner, Touch, first_touch, nearest_beside};
 use super::search::fill;
 use super::{Ray, RayAnswer, RayOutcome, swept_exact};
-use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, is_unit};
 use crate::base::simd::{Lanes, Portable};
 use crate::pair::{feature_of_vertices, label, normalised};
 use crate::polyhedron::Polyhedron;
@@ -23,6 +23,7 @@ const MOST_STEPS: u32 = 64;
 
 /// Where a ray meets a polyhedron with a ball of a radius, which is not 0, at a pose; all are checked.
 pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray, radius: f64) -> RayAnswer {
+    debug_assert!(radius > 0.0);
     let (mut answer, mut guess) = (RayAnswer::default(), [f64::NAN; 2]);
     if let Some(line) = Line::new(polyhedron, pose, ray, radius) {
         match prove(&line, ray, &mut answer.steps, &mut guess) {
@@ -119,6 +120,7 @@ enum Ended {
 ///
 /// Each touch is sooner than the one before, and what is beside the line is nearer to it: nothing comes twice.
 fn first(line: &Line, along: Vector, steps: &mut u32) -> Ended {
+    debug_assert!(is_unit(&along));
     let tolerance = 64.0 * U * line.reach;
     let support = |towards: &Vector, near: Option<u32>| {
         let (vertex, excess) = farthest(line.polyhedron, Portable::from_vector(&line.rotate_back(towards)), near);

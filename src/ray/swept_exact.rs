@@ -25,6 +25,7 @@ pub(super) fn cast(
     guess: [f64; 2],
     answer: &mut RayAnswer,
 ) {
+    debug_assert!(radius > 0.0);
     let cast = Cast { line: BesideLine::new(polyhedron, pose, ray.origin, ray.direction), radius };
     let end = if ray.t_max < f64::INFINITY { Step::of(ray.t_max) } else { beyond(polyhedron, pose, ray, radius) };
     answer.exact = 1;
@@ -99,6 +100,7 @@ impl Cast<'_> {
 
 /// Between which neighbouring steps a test becomes true, of two of which the second passes it: looked for around a guess first.
 fn change([mut before, mut after]: [Step; 2], guess: f64, test: impl Fn(Step) -> bool) -> [Step; 2] {
+    debug_assert!(before < after);
     let mut stride = 1;
     let mut at = if guess > 0.0 && guess < f64::INFINITY { Step::of(guess) } else { Step::FIRST };
     let mut gallops_back = None;
@@ -139,6 +141,7 @@ impl Step {
 
     /// Of a double from 0 on.
     fn of(t: f64) -> Step {
+        debug_assert!(t >= 0.0 && t.is_finite());
         let (mantissa, exponent) = mantissa_and_exponent(t);
         if mantissa == 0 {
             return Step::FIRST;
@@ -167,6 +170,7 @@ impl Step {
     }
 
     fn previous(self) -> Step {
+        debug_assert!(self > Step::FIRST);
         Step(self.0 - 1)
     }
 

@@ -10,7 +10,7 @@ use nalgebra::SymmetricEigen;
 pub use options::{LookupKind, LookupOptions};
 
 use crate::base::error::{Error, Result};
-use crate::base::math::{Matrix, Vector};
+use crate::base::math::{Matrix, Vector, is_unit};
 use crate::base::memory::{OnNeed, collected, filled, found, push};
 use crate::polyhedron::lookup::{Lookup, Plan, ShellSamples, Shells, Spherical, Table, VertexBlock};
 use crate::polyhedron::surface_walk::{Surface, nearest_of};
@@ -307,6 +307,7 @@ impl NearestVertices<'_> {
     }
 
     fn sample(&self, factor: f64, direction: &Vector) -> Vector {
+        debug_assert!(is_unit(direction) && factor > 0.0);
         self.centre + direction * (factor * self.radius)
     }
 

@@ -174,6 +174,7 @@ pub struct Grid {
 
 /// The direction of a map at (u, v) of a face: faces 2k and 2k + 1 are those where axis k is 1 and −1.
 pub fn direction_of_map(face: usize, u: f64, v: f64) -> Vector {
+    debug_assert!(face < 6);
     let axis = face / 2;
     let mut direction = Vector::zeros();
     direction[axis] = if face.is_multiple_of(2) { 1.0 } else { -1.0 };
@@ -184,6 +185,7 @@ pub fn direction_of_map(face: usize, u: f64, v: f64) -> Vector {
 
 impl Grid {
     fn new(polyhedron: &Polyhedron, resolution: usize) -> Result<Grid> {
+        debug_assert!(resolution.is_power_of_two());
         let stretch = Stretch::of(polyhedron);
         let radius = polyhedron.radius;
         // The exponent of a number of the range of simple bodies.

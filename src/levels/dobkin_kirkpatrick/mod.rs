@@ -210,6 +210,7 @@ impl DobkinKirkpatrick<'_> {
     /// `ring[k]`), wrapping each part of the ring like a gift: over the chord from its first to its last vertex the one above
     /// which no other lies. Returns the new triangles. Time in proportion to the square of the ring at worst.
     fn fill(&mut self, ring: &[u32], outer: &[u32]) -> Result<Vec<u32>> {
+        debug_assert!(ring.len() >= 3 && outer.len() == ring.len());
         let mut filling = with_capacity(ring.len() - 2)?;
         // Parts of the ring, and the triangle and its side beyond the chord; beyond the first chord, an edge of the ring, it is
         // outer.

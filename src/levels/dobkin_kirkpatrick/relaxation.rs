@@ -44,6 +44,7 @@ impl DobkinKirkpatrick<'_> {
 
     /// The linear conditions of a level; see the head of [`super`].
     pub(super) fn conditions(&self) -> Result<Conditions> {
+        debug_assert!(self.triangles.iter().all(|triangle| !triangle.is_free));
         let count = self.triangles.len();
         let mut conditions = Conditions {
             bounds: with_capacity(self.rays.len())?,
@@ -70,6 +71,7 @@ impl DobkinKirkpatrick<'_> {
     /// can slide farthest brings the level no nearer to the body, and jumps about in memory. The factor is the one about the centre
     /// of mass that makes the hull of the vertices that are left bound the body.
     pub(super) fn relaxed(&self, conditions: &Conditions) -> Result<Vec<f64>> {
+        debug_assert_eq!(conditions.starts.len(), self.triangles.len() + 1);
         let sums = conditions.bounds.iter().map(|cone| cone.iter().sum());
         let factor = sums.fold(1.0, f64::max);
         let mut x = filled(1.0 / factor, self.rays.len())?;
@@ -126,6 +128,7 @@ impl DobkinKirkpatrick<'_> {
 
     /// The largest x of a vertex that the others allow, at least its own.
     fn limit(&self, x: &[f64], v: u32, star: &[u32], conditions: &Conditions) -> f64 {
+        debug_assert_eq!(x.len(), self.rays.len());
         let at = |w: u32| x[w as usize];
         let mut limit = 1.0_f64;
         for &t in star {

@@ -47,6 +47,7 @@ impl<'a> DobkinKirkpatrick<'a> {
     /// [`Error::Bug`](crate::base::error::Error::Bug) if its triangles are no closed surface,
     /// [`crate::base::error::Error::Memory`].
     pub fn new(base: &'a Polyhedron) -> Result<DobkinKirkpatrick<'a>> {
+        debug_assert_eq!(base.dimension, 3);
         let positions: Vec<Vector> = collected(base.vertices.iter().map(|v| v.position))?;
         let centre = base.mass.centre_of_mass - base.centre;
         let normal_of = |corners: &[u32; 3]| normal(&positions, *corners);
@@ -81,6 +82,7 @@ impl<'a> DobkinKirkpatrick<'a> {
 
     /// The triangles around a vertex, counter-clockwise.
     pub(super) fn star(&self, v: u32, star: &mut Vec<u32>) -> Result<()> {
+        debug_assert!(self.triangle_at[v as usize] != NONE);
         star.clear();
         let first = self.triangle_at[v as usize];
         let mut t = first;
@@ -122,6 +124,7 @@ impl<'a> DobkinKirkpatrick<'a> {
 
 /// Which corner of a triangle a vertex is.
 pub(super) fn place_of(triangle: &Triangle, v: u32) -> usize {
+    debug_assert!(triangle.corners.contains(&v));
     triangle.corners.iter().position(|w| *w == v).unwrap_or(0)
 }
 

@@ -29,6 +29,7 @@ pub fn translated(points: &[Vector], by: &Vector) -> Result<Vec<Vector>> {
 /// # Errors
 /// [`Error::Bug`](crate::base::error::Error::Bug) if the triangles of a polyhedron are no closed surface.
 pub fn bounding(points: &[Vector], centre: &Vector, base: &Polyhedron, scale: Scaling) -> Result<Option<Polyhedron>> {
+    debug_assert_eq!(base.centre, Vector::zeros());
     let hull = build(points, None)?;
     let offset = hull.centre;
     if hull.dimension < 3 {

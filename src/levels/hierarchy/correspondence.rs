@@ -71,6 +71,7 @@ pub fn by_identity(
     filled: &[([u32; 3], u32)],
     count: usize,
 ) -> Result<Correspondence> {
+    debug_assert!(ids[0].len() == below.vertices.len() && ids[1].len() == above.vertices.len() && filled.is_sorted());
     let [in_below, in_above] = [index_of(ids[0], count)?, index_of(ids[1], count)?];
     let vertex_below = |id: u32| in_below[id as usize];
 
@@ -137,6 +138,7 @@ pub fn by_identity(
 
 /// Where each id is in a list of some of 0..`count`; NONE for the others.
 fn index_of(ids: &[u32], count: usize) -> Result<Vec<u32>> {
+    debug_assert!(ids.iter().all(|id| (*id as usize) < count));
     let mut index = filled(NONE, count)?;
     for (i, id) in (0..).zip(ids) {
         index[*id as usize] = i;

@@ -398,6 +398,8 @@ impl<'a> Builder<'a> {
 
     /// Adds a level that contains the body.
     fn add_linked(&mut self, polyhedron: Polyhedron, correspondence: Correspondence) -> Result<()> {
+        debug_assert_eq!(correspondence.children.vertices.len(), polyhedron.vertices.len());
+        debug_assert_eq!(correspondence.parents.vertices.len(), self.below().vertices.len());
         let Correspondence { children, parents } = correspondence;
         let mut deviation = 0.0_f64;
         let mut near = with_capacity(polyhedron.vertices.len())?;

@@ -98,6 +98,7 @@ impl<'a> Cuts<'a> {
     /// Begins with the half-spaces in some directions y that surround the origin. `None` where in doubles they surround nothing: a
     /// vertex may be 10¹⁷ times as far out as the others.
     pub fn new(block: &'a Block<'a>, directions: &[Vector]) -> Result<Option<Cuts<'a>>> {
+        debug_assert!(directions.len() >= 4);
         let mut cuts = Cuts {
             block,
             dual: Vec::new(),
@@ -220,6 +221,7 @@ impl<'a> Cuts<'a> {
 
     /// Replaces the corners that a plane cuts off, `first` being one, by those where it crosses the edges to the others.
     fn insert(&mut self, plane: u32, first: u32, hint: u32) -> Result<()> {
+        debug_assert!(!self.corners[first as usize].removed);
         let mut cut_off = listed([first]);
         let mut crossed = Vec::new();
         self.corners[first as usize].removed = true;

@@ -6,6 +6,7 @@ use crate::polyhedron::Polyhedron;
 /// A matrix S such that the body's covariance is S·Sᵀ, its columns along the principal axes: x = centre + S·y gives coordinates y
 /// in which the covariance is the identity. `None` if rounding leaves no interior.
 pub fn spread_of(body: &Polyhedron, centre: &Vector) -> Option<Matrix> {
+    debug_assert_eq!(body.dimension, 3);
     let mut spread = Matrix::identity() * body.radius;
     // The eigenvalues of a covariance are right to u of the largest, so those of a body of aspect 10⁶ only to 10⁻⁴: what is left is
     // found in the new coordinates.

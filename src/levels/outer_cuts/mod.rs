@@ -48,6 +48,7 @@ const GOLDEN_RATIO: f64 = 1.618_033_988_749_895;
 /// # Errors
 /// [`Error::Cancelled`](crate::base::error::Error::Cancelled), [`Error::Memory`](crate::base::error::Error::Memory).
 pub fn outer_cuts(base: &Polyhedron, plane_counts: &[usize], progress: &mut Progress) -> Result<Vec<Polyhedron>> {
+    debug_assert!(plane_counts.is_sorted());
     let mut levels = Vec::new();
     let Some(block) = Block::new(base)? else {
         return Ok(levels);

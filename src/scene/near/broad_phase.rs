@@ -92,6 +92,7 @@ impl BroadPhase {
 
     /// Pieces were added, up to `count`; there is room for them.
     pub fn grow(&mut self, count: usize) {
+        debug_assert!(count >= self.parents.len());
         self.parents.resize(count, NONE);
     }
 

@@ -33,6 +33,7 @@ impl Candidates {
 
     #[inline(always)]
     pub fn add(&mut self, a: u32, b: u32) -> Result<()> {
+        debug_assert!(a != b);
         push(&mut self.pairs, if a < b { [a, b] } else { [b, a] })
     }
 

@@ -135,6 +135,7 @@ impl Grid {
     /// # Errors
     /// Those of `found`.
     pub fn for_each_pair(&self, cells: Range<usize>, mut found: impl FnMut(u32, u32) -> Result<()>) -> Result<()> {
+        debug_assert!(cells.start <= cells.end && cells.end <= self.cell_count());
         let [width, height, depth] = self.counts;
         for row in cells.start / width..cells.end.div_ceil(width) {
             let (y, z, first) = (row % height, row / height, row * width);

@@ -147,6 +147,7 @@ impl NearPairs {
         firsts: &[u32],
         mut testing: impl FnMut([u32; 2]) -> Testing,
     ) -> Result<()> {
+        debug_assert!(new_pairs.is_sorted_by(|a, b| order(firsts, *a) < order(firsts, *b)));
         let arrivals = &mut self.arrivals;
         arrivals.clear();
         extend(arrivals, new_pairs.iter().map(|&pair| NearPair::new(pair)))?;
@@ -198,6 +199,7 @@ impl NearPairs {
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn make_marks(&mut self, kind: usize) -> Result<()> {
+        debug_assert!(self.marks[kind].is_empty() || self.marks[kind].len() == self.pairs.len());
         let missing = self.pairs.len() - self.marks[kind].len();
         reserve(&mut self.marks[kind], missing)?;
         self.marks[kind].resize(self.pairs.len(), Mark::NONE);
@@ -213,6 +215,7 @@ impl NearPairs {
 
     /// Forgets depths of pairs that do not intersect, as the last pass of this kind has found.
     pub fn forget_depths(&mut self, kind: usize) {
+        debug_assert_eq!(self.marks[kind].len(), self.pairs.len());
         for (pair, mark) in self.pairs.iter().zip(&self.marks[kind]) {
             if mark.result == UNLISTED || !mark.intersects {
                 self.contacts.forget_depth(pair.cache);
@@ -245,6 +248,7 @@ impl NearPairs {
 
     /// Says of one pair, if it is there, whether it is tested, unless it was rejected.
     pub fn set_testing(&mut self, firsts: &[u32], proxies: [u32; 2], testing: Testing) {
+        debug_assert!(proxies[0] < proxies[1]);
         let place = |pair: &NearPair| order(firsts, pair.proxies);
         if let Ok(place) = self.pairs.binary_search_by_key(&order(firsts, proxies), place)
             && self.pairs[place].testing != Testing::Rejected

@@ -28,6 +28,7 @@ impl ListTolerance {
 
     /// Makes room for a query's; whether all boxes are to be fitted anew.
     pub fn follow(&mut self, tolerance: f64) -> bool {
+        debug_assert!(tolerance >= 0.0);
         if tolerance >= self.value {
             let is_larger = tolerance > self.value;
             *self = ListTolerance::new(tolerance);

@@ -57,6 +57,7 @@ impl Branch {
     const LEAF: u32 = 1 << 31;
 
     fn leaf(proxy: u32) -> Branch {
+        debug_assert!(proxy & Branch::LEAF == 0);
         Branch(proxy | Branch::LEAF)
     }
 
@@ -112,6 +113,7 @@ impl Tree {
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn insert(&mut self, proxy: u32, boxes: &[Aabb], parents: &mut [u32]) -> Result<()> {
+        debug_assert!(parents[proxy as usize] == NONE);
         reserve_sparingly(&mut self.nodes, 1)?;
         self.changes += 1;
         self.leaf_count += 1;
@@ -145,6 +147,7 @@ impl Tree {
 
     /// There is room for it.
     fn add(&mut self, node: Node) -> u32 {
+        debug_assert!(self.free != NONE || self.nodes.len() < self.nodes.capacity());
         let at = self.free;
         if at == NONE {
             self.nodes.push(node);
@@ -196,6 +199,7 @@ impl Tree {
 
     /// Removes a leaf.
     pub fn remove(&mut self, proxy: u32, parents: &mut [u32]) {
+        debug_assert!(parents[proxy as usize] != NONE && self.leaf_count > 0);
         self.changes += 1;
         self.leaf_count -= 1;
         self.patches += 1;
@@ -419,6 +423,7 @@ impl Tree {
 /// Parts proxies by the middle of their boxes' middles along the longest side, or where that is lopsided into halves; gives the
 /// first of the second part. Neither is empty.
 fn split(proxies: &mut [u32], boxes: &[Aabb]) -> usize {
+    debug_assert!(proxies.len() >= 2);
     let middle = |proxy: u32| boxes[proxy as usize].doubled_middle();
     let (mut low, mut high) = ([f32::INFINITY; 3], [f32::NEG_INFINITY; 3]);
     for &proxy in &*proxies {

@@ -51,6 +51,7 @@ pub(crate) fn pairs_of_last(
     mask: Option<u32>,
     by_boxes: bool,
 ) -> Result<Vec<NearPair>> {
+    debug_assert!(first <= proxies.len());
     let is_asked = |other: &usize| {
         let label = &proxies.labels[*other];
         !label.is_gone() && mask.is_none_or(|mask| label.groups & mask != 0)

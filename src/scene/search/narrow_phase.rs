@@ -140,6 +140,7 @@ impl Left {
     /// Written whether it counts or not, as what cannot be foretold is better no branch.
     #[inline(always)]
     fn add_if(&mut self, counts: bool, pair: usize, look: Look) {
+        debug_assert!(pair < 256 && self.count < self.pairs.len());
         self.pairs[self.count] = (pair as u8, look);
         self.count += usize::from(counts);
     }
@@ -167,6 +168,7 @@ impl<'a> Pass<'a> {
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<bool> {
+        debug_assert_eq!(marks.len(), pairs.len());
         if pairs.len() <= FEW {
             return self.run_few(pairs, marks, caches, findings);
         }

@@ -90,6 +90,7 @@ impl<T: Copy + Default> Slots<T> {
     /// The next row has been written.
     #[inline(always)]
     pub fn advance(&mut self) {
+        debug_assert!(self.count < self.rows.len());
         self.count += 1;
     }
 
@@ -159,6 +160,7 @@ impl<T: Copy + Default> Slots<T> {
 
     /// Only the last of its rows is left, the first from then on.
     pub fn keep_last(&mut self, count: usize) {
+        debug_assert!(count <= self.count);
         self.rows.copy_within(self.count - count..self.count, 0);
         self.count = count;
     }

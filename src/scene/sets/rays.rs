@@ -117,6 +117,7 @@ pub(crate) fn cast(question: Question, room: &mut Room) -> Result<()> {
 /// Puts hits in order of their entries, and those of one entry in order of creation. Entries that overlap are found in integers, as
 /// neighbouring doubles.
 fn put_in_order(others: &Others, ray: &Ray, hits: &mut [SceneRayHit]) -> Result<()> {
+    debug_assert!(hits.iter().all(|hit| hit.answer.entry[0] <= hit.answer.entry[1]));
     let order = |a: &SceneRayHit, b: &SceneRayHit| {
         let [entry1, entry2] = [a.answer.entry, b.answer.entry];
         entry1[0].total_cmp(&entry2[0]).then(entry1[1].total_cmp(&entry2[1])).then(a.row.cmp(&b.row))

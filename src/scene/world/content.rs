@@ -113,6 +113,7 @@ impl World {
     /// # Errors
     /// See [`Scene::remove_objects`](crate::scene::Scene::remove_objects).
     pub fn check_removals(&self, ids: &[ObjectId], sorted: &[(u64, usize)]) -> Result<()> {
+        debug_assert!(sorted.len() == ids.len() && sorted.is_sorted());
         for (k, id) in ids.iter().enumerate() {
             self.objects.get(*id).map_err(|error| Error::Handle(format!("ids[{k}]: {}", error.message())))?;
         }

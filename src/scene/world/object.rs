@@ -31,6 +31,7 @@ impl ObjectId {
     pub const NULL: ObjectId = ObjectId { bits: 0 };
 
     fn new(slot: usize, generation: u32, scene: u32) -> ObjectId {
+        debug_assert!(slot < 1 << SLOT_BITS && generation <= LAST_GENERATION);
         let upper = u64::from(scene) << GENERATION_BITS | u64::from(generation);
         ObjectId { bits: upper << SLOT_BITS | slot as u64 }
     }

@@ -27,6 +27,7 @@ impl PieceData {
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn set(&mut self, id: ObjectId, [piece, count]: [usize; 2], user_data: u64) -> Result<()> {
+        debug_assert!(piece < count);
         if let Some(numbers) = self.of_objects.get_mut(&id) {
             numbers[piece] = user_data;
         } else if user_data != 0 {

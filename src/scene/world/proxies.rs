@@ -60,6 +60,7 @@ impl Proxies {
 
     /// Adds a piece for which there is room.
     pub fn push(&mut self, new: NewProxy) {
+        debug_assert!(self.labels.len() < self.labels.capacity() && new.label.piece as usize <= self.labels.len());
         let (spheres, rigid) = placed(&new.shape, &new.pose, new.pose.rotation_defect());
         self.shapes.push(new.shape);
         self.poses.push(new.pose);
@@ -82,6 +83,7 @@ impl Proxies {
 
     /// Ends the rows of [`Proxies::push_unseen`], from the first of them on.
     pub fn end_unseen(&mut self, first: usize) {
+        debug_assert!(first <= self.len());
         self.shapes.truncate(first);
         self.poses.truncate(first);
         self.spheres.truncate(first);
@@ -123,6 +125,7 @@ impl Proxies {
 
     /// Ends a piece; its row stays until they are renumbered.
     pub fn end(&mut self, proxy: usize) {
+        debug_assert!(!self.is_gone(proxy));
         self.labels[proxy].object = ObjectId::NULL;
         self.gone += 1;
         self.look_for_pairs_of(proxy);
