@@ -113,6 +113,9 @@ class Tune(unittest.TestCase):
                 lines = code.splitlines()
                 includes = "".join(line + "\n" for line in lines if line.startswith("#include"))
                 rest = "".join(line + "\n" for line in lines if not line.startswith("#include"))
+                # What the program around it hands on, to shapes and to the scene.
+                handed = re.findall(r"^swiftprox_\w+_options (\w+) =", rest, re.MULTILINE) if name == "a.c" else []
+                rest += "".join(f"(void){variable};\n" for variable in handed)
                 source = self.file(name, includes + frame % rest)
                 done = subprocess.run([compiler, standard, "-fsyntax-only", "-Wall", "-Werror", "-I", INCLUDE, source],
                                       capture_output=True, text=True, timeout=60)
