@@ -1,7 +1,7 @@
 //! Prints tables of the levels of detail of the benchmark's bodies: triangles, edges, deviation, bytes and build time of each kind.
 //!
-//! `cargo run --release --example levels -- [--paper] [VERTICES ...]`; docs/research/levels.md sums up its output. With `--paper` the
-//! settings of the figures of Ehmann & Lin 2000 rather than the default ones.
+//! `cargo run --release --example levels -- [--paper] [VERTICES ...]`; docs/research/levels.md sums up its output. With `--paper`
+//! the settings of the figures of Ehmann & Lin 2000 rather than the default ones.
 
 use std::time::Instant;
 

@@ -1,77 +1,73 @@
 /*
- * swiftprox: certified proximity queries between convex polyhedra.
+ * swiftprox: proximity queries between convex polyhedra with guaranteed answers.
  *
- * Conventions, which hold for every function below:
+ * These conventions hold for all functions below.
  *
- * Names. swiftprox_<noun>_<verb>; the noun comes first in the arguments. What is asked has one name over all layers: intersection,
- * distance, contact, approximate, in swiftprox_pair_..., swiftprox_scene_query_... and swiftprox_query_kind. Flags are an
- * int32_t: given, any number but 0 is yes; returned, yes is 1.
+ * Names. Functions are named swiftprox_<noun>_<verb>; the noun is the first argument. Queries have the same names in all layers
+ * (intersection, distance, contact, approximate): in swiftprox_pair_..., swiftprox_scene_query_... and swiftprox_query_kind. Flags
+ * are int32_t: any nonzero argument means yes; results are 1 or 0.
  *
- * Failure. What can fail returns a swiftprox_status: SWIFTPROX_OK is 0, and compilers warn where one is ignored.
- * swiftprox_library_last_error_message says what was wrong and where, for each thread. A call that fails
- * changes nothing but the outputs it names. Comments name the errors of a function that surprise. These they do not repeat:
- * SWIFTPROX_ERROR_NULL_POINTER, a pointer is null that must not be; SWIFTPROX_ERROR_STRUCT_SIZE, a struct was not begun with its
- * constant, or an info's size was not set; SWIFTPROX_ERROR_POSE, a pose is refused; SWIFTPROX_ERROR_HANDLE, an id names no object
- * of the scene; SWIFTPROX_ERROR_LIMIT, a count does not fit 32 bits; SWIFTPROX_ERROR_CANCELLED, a progress callback said so;
- * SWIFTPROX_ERROR_MEMORY; of scenes SWIFTPROX_ERROR_POISONED and SWIFTPROX_ERROR_BUSY. What initialises, shares and releases returns none: a mistake there, such as a null
- * pointer, is ignored and told by that message and the log. Nothing is printed, nothing unwinds into the caller. A bug of the
- * library, when it is caught, comes back as SWIFTPROX_ERROR_BUG; a scene that was being changed answers
- * SWIFTPROX_ERROR_POISONED from then on and can only be destroyed. What a shape holds never changes once made, so no bug can
- * spoil it. What a failed call does not say is NaN where it is a real number, else 0 or null.
+ * Failure. Functions that can fail return a swiftprox_status. SWIFTPROX_OK is 0, and compilers warn about ignored statuses.
+ * swiftprox_library_last_error_message gives the thread's last message. A failed call changes only the outputs it names: their
+ * unset real numbers are NaN, others 0 or null. Nothing is printed, and nothing unwinds into the caller.
  *
- * Memory. Arrays in proportion to what the caller gives, to a file or to a scene may be refused, and so may integers of the exact
- * tier, small as they are: the call then ends in SWIFTPROX_ERROR_MEMORY, as each that allocates may. Nothing has changed but what a
- * cache remembers of a search, and a scene lives on. What else is allocated is small, in blocks of less than 128 kB that do not
- * grow with the input: a handle's own record, messages with the path of a file, and a few blocks of less than 256 bytes by which a
- * lack of memory is told. Where that is refused the program ends with a message.
+ * Functions list only errors that are special to them. General errors are: SWIFTPROX_ERROR_NULL_POINTER, a required pointer is
+ * null; SWIFTPROX_ERROR_STRUCT_SIZE, a struct was not initialised with its constant, or an info's size was not set;
+ * SWIFTPROX_ERROR_POSE, a pose is refused; SWIFTPROX_ERROR_HANDLE, an id names no object of the scene; SWIFTPROX_ERROR_LIMIT, a
+ * count exceeds 32 bits; SWIFTPROX_ERROR_CANCELLED, a progress callback stopped the call; SWIFTPROX_ERROR_MEMORY;
+ * SWIFTPROX_ERROR_BUG, the library caught a bug of its own. For scenes also: SWIFTPROX_ERROR_BUSY, and SWIFTPROX_ERROR_POISONED
+ * after a bug during a change: destroy that scene. Shapes never change, so no bug damages them. Functions that initialise, share or
+ * release return no status: they ignore mistakes such as null pointers, and report them by message and log.
  *
- * Pointers. They are aligned and live as their types say. A null options, config, query or tuning means the defaults; another null
- * pointer is SWIFTPROX_ERROR_NULL_POINTER unless the function says otherwise. Arrays are copied or only read during the call;
- * nothing keeps a pointer of the caller except swiftprox_library_set_log, swiftprox_library_set_allocator and
- * swiftprox_library_register_mesh_reader.
+ * Memory. If memory for arrays or exact integers is lacking, the call returns SWIFTPROX_ERROR_MEMORY. Then only caches may have
+ * changed, and scenes stay usable. Other allocations are below 128 kB and do not grow with the input: handles, messages with paths,
+ * and a few blocks below 256 bytes to report the lack of memory. If one of these fails, the program ends with a message.
  *
- * Threads. A function that takes an object by a const pointer may run concurrently with any other such call on it; a pointer that
- * is not const needs exclusive use during the call; different objects need no care. All that a process has one of: the log, the
- * allocator, the mesh readers that are registered, a count of scenes, by which their ids differ, and which vector units the
- * processor has; and a last message for each thread. Every call on a scene that another call uses answers SWIFTPROX_ERROR_BUSY and
- * does nothing, where the rules are broken and where a callback calls the scene that it was called from.
+ * Pointers. Pointers must be aligned and valid for their types. Null options, configs, queries and tunings mean the defaults. Any
+ * other null pointer is SWIFTPROX_ERROR_NULL_POINTER unless the function allows it. Arrays are copied or read only during the call.
+ * Only swiftprox_library_set_log, swiftprox_library_set_allocator and swiftprox_library_register_mesh_reader keep pointers of the
+ * caller.
  *
- * Strings. They end in a zero byte. Messages and all other strings that the library gives are UTF-8. Paths are UTF-8 on Windows
- * (others are SWIFTPROX_ERROR_INVALID_ARGUMENT), elsewhere bytes that go to the system as they are, UTF-8 as a rule; what of a
- * path, of a file's content or of a callback's message is not UTF-8 stands in messages as U+FFFD.
+ * Threads. Calls that take an object by a const pointer may run concurrently on it. A non-const pointer needs exclusive use during
+ * the call. Different objects are independent. The process shares the log, the allocator, registered mesh readers, a counter of
+ * scenes for their ids, and the detected vector units; each thread has its own last message. A call on a scene in use, also from a
+ * callback of that scene, returns SWIFTPROX_ERROR_BUSY and does nothing.
  *
- * Structs. Options, configs, queries, tunings and infos begin with struct_size and may grow at their end. The program's compiler
- * says it: begin the first four with their SWIFTPROX_..._DEFAULT and change members, set an info's struct_size to its sizeof. Then
- * header and library may differ within an interface. A smaller struct of an older header is read and written as far as it goes, what it lacks
- * is the default. Of a larger struct of a newer header this library leaves 0 what it does not know, and refuses by
- * SWIFTPROX_ERROR_STRUCT_SIZE one that sets it: a member that is added later means by 0 what was done before. All others (answers,
- * results, features, statistics, meshes, caches, ids) have a fixed size.
+ * Strings. They end in a zero byte. The library returns UTF-8. Paths are UTF-8 on Windows (else SWIFTPROX_ERROR_INVALID_ARGUMENT);
+ * elsewhere their bytes go to the system unchanged. Messages show invalid UTF-8 of paths, files and callbacks as U+FFFD.
  *
- * Stability. Nothing has been released, and until the first release anything may change. From then on a function that ends in
- * "Stable." keeps its arguments, its meaning and the structs of fixed size that it takes: within a major version, while that is 0
- * within a minor one. One that ends in "Experimental." may change or go in any version, and so may what it alone takes or fills.
+ * Structs. Options, configs, queries, tunings and infos begin with struct_size and may grow at their end. Initialise the first four
+ * with SWIFTPROX_..._DEFAULT; set an info's struct_size to its sizeof. Header and library may then differ within one interface.
+ * Members that an older header's struct lacks have their defaults. Members that only a newer header knows stay 0 in infos and must
+ * be 0 in arguments (else SWIFTPROX_ERROR_STRUCT_SIZE). For members added later, 0 means the earlier behaviour. All other structs
+ * (answers, results, features, statistics, meshes, caches, ids) have a fixed size.
  *
- * Enums. Each is a type of its own, as large as an int32_t, so that compilers warn where two are mixed up. Any number is safe to
- * hand over: those that are no enumerators are refused, and get words that say so.
+ * Stability. Before the first release anything may change. After it, functions marked "Stable." keep their arguments, meaning and
+ * fixed-size structs within a major version; within a minor version while the major version is 0. Functions marked "Experimental."
+ * and their own types may change or go in any version.
  *
- * Determinism. The same library on the same machine answers the same calls with the same bits, whatever other threads and
- * scenes do. Verdicts and the order of results are the same on every machine. Between processors with other vector units (none,
- * AVX2, AVX-512) the last bits of distances, points and normals may differ, always within the intervals, and so may the levels
- * of detail that are made there. Where nearest points are not unique, points, normals and features may differ as a whole; a
- * query with a step budget may stop elsewhere. A pair's cache is plain bytes: it may be copied, put back and set to zero at any
- * time. A simulation that goes back to an earlier step gets the same bits again if it puts the caches back, and the same
- * verdicts in any case. A scene keeps its caches to itself: going back gives the same verdicts, not always the same last bits.
+ * Enums. Each enum is a separate type of the size of int32_t, so compilers warn about mixed enums. Any number is safe to pass:
+ * unknown numbers are refused, and have a string that says so.
  *
- * Units and frames. Lengths are in the unit of the caller's vertices. A pose is 12 doubles, the row-major 3x4 matrix [R|T]: an
- * object is R*v + T over its vertices v, exactly as the doubles give it. R is accepted when every entry of R^T R - I is at most
- * 1e-2 and det R > 0; nothing assumes that it is perfectly orthonormal. Right-handed, faces counter-clockwise from outside.
+ * Determinism. On one machine, the same library gives the same calls the same bits, whatever other threads and scenes do. Verdicts
+ * and the order of results are the same on every machine. Between processors with other vector units (none, AVX2, AVX-512) the last
+ * bits of distances, points and normals may differ within the intervals; levels of detail may differ too. Where nearest points are
+ * not unique, points, normals and features may differ entirely. A query with a step budget may stop elsewhere.
  *
- * Floating-point environment. It may be any: another rounding, subnormal numbers flushed to zero, exceptions trapped. On x86-64 and
- * AArch64 the answers are bit for bit those in the default one. A function sets that where the program's differs, and puts the
- * program's back before it returns. Functions of the program's that it calls find the program's own; what they change of it ends
- * with them. A call clears no flag of an exception and may raise any. On other processors the environment must be the default one.
+ * Pair caches are plain bytes: copy, restore or zero them at any time. A simulation that returns to an earlier step gets the same
+ * bits if it restores its caches, and the same verdicts in any case. Scenes own their caches: after a return verdicts are the same,
+ * the last bits not always.
  *
- * Closed sets. Touching is intersecting. An interval [lower, upper] holds the true distance, rounding included.
+ * Units and frames. Lengths are in the unit of the caller's vertices. A pose is 12 doubles, the row-major 3x4 matrix [R|T]; an
+ * object is exactly R*v + T for its vertices v. R is accepted if every entry of R^T R - I is at most 1e-2 and det R > 0; it need
+ * not be exactly orthonormal. Frames are right-handed; faces are counter-clockwise seen from outside.
+ *
+ * Floating-point environment. Any is allowed on x86-64 and AArch64: other rounding modes, flushed subnormals, trapped exceptions.
+ * Answers are bit for bit those of the default one. Functions set the default environment and restore the program's before they
+ * return. Callbacks run in the program's environment; their changes to it end with them. Calls clear no exception flags and may
+ * raise any. Other processors need the default environment.
+ *
+ * Closed sets. Touching is intersecting. Intervals [lower, upper] contain the true distance, rounding included.
  */
 
 /* Generated from the Rust source by `BLESS=1 cargo test --test header`; do not edit. */
@@ -118,67 +114,60 @@ extern "C" {
  * @{
  */
 
-/** Major version of this header: programs compiled with another one do not go with this library. */
+/** Major version of this header. Programs need a library with the same one. */
 #define SWIFTPROX_VERSION_MAJOR 0
 
-/** Minor version of this header. While the major version is 0, another minor version is another interface. */
+/** Minor version of this header. While the major version is 0, each minor version is another interface. */
 #define SWIFTPROX_VERSION_MINOR 2
 
 /** Patch version of this header. */
 #define SWIFTPROX_VERSION_PATCH 0
 
 /**
- * The version of the library that runs, as "major.minor.patch". Never null, valid for ever.
+ * Version of the running library as "major.minor.patch". Never null, valid forever.
  *
  * Stable.
  */
 const char *swiftprox_library_version(void);
 
-/** What a call returns. The numbers are never reused. */
+/** Status of a call. Numbers are never reused. */
 typedef enum swiftprox_status SWIFTPROX_INT32 {
-  /** The call did what it says. */
+  /** Success. */
   SWIFTPROX_OK = 0,
-  /** A pointer that must not be null is null: the message names the argument. */
+  /** A required pointer is null; the message names the argument. */
   SWIFTPROX_ERROR_NULL_POINTER = 1,
-  /** An argument is out of range, not finite or unknown: the message names it. */
+  /** An argument is out of range, not finite or unknown; the message names it. */
   SWIFTPROX_ERROR_INVALID_ARGUMENT = 2,
   /**
-   * A struct_size is unknown: the struct was not begun with its SWIFTPROX_..._DEFAULT. Or the struct comes from a newer header and
-   * sets what this library does not know.
+   * A struct was not initialised with its SWIFTPROX_..._DEFAULT, or a newer header's struct sets members unknown to this
+   * library.
    */
   SWIFTPROX_ERROR_STRUCT_SIZE = 3,
-  /** A pose is refused: an entry is not finite, an entry of R^T R - I is beyond the limit, or det R is not positive. */
+  /** A pose is refused: an entry is not finite, an entry of R^T R - I exceeds the limit, or det R is not positive. */
   SWIFTPROX_ERROR_POSE = 4,
-  /** A mesh breaks the contract: the message names the face, edge or vertex in the caller's numbering. */
+  /** A mesh breaks the rules; the message names the face, edge or vertex in the caller's numbering. */
   SWIFTPROX_ERROR_MESH = 5,
-  /** A file cannot be read or written, or does not parse: the message names the file and the line. */
+  /** A file cannot be read, written or parsed; the message names file and line. */
   SWIFTPROX_ERROR_FILE = 6,
-  /** An object id is null, stale or of another scene. */
+  /** An object id is null, stale or from another scene. */
   SWIFTPROX_ERROR_HANDLE = 7,
-  /** A limit of the library is reached: a count that does not fit. */
+  /** A limit of the library is exceeded: a count does not fit. */
   SWIFTPROX_ERROR_LIMIT = 8,
   /** A callback asked to stop. */
   SWIFTPROX_ERROR_CANCELLED = 9,
-  /** A bug of the library, caught: please report the message. */
+  /** The library caught a bug of its own. Please report the message. */
   SWIFTPROX_ERROR_BUG = 10,
-  /** The handle met a bug in an earlier call; all that can be done with it is to destroy it. */
+  /** An earlier call on this handle met a bug. It can only be destroyed. */
   SWIFTPROX_ERROR_POISONED = 11,
-  /** The program was compiled with a header that does not go with this library. */
+  /** Header and library do not fit together. */
   SWIFTPROX_ERROR_VERSION = 12,
-  /** The answer given to swiftprox_pair_verify does not hold for these shapes and poses: the message says what does not. */
+  /** A verify function found that an answer is wrong for these shapes and poses; the message says where. */
   SWIFTPROX_ERROR_UNVERIFIED = 13,
-  /** The library was built without what the call is about. */
+  /** The library was built without this feature. */
   SWIFTPROX_ERROR_UNSUPPORTED = 14,
-  /**
-   * There is no memory for an array in proportion to what the caller gave or to a scene, of which the message says how much was
-   * asked for, or for an integer of the exact tier. Nothing has changed but what a cache remembers of a search, and the same
-   * call may succeed when there is more.
-   */
+  /** Memory is lacking; the message says how much was requested. Only caches may have changed. The same call may succeed later. */
   SWIFTPROX_ERROR_MEMORY = 15,
-  /**
-   * The scene is in use: by another thread, which the rules for threads forbid, or by a call that this one was made in. Nothing
-   * has changed.
-   */
+  /** The scene is in use by another thread or by an enclosing call. Nothing has changed. */
   SWIFTPROX_ERROR_BUSY = 16
 } swiftprox_status;
 
@@ -186,10 +175,10 @@ typedef enum swiftprox_status SWIFTPROX_INT32 {
 typedef char swiftprox_enums_are_32_bits[sizeof(swiftprox_status) == 4 ? 1 : -1];
 
 /**
- * Whether a program compiled with the header of the given version can run with this library. Call it once with
- * SWIFTPROX_VERSION_MAJOR, SWIFTPROX_VERSION_MINOR and SWIFTPROX_VERSION_PATCH, which are then those of the program.
+ * Checks whether this library fits the program's header. Call it once with SWIFTPROX_VERSION_MAJOR, SWIFTPROX_VERSION_MINOR and
+ * SWIFTPROX_VERSION_PATCH.
  *
- * SWIFTPROX_ERROR_VERSION: the library is too old or has another interface; the message names both versions.
+ * SWIFTPROX_ERROR_VERSION: the library is too old or has another interface; the message gives both versions.
  *
  * Stable.
  */
@@ -199,15 +188,15 @@ swiftprox_status swiftprox_library_check_version(int32_t major,
                                                  int32_t patch);
 
 /**
- * What went wrong in the last call of this thread that did not return SWIFTPROX_OK; the empty string before the first. Never
- * null; valid until the next such call of the same thread, or its end.
+ * Message of this thread's last call that did not return SWIFTPROX_OK; empty before the first. Never null; valid until the next
+ * such call of the thread, or its end.
  *
  * Stable.
  */
 const char *swiftprox_library_last_error_message(void);
 
 /**
- * A status in words. Never null, valid for ever; a number that is no status gets a string that says so.
+ * Returns the text for a status. Never null, valid forever, also for unknown numbers.
  *
  * Stable.
  */
@@ -257,21 +246,21 @@ typedef enum swiftprox_input SWIFTPROX_INT32 {
 #define SWIFTPROX_NO_FACE UINT32_MAX
 
 /**
- * Learns how far the building, loading or preparing of a shape is: a fraction from 0 to 1 that never falls, and the pointer given
- * with the callback. Returns 0 to go on; anything else ends the call with SWIFTPROX_ERROR_CANCELLED. It runs in the thread that
- * builds, must return, and must not use what the call is working on; a C++ exception that leaves it ends the program.
+ * Receives the progress of a long call: a fraction from 0 to 1 that never falls, and the caller's pointer. It returns 0 to
+ * continue; other numbers end the call with SWIFTPROX_ERROR_CANCELLED. It runs in the calling thread, must return and must not use
+ * the call's objects. A C++ exception that leaves it ends the program.
  */
 typedef int32_t (*swiftprox_progress_callback)(void *user, double fraction);
 
-/** How a shape is made. Begin with SWIFTPROX_SHAPE_OPTIONS_DEFAULT, then change what should differ. */
+/** Options of a new shape. Initialise with SWIFTPROX_SHAPE_OPTIONS_DEFAULT. */
 typedef struct swiftprox_shape_options {
   /** Set by SWIFTPROX_SHAPE_OPTIONS_DEFAULT. */
   size_t struct_size;
-  /** What to do with input that is not a closed convex mesh with interior. Default: refuse it. */
+  /** How to treat input that is not a closed convex mesh with interior. Default: refuse it. */
   swiftprox_input input;
   /**
-   * Row-major rotation; with translation and scale the input transform, applied once when the shape is made: stored vertex =
-   * scale * (rotation * v) + translation, rounded to doubles. "Local frame" means the frame after it. Default: identity.
+   * Row-major rotation. A stored vertex is scale * (rotation * v) + translation, rounded to doubles once. The local frame is the
+   * frame after this transform. Default: identity.
    */
   double rotation[9];
   /** See rotation. Default: 0. */
@@ -279,29 +268,27 @@ typedef struct swiftprox_shape_options {
   /** See rotation; positive. Default: 1. */
   double scale;
   /**
-   * How far a vertex may lie outside a face of accepted input, relative to the bounding-box diagonal. Default: negative,
-   * which means 1e-9, and 1e-6 for meshes that went through single precision (STL); with SWIFTPROX_INPUT_NEARLY_CONVEX, if that
-   * is more, what swiftprox_mesh_estimate_tolerance says.
+   * How far a vertex may lie outside a face, relative to the bounding-box diagonal. Default: negative, which means 1e-9, or 1e-6
+   * for single-precision meshes (STL). With SWIFTPROX_INPUT_NEARLY_CONVEX it is at least the result of
+   * swiftprox_mesh_estimate_tolerance.
    */
   double convexity_tolerance;
-  /** Learns how far the building of the shape is, and can cancel it. Default: null. */
+  /** Reports progress and can cancel. Default: null. */
   swiftprox_progress_callback progress;
-  /** Handed to progress. Default: null. */
+  /** Passed to progress. Default: null. */
   void *progress_user;
-  /** Levels of detail and look-up table (swiftprox/tuning.h). Default: null, the automatic ones. */
+  /** Levels of detail and look-up table (swiftprox/tuning.h). Default: null, automatic. */
   const struct swiftprox_shape_tuning *tuning;
   /**
-   * By how much a coordinate may be off, in the units of the input, before scale: vertices that could lie in one plane up to
-   * this are one face to manifolds. Distance and depth do not change; the intervals of gaps contain what is joined. Less than 0
-   * (the default): found from the coordinates and polygons, at least 1e-6 of half the box's diagonal. 0: rounding of doubles
-   * only. A number that is not finite is SWIFTPROX_ERROR_INVALID_ARGUMENT.
+   * Error of input coordinates, before scale. Manifolds treat vertices within it of one plane as one face. Distance and depth do
+   * not change; gap intervals include it. Negative (the default): estimated from the input, at least 1e-6 of half the box's
+   * diagonal. 0: rounding of doubles only. It must be finite (else SWIFTPROX_ERROR_INVALID_ARGUMENT).
    */
   double face_noise;
   /**
-   * The radius of a ball that is swept over the body, in the units of the input, before scale: a point with one is a sphere, a
-   * segment a capsule, any other body has its edges and corners rounded. Distances, depths, manifolds, rays and scenes are of
-   * the swept body: witness points are on it, features are those of the body without the ball; swept_radius of
-   * swiftprox_shape_info tells it. From 0 (the default) to 2^1000; another number is SWIFTPROX_ERROR_INVALID_ARGUMENT.
+   * Radius of a ball swept over the body, in input units before scale. A point becomes a sphere, a segment a capsule; other
+   * bodies get round edges and corners. All queries are of the swept body: witness points are on it, features are those of the
+   * body without the ball. From 0 (the default) to 2^1000 (else SWIFTPROX_ERROR_INVALID_ARGUMENT).
    */
   double swept_radius;
 } swiftprox_shape_options;
@@ -311,16 +298,14 @@ typedef struct swiftprox_shape_options {
   {sizeof(swiftprox_shape_options), SWIFTPROX_INPUT_STRICT, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}, 1, -1, 0, 0, 0, -1, 0}
 
 /**
- * Makes a shape from a polygon mesh; the caller owns it and gives it back with swiftprox_shape_release. The arrays are copied.
+ * Creates a shape from a polygon mesh. Release it with swiftprox_shape_release. The arrays are copied.
  *
- * `vertices` holds 3 * vertex_count coordinates. `indices` holds the 0-based vertex numbers of all faces, one face after the
- * other, each counter-clockwise seen from outside; `valences` the number of vertices of each face, or null when all are
- * triangles. The mesh must be closed, a 2-manifold, consistently oriented, connected, convex and without unused vertices,
- * unless the options say otherwise. Answers name features by these numbers.
+ * `vertices` holds 3 * vertex_count coordinates. `indices` holds the 0-based vertex numbers of all faces in turn,
+ * counter-clockwise seen from outside. `valences` holds the number of vertices of each face; null means triangles. Answers name
+ * features by these numbers. Unless the options allow more, the mesh must be a closed, consistently oriented, connected, convex
+ * 2-manifold without unused vertices.
  *
- * On failure `*shape` is null. `options` may be null for the defaults.
- *
- * SWIFTPROX_ERROR_MESH: the mesh breaks the contract, or a coordinate is not finite.
+ * On failure `*shape` is null. SWIFTPROX_ERROR_MESH: the mesh breaks these rules, or a coordinate is not finite.
  *
  * Stable.
  */
@@ -334,14 +319,12 @@ swiftprox_status swiftprox_shape_create_from_mesh(const double *vertices,
                                                   const struct swiftprox_shape **shape);
 
 /**
- * Makes a shape from the convex hull of `point_count` points, 3 coordinates each; the caller owns it and gives it back with
- * swiftprox_shape_release. The array is copied. Features of answers name vertices by their place in `points` (the first of equal
- * ones), faces by numbers of the hull's own, from 0 and below swiftprox_shape_info.face_count.
+ * Creates a shape from the convex hull of `point_count` points, 3 coordinates each. Release it with swiftprox_shape_release. The
+ * array is copied. Answers name vertices by their place in `points` (the first of equal points). Faces are numbered from 0 to
+ * below swiftprox_shape_info.face_count.
  *
- * On failure `*shape` is null. `options` may be null for the defaults, which refuse a hull without interior.
- *
- * SWIFTPROX_ERROR_MESH: a coordinate is not finite, or the options do not admit a hull of that dimension.
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: no points, or an option out of range. SWIFTPROX_ERROR_LIMIT: too many points.
+ * On failure `*shape` is null. SWIFTPROX_ERROR_MESH: a coordinate is not finite, or the options refuse the hull's dimension (the
+ * defaults require an interior). SWIFTPROX_ERROR_INVALID_ARGUMENT: no points, or an option out of range.
  *
  * Stable.
  */
@@ -352,18 +335,13 @@ swiftprox_status swiftprox_shape_create_from_points(const double *points,
                                                     const struct swiftprox_shape **shape);
 
 /**
- * Makes a shape from a mesh file; the caller owns it and gives it back with swiftprox_shape_release.
+ * Creates a shape from a mesh file. Release it with swiftprox_shape_release. The format is that of a registered reader
+ * (swiftprox_library_register_mesh_reader) for the first bytes, else TRI, POLY, OFF, OBJ or STL by extension, else by content.
+ * Answers count vertices and faces from 0 in file order or reader order. STL vertices count by first mention; STL triangles with
+ * two equal corners do not count.
  *
- * The file is read by the reader that swiftprox_library_register_mesh_reader has registered for its first bytes if there is one,
- * else as TRI, POLY, OFF, OBJ or STL, by its extension, else by its content. Features of answers count vertices and faces from 0
- * in the order of the file, or in which the reader adds them; of STL vertices in the order in which they are first mentioned, and
- * no triangles with two equal corners.
- *
- * On failure `*shape` is null. `options` may be null for the defaults.
- *
- * SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file (a pipe and a device are refused, not waited for), is larger
- * than 4 GiB (4,294,967,296 bytes) or does not parse; the message names the line, or the registered reader and what it says.
- * SWIFTPROX_ERROR_MESH: its mesh breaks the contract (see swiftprox_shape_create_from_mesh). Both messages name the file.
+ * On failure `*shape` is null. SWIFTPROX_ERROR_FILE: the file is unreadable, not a regular file, above 4 GiB or malformed; the
+ * message names file and line. SWIFTPROX_ERROR_MESH: see swiftprox_shape_create_from_mesh.
  *
  * Stable.
  */
@@ -373,11 +351,11 @@ swiftprox_status swiftprox_shape_create_from_file(const char *path,
                                                   const struct swiftprox_shape **shape);
 
 /**
- * Makes the box [-x, x] x [-y, y] x [-z, z] from its half extents, 3 numbers. A ball of `radius` is swept over it: 0 leaves edges
- * and corners sharp, more rounds them and makes the box larger by as much. Vertex i has bit 0 of i set where x is positive, bit 1
- * for y, bit 2 for z. The caller owns the shape and gives it back with swiftprox_shape_release. On failure `*shape` is null.
+ * Creates the box [-x, x] x [-y, y] x [-z, z] from its half extents, 3 numbers. A ball of `radius` is swept over it: it rounds
+ * edges and corners and enlarges the box; 0 keeps them sharp. In vertex i, bits 0, 1 and 2 of i mean positive x, y and z. Release
+ * it with swiftprox_shape_release. On failure `*shape` is null.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: a half extent is not positive, or a number is negative, larger than 2^1000 or NaN.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: a half extent is not positive, the radius is negative, or a number is above 2^1000 or NaN.
  *
  * Stable.
  */
@@ -387,9 +365,10 @@ swiftprox_status swiftprox_shape_create_box(const double *half_extents,
                                             const struct swiftprox_shape **shape);
 
 /**
- * Makes the sphere of a radius about the local origin. Owned and given back as any shape. On failure `*shape` is null.
+ * Creates the sphere with this radius about the local origin. Release it with swiftprox_shape_release. On failure `*shape` is
+ * null.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the radius is negative, larger than 2^1000 or NaN.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the radius is negative, above 2^1000 or NaN.
  *
  * Stable.
  */
@@ -398,10 +377,10 @@ swiftprox_status swiftprox_shape_create_sphere(double radius,
                                                const struct swiftprox_shape **shape);
 
 /**
- * Makes the capsule of a radius about the segment from (0, 0, -half_length), vertex 0, to (0, 0, half_length), vertex 1: a
- * cylinder along z with half a sphere at either end. Owned and given back as any shape. On failure `*shape` is null.
+ * Creates a capsule: all points within `radius` of the segment with vertices 0 at (0, 0, -half_length) and 1 at (0, 0,
+ * half_length). Release it with swiftprox_shape_release. On failure `*shape` is null.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: a number is negative, larger than 2^1000 or NaN.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: a number is negative, above 2^1000 or NaN.
  *
  * Stable.
  */
@@ -411,63 +390,59 @@ swiftprox_status swiftprox_shape_create_capsule(double half_length,
                                                 const struct swiftprox_shape **shape);
 
 /**
- * Gives the caller one more share of a shape, to be given back with a swiftprox_shape_release of its own; returns the shape. Safe
- * from any thread. Of null it returns null.
+ * Adds one reference to a shape and returns the shape. Each call needs its own swiftprox_shape_release. Safe from any thread. Null
+ * returns null.
  *
  * Stable.
  */
 const struct swiftprox_shape *swiftprox_shape_retain(const struct swiftprox_shape *shape);
 
 /**
- * Gives back one share of a shape that the caller owns, from a function that made the shape or from swiftprox_shape_retain. The
- * last share frees the shape; scenes hold shares of their own. Safe from any thread. Null is ignored.
+ * Drops one reference to a shape that the caller owns. The last reference frees the shape; scenes hold their own. Safe from any
+ * thread. Null is ignored.
  *
  * Stable.
  */
 void swiftprox_shape_release(const struct swiftprox_shape *shape);
 
-/** What a shape is. Set struct_size to sizeof(swiftprox_shape_info) before asking for it. */
+/** Properties of a shape. Set struct_size to sizeof(swiftprox_shape_info) before the call. */
 typedef struct swiftprox_shape_info {
   /** Set by the caller. */
   size_t struct_size;
-  /** Dimension of the hull: 3; 2 (a two-sided polygon), 1 (a segment) or 0 (a point) only where the input policy admits it. */
+  /** Dimension of the hull: 3. With some input policies also 2 (a two-sided polygon), 1 (a segment) or 0 (a point). */
   int32_t dimension;
   /** Vertices of the hull. */
   size_t vertex_count;
   /** Edges between faces that are not coplanar. */
   size_t edge_count;
-  /** Faces, coplanar triangles counted as one. */
+  /** Faces; coplanar triangles count as one. */
   size_t face_count;
-  /** Triangles of the hull, as swiftprox_shape_copy_triangles gives them. */
+  /** Triangles of the hull, as in swiftprox_shape_copy_triangles. */
   size_t triangle_count;
   /** Volume; 0 without interior. */
   double volume;
-  /** Centre of mass of the volume, in the local frame; of a body without interior that of its area or length. */
+  /** Centre of mass of the volume, in the local frame. Bodies without interior: centre of their area or length. */
   double centre_of_mass[3];
   /** Largest distance of a vertex from the centre of mass. */
   double radius;
-  /** The corner of the bounding box where all coordinates are least, in the local frame. */
+  /** The corner of the bounding box with the least coordinates, in the local frame. */
   double lower_corner[3];
-  /** The corner where they are greatest. */
+  /** The corner of the bounding box with the greatest coordinates, in the local frame. */
   double upper_corner[3];
-  /** Memory that the shape holds, in bytes, levels included, however many share it. */
+  /** Memory of the shape in bytes, levels included; sharing does not change it. */
   size_t bytes;
   /**
-   * Inertia tensor of a body of mass 1 and of uniform density about the centre of mass, in the axes of the local frame:
-   * row-major, symmetric, in units of length squared. Times a body's mass, density times volume, it is the inertia of that body.
-   * Of a body without interior the mass is spread over its area or length.
+   * Inertia tensor for mass 1 and uniform density about the centre of mass, in local axes. Row-major, symmetric, in length
+   * squared; multiply it by the mass. Without interior the mass is spread over area or length.
    */
   double inertia[9];
-  /**
-   * The radius of the ball that is swept over the body (swiftprox_shape_options), in the local frame; all other members are of
-   * the body without it.
-   */
+  /** Radius of the swept ball (swiftprox_shape_options), in the local frame. All other members describe the body without it. */
   double swept_radius;
 } swiftprox_shape_info;
 
 /**
- * Says what a shape is: set info->struct_size to sizeof(swiftprox_shape_info) first. On failure real numbers are NaN, all else 0.
- * The inertia takes time in proportion to the triangles.
+ * Writes the properties of a shape. Set info->struct_size to sizeof(swiftprox_shape_info) first. The inertia takes time linear in
+ * the number of triangles. On failure real numbers are NaN, all else 0.
  *
  * Stable.
  */
@@ -476,16 +451,13 @@ swiftprox_status swiftprox_shape_get_info(const struct swiftprox_shape *shape,
                                           struct swiftprox_shape_info *info);
 
 /**
- * Makes now what a query of a shape would make when it first needs it: the look-up table, maps of the support function, and
- * automatic levels of detail, which take about twice as long as making the shape did. After that no query of this shape allocates
- * or waits for that.
+ * Makes in advance the look-up table, support maps and automatic levels of detail, which queries make on first use. The levels
+ * take about twice as long as making the shape. After that no query of this shape allocates or waits for them.
  *
- * `progress` learns how far it is and can cancel it, or is null; `progress_user` is handed to it. Nothing is reported while
- * the table is made, a small part of the time, of needles up to a third. Safe from any thread: a query that needs the levels
- * meanwhile, or another swiftprox_shape_prepare, does not wait but makes them, too, and what comes second is dropped.
+ * `progress` (may be null, gets `progress_user`) reports progress, except while the table is made, and can cancel. Safe from any
+ * thread; concurrent queries do not wait but may make the levels twice.
  *
- * SWIFTPROX_ERROR_CANCELLED: progress said so; SWIFTPROX_ERROR_MEMORY: in both cases no levels are made, a table that was made
- * stays, and the shape can be used as before.
+ * SWIFTPROX_ERROR_CANCELLED, SWIFTPROX_ERROR_MEMORY: no levels are made, a finished table stays, and the shape stays usable.
  *
  * Stable.
  */
@@ -619,46 +591,48 @@ typedef struct swiftprox_pair_answer {
   struct swiftprox_statistics statistics;
 } swiftprox_pair_answer;
 
-/** A shape where it is: an argument of pair queries, by value. Both pointers are only read during the call. */
+/** A shape at a pose, an argument of pair queries by value. Both pointers are only read during the call. */
 typedef struct swiftprox_placed {
   /** The shape. */
   const struct swiftprox_shape *shape;
-  /** Where it is: 12 doubles, the row-major 3x4 matrix [R|T]. */
+  /** 12 doubles, the row-major 3x4 matrix [R|T]. */
   const double *pose;
 } swiftprox_placed;
 
 /**
- * What a pair remembers from its last query, for the caller to keep: all zero is cold, any bytes are safe. It changes how fast
- * an answer comes, never the verdict. What the words mean is the library's own.
+ * The cache of a pair, owned by the caller. Zero it before the first query; any bytes are safe. It affects speed, never the
+ * verdict.
  */
 typedef struct swiftprox_pair_cache {
-  /** Not to be looked at. */
+  /** Opaque. */
   uint32_t words[24];
 } swiftprox_pair_cache;
 
-/** What a pair query is asked for. Begin with SWIFTPROX_PAIR_CONFIG_DEFAULT, then change what should differ. */
+/** Options of a pair query. Initialise with SWIFTPROX_PAIR_CONFIG_DEFAULT. */
 typedef struct swiftprox_pair_config {
   /** Set by SWIFTPROX_PAIR_CONFIG_DEFAULT. */
   size_t struct_size;
-  /** Pairs farther apart than this are SWIFTPROX_OUTCOME_BEYOND; from 0 to infinity (the default: none is). */
+  /** Pairs farther apart than this get SWIFTPROX_OUTCOME_BEYOND. From 0 to infinity (the default: never). */
   double distance_tolerance;
   /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
   double rotation_limit;
   /**
-   * Of swiftprox_pair_approximate: upper - lower may be as large as this ... Other queries do not look at this and the two that
-   * follow, not even whether they are in range: from 0 to infinity, and 1 or more for the budget.
+   * For swiftprox_pair_approximate: allowed upper - lower, from 0 to infinity. Default: 0. Other queries ignore this and the two
+   * members below, even out of range.
    */
   double absolute_error;
-  /** ... or as this times lower. Both 0 (the default): as narrow as exact answers. */
+  /**
+   * For swiftprox_pair_approximate: allowed (upper - lower) / lower, from 0 to infinity. It is enough to meet one of the two
+   * errors. Both 0 (the default): as narrow as exact answers.
+   */
   double relative_error;
   /**
-   * Of swiftprox_pair_approximate: steps of marching after which it stops with what it has, 1 or more; UINT32_MAX (the default):
-   * no limit. What marching leaves open is decided all the same, however long it takes; of bodies that intersect it may leave it
-   * open only after as many steps as a query without a budget may make. The next query with the same cache goes on where this
-   * one stopped, unless tuning->start says that it begin anew, at the tables or afresh: it may then stop there for ever.
+   * For swiftprox_pair_approximate: the largest number of marching steps, 1 or more. UINT32_MAX (the default): no limit. It does
+   * not limit the methods that decide what marching leaves open. The next query with the same cache continues, unless
+   * tuning->start makes it begin anew; then it may stop there every time.
    */
   uint32_t step_budget;
-  /** Where it starts and which levels of detail it goes through (swiftprox/tuning.h). Default: null, the automatic choice. */
+  /** Start and levels of detail (swiftprox/tuning.h). Default: null, the automatic choice. */
   const struct swiftprox_pair_tuning *tuning;
 } swiftprox_pair_config;
 
@@ -666,17 +640,15 @@ typedef struct swiftprox_pair_config {
 #define SWIFTPROX_PAIR_CONFIG_DEFAULT {sizeof(swiftprox_pair_config), HUGE_VAL, 1e-2, 0, 0, UINT32_MAX, 0}
 
 /**
- * The distance of two objects with a rigorous interval, witness points, normal and features. Of an intersecting pair the
- * distance is 0 and the proof is given; points, normal and features stay unset (see swiftprox_pair_contact). Of a pair farther
- * apart than config->distance_tolerance less is said, see SWIFTPROX_OUTCOME_BEYOND. What an answer leaves out is NaN, or
+ * Computes the distance of two objects: a rigorous interval, witness points, normal and features. For intersecting pairs the
+ * distance is 0 and the answer holds the proof; points, normal and features are unset (see swiftprox_pair_contact). Pairs beyond
+ * config->distance_tolerance get less, see SWIFTPROX_OUTCOME_BEYOND. Unset numbers are NaN, unset features
  * SWIFTPROX_FEATURE_KIND_NONE.
  *
- * A pose is 12 doubles, the row-major 3x4 matrix [R|T]: the object is R*v + T, exactly as the doubles give it. `cache` is what
- * the pair remembers: all zero is cold, hand the same one back for the same pair in the same order, one for each pair.
- * `config` may be null for the defaults. On failure the answer is reset: its outcome is SWIFTPROX_OUTCOME_NONE.
+ * Keep one `cache` per pair, zeroed at first, and pass the objects in the same order. On failure the answer is reset and its
+ * outcome is SWIFTPROX_OUTCOME_NONE; SWIFTPROX_ERROR_BUG also resets the cache.
  *
- * SWIFTPROX_ERROR_POSE: a pose is refused; the message says why. SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of config is out of
- * range; those that are for swiftprox_pair_approximate alone only there. SWIFTPROX_ERROR_BUG: the cache is reset, too.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of config is out of range.
  *
  * Stable.
  */
@@ -688,9 +660,9 @@ swiftprox_status swiftprox_pair_distance(struct swiftprox_placed object1,
                                          struct swiftprox_pair_answer *answer);
 
 /**
- * As swiftprox_pair_distance, and of an intersecting pair a common point (as witness point of both objects), the unit normal along
- * which the objects overlap least and the features that meet there: those of swiftprox_pair_depth, which says how deep they are in
- * each other, and where. Arguments and errors as of swiftprox_pair_distance.
+ * Like swiftprox_pair_distance, but intersecting pairs also get a common point, the unit normal of least overlap and the features
+ * there. The common point is the witness point of both objects. Normal and features are those of swiftprox_pair_depth, which also
+ * gives the depth. Same arguments and errors as swiftprox_pair_distance.
  *
  * Stable.
  */
@@ -702,9 +674,9 @@ swiftprox_status swiftprox_pair_contact(struct swiftprox_placed object1,
                                         struct swiftprox_pair_answer *answer);
 
 /**
- * The verdict alone: SWIFTPROX_OUTCOME_INTERSECTING, or SWIFTPROX_OUTCOME_SEPARATED with lower > 0 and an upper that holds but
- * need not be tight; and SWIFTPROX_OUTCOME_BEYOND with a finite config->distance_tolerance. Faster than the distance where bodies
- * intersect or nearly do. Arguments and errors as of swiftprox_pair_distance.
+ * Decides only whether two objects intersect. The outcome is SWIFTPROX_OUTCOME_INTERSECTING, SWIFTPROX_OUTCOME_SEPARATED with
+ * lower > 0 and an upper that may be loose, or, with a finite config->distance_tolerance, SWIFTPROX_OUTCOME_BEYOND. It is faster
+ * than the distance for bodies that intersect or nearly do. Same arguments and errors as swiftprox_pair_distance.
  *
  * Stable.
  */
@@ -716,12 +688,13 @@ swiftprox_status swiftprox_pair_intersection(struct swiftprox_placed object1,
                                              struct swiftprox_pair_answer *answer);
 
 /**
- * The distance as narrow as asked for, or as exact answers are: the query stops as soon as upper - lower is at most
- * config->absolute_error or config->relative_error * lower; both 0 ask for the exact distance. [lower, upper] holds the
- * distance, `distance` is the lower end unless the answer is exact. The verdict is as certain as that of swiftprox_pair_distance,
- * unless config->step_budget ran out: then decided_by is SWIFTPROX_DECIDED_BY_BUDGET, and the next call with the same cache
- * goes on from there, unless config->tuning->start says that it begin anew. Points and features stay unset in an answer that
- * comes from maps of support functions or from levels of detail. Arguments and errors as of swiftprox_pair_distance.
+ * Computes the distance to a given error: it stops when upper - lower is at most config->absolute_error or
+ * config->relative_error * lower. [lower, upper] contains the distance; `distance` is lower unless the answer is exact. Points and
+ * features are unset in answers from support maps or levels of detail.
+ *
+ * The verdict is guaranteed as in swiftprox_pair_distance, unless the step budget ran out (SWIFTPROX_DECIDED_BY_BUDGET). The next
+ * call with the same cache then continues, unless config->tuning->start makes it begin anew. Same arguments and errors as
+ * swiftprox_pair_distance.
  *
  * Stable.
  */
@@ -807,27 +780,30 @@ typedef struct swiftprox_depth_answer {
 } swiftprox_depth_answer;
 
 /**
- * What a pair remembers of its depth, for the caller to keep: all zero is cold, any bytes are safe. It changes how fast an answer
- * comes, and which of several directions of least overlap is said; never the verdict, and no depth beyond its interval.
+ * The depth cache of a pair, owned by the caller. Zero it before the first query; any bytes are safe. It affects speed, and the
+ * choice between equal directions of least overlap, but never the verdict or the validity of the interval.
  */
 typedef struct swiftprox_depth_cache {
-  /** Not to be looked at. */
+  /** Opaque. */
   uint32_t words[352];
 } swiftprox_depth_cache;
 
-/** What a depth query is asked for. Begin with SWIFTPROX_DEPTH_CONFIG_DEFAULT, then change what should differ. */
+/** Options of a depth query. Initialise with SWIFTPROX_DEPTH_CONFIG_DEFAULT. */
 typedef struct swiftprox_depth_config {
   /** Set by SWIFTPROX_DEPTH_CONFIG_DEFAULT. */
   size_t struct_size;
   /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
   double rotation_limit;
-  /** upper - lower may be as large as this ... from 0 to infinity. */
+  /** Allowed upper - lower, from 0 to infinity. Default: 0. */
   double absolute_error;
-  /** ... or as this times lower. Both 0 (the default): as narrow as double precision can prove. */
+  /**
+   * Allowed (upper - lower) / lower, from 0 to infinity. It is enough to meet one of the two errors. Both 0 (the default): as
+   * narrow as double precision can prove.
+   */
   double relative_error;
   /**
-   * Expansions after which the query stops with what it has, 1 or more; UINT32_MAX (the default): no limit but the library's
-   * own, 400. What is then left of the verdict is decided all the same, in integers.
+   * The largest number of expansions, 1 or more. UINT32_MAX (the default): the library's own limit, 400. After that integers
+   * still decide the verdict.
    */
   uint32_t step_budget;
 } swiftprox_depth_config;
@@ -837,11 +813,11 @@ typedef struct swiftprox_depth_config {
 #define SWIFTPROX_DEPTH_CONFIG_DEFAULT {sizeof(swiftprox_depth_config), 1e-2, 0, 0, UINT32_MAX}
 
 /**
- * How deep two objects are in each other: the least translation that parts them, with a rigorous interval, unit normal, witness
- * points and features. Touching is a depth of 0, decided in integers. Of separated objects only that is said, and a normal that
- * separates them: swiftprox_pair_distance tells how far.
+ * Computes the penetration depth: the length of the least translation that separates two objects. The answer has a rigorous
+ * interval, unit normal, witness points and features. Touching is depth 0, decided in integers. For separated objects it gives
+ * only the verdict and a separating normal; swiftprox_pair_distance gives the distance.
  *
- * Arguments and errors as of swiftprox_pair_distance; the cache is one for depths alone, and config may be null.
+ * Same arguments and errors as swiftprox_pair_distance. The cache is for depths only.
  *
  * Stable.
  */
@@ -860,11 +836,11 @@ swiftprox_status swiftprox_pair_depth(struct swiftprox_placed object1,
  */
 
 /**
- * What a pair remembers of its manifold, its distance and its depth, for the caller to keep: all zero is cold, any bytes are
+ * The cache of a pair for manifold, signed distance and depth, owned by the caller. Zero it before the first query; any bytes are
  * safe.
  */
 typedef struct swiftprox_manifold_cache {
-  /** Not to be looked at. */
+  /** Opaque. */
   uint32_t words[384];
 } swiftprox_manifold_cache;
 
@@ -898,11 +874,12 @@ typedef struct swiftprox_signed_distance {
 } swiftprox_signed_distance;
 
 /**
- * The distance of objects that are apart, minus the depth of those that overlap, with one rigorous interval through zero, unit
- * normal, witness points and features: as certain as swiftprox_pair_distance and swiftprox_pair_depth. Touching is 0.
+ * Computes the distance of separated objects, or minus the penetration depth of overlapping ones; touching is 0. The answer has
+ * one rigorous interval, unit normal, witness points and features. It is as reliable as swiftprox_pair_distance and
+ * swiftprox_pair_depth.
  *
- * Of a pair farther apart than config->distance_tolerance less is said, see SWIFTPROX_OUTCOME_BEYOND; errors asked for and step
- * budgets are not looked at. Arguments and errors as of swiftprox_pair_distance; the cache is that of the pair's manifolds.
+ * Pairs beyond config->distance_tolerance get less, see SWIFTPROX_OUTCOME_BEYOND. Allowed errors and step budget are ignored. Same
+ * arguments and errors as swiftprox_pair_distance, but with a manifold cache.
  *
  * Stable.
  */
@@ -966,31 +943,28 @@ typedef struct swiftprox_manifold {
   uint32_t found_count;
 } swiftprox_manifold;
 
-/** Where swiftprox_pair_manifold writes points, by value. `{points, capacity, NULL}` asks for points alone. */
+/** Output of swiftprox_pair_manifold, by value. `{points, capacity, NULL}` requests only points. */
 typedef struct swiftprox_manifold_room {
   /** Room for `capacity` points; null if that is 0. */
   struct swiftprox_manifold_point *points;
-  /** How many points there is room for. What is beyond is left out, and swiftprox_manifold.found_count counts it. */
+  /** Room in points. Further points are left out; swiftprox_manifold.found_count counts them too. */
   size_t capacity;
-  /** Receives what swiftprox_pair_signed_distance says of the pair, at no further search; or null. */
+  /** Receives the result of swiftprox_pair_signed_distance without a further search; may be null. */
   struct swiftprox_signed_distance *distance;
 } swiftprox_manifold_room;
 
-/** What a manifold query is asked for. Begin with SWIFTPROX_MANIFOLD_CONFIG_DEFAULT, then change what should differ. */
+/** Options of a manifold query. Initialise with SWIFTPROX_MANIFOLD_CONFIG_DEFAULT. */
 typedef struct swiftprox_manifold_config {
   /** Set by SWIFTPROX_MANIFOLD_CONFIG_DEFAULT. */
   size_t struct_size;
   /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
   double rotation_limit;
-  /**
-   * Objects up to this far apart have a manifold, and points with a gap of at most this belong to it; at least 0, and infinity
-   * admits all, as in queries of scenes. Default: 0.
-   */
+  /** Largest gap of objects that have a manifold, and of its points: from 0 (the default) to infinity, which admits all. */
   double margin;
   /**
-   * Other than 0: of more than four points four are kept, the deepest, the farthest from it and the extremes on either side of
-   * the line between; none is moved. The four of the last query with the same cache stay while they are about as deep and
-   * cover about as much. 0 (the default): all.
+   * Nonzero: at most four points are kept, none is moved. They are the deepest, the farthest from it and the extremes on either
+   * side of the line through both. The last query's four, from the cache, stay while about as deep and as wide. 0 (the default):
+   * all.
    */
   int32_t reduces;
 } swiftprox_manifold_config;
@@ -1000,18 +974,17 @@ typedef struct swiftprox_manifold_config {
 #define SWIFTPROX_MANIFOLD_CONFIG_DEFAULT {sizeof(swiftprox_manifold_config), 1e-2, 0, 0}
 
 /**
- * Where two objects meet, or are up to config->margin apart: pairs of points along the normal of least overlap or of the shortest
- * connection, each with its gap. They are written to room.points, as many as there is room for; manifold->found_count says how
- * many there are. room.distance, if not null, receives what swiftprox_pair_signed_distance says of the pair. Objects farther apart have none, and their outcome is SWIFTPROX_OUTCOME_BEYOND.
+ * Computes where two objects meet or are at most config->margin apart: pairs of points along the normal, each with its gap. Points
+ * are written to room.points up to its capacity; manifold->found_count is the total. room.distance, if not null, receives the
+ * signed distance. Objects farther apart get no points and SWIFTPROX_OUTCOME_BEYOND.
  *
- * Manifolds are made over faces as they were meant: what could lie in one plane up to the shape's face_noise
- * (swiftprox_shape_options). Gap intervals hold for the exact objects: they contain by how much such a face is not flat. Points
- * are on their objects up to half of what it is thick, and in line up to twice that and 7.5e-9 of the pair's size. Corners nearer
- * to each other than 3e-8 of it, or four times what such faces are thick, are one. One of the points is as deep as the objects
- * are. It is not certified that a face is complete.
+ * Vertices within the shape's face_noise (swiftprox_shape_options) of one plane are one face; gap intervals are guaranteed for the
+ * exact objects. Points are on their objects up to half a face's thickness, and in line up to twice its thickness plus 7.5e-9 of
+ * the pair's size. Corners closer than 3e-8 of that size, or four thicknesses, are merged. One point has the full depth.
+ * Completeness of a face is not guaranteed.
  *
- * Arguments and errors as of swiftprox_pair_distance; the cache is one for manifolds alone. On failure
- * the manifold is reset, and points are as they were.
+ * Same arguments and errors as swiftprox_pair_distance, but with a manifold cache. On failure the manifold is reset and points are
+ * unchanged.
  *
  * Stable.
  */
@@ -1030,50 +1003,53 @@ swiftprox_status swiftprox_pair_manifold(struct swiftprox_placed object1,
  * @{
  */
 
-/** Objects, their poses and the pairs that queries test. Make one with swiftprox_scene_create. */
+/** Objects, their poses, and the pairs that queries test. Create one with swiftprox_scene_create. */
 typedef struct swiftprox_scene swiftprox_scene;
 
 /**
- * Does the items from `first` on and before `end` of a task; `context` is what came with it. It may be called from any threads,
- * several at once, each item once.
+ * Runs the items of a task from `first` up to, but not including, `end`; `context` is the one passed with the task. Any threads
+ * may call it, several at once, each item once.
  */
 typedef void (*swiftprox_task_callback)(uint32_t first, uint32_t end, void *context);
 
 /**
- * Is to call `task` for all items below `item_count`, in ranges of its choice, by any threads, with `context`; `user` is the
- * pointer given with the callback. Returns what swiftprox_finish_task_callback is to get, or null if all is done already. It must
- * return; a C++ exception that leaves it ends the program.
+ * Must call `task` once for each item below `item_count`, in any ranges, from any threads, with `context`. `user` is the pointer
+ * given with the callback. Returns the task for swiftprox_finish_task_callback, or null if all is done already. It must return; a
+ * C++ exception that leaves it ends the program.
  */
 typedef void *(*swiftprox_enqueue_task_callback)(swiftprox_task_callback task,
                                                  uint32_t item_count,
                                                  void *context,
                                                  void *user);
 
-/** Is to return when the task that swiftprox_enqueue_task_callback returned is done. It must return, as that. */
+/**
+ * Must return when the task from swiftprox_enqueue_task_callback is done. It must return; a C++ exception that leaves it ends the
+ * program.
+ */
 typedef void (*swiftprox_finish_task_callback)(void *task, void *user);
 
-/** How a scene is made. Begin with SWIFTPROX_SCENE_OPTIONS_DEFAULT, then change what should differ. */
+/** How a scene is made. Initialise with SWIFTPROX_SCENE_OPTIONS_DEFAULT. */
 typedef struct swiftprox_scene_options {
   /** Set by SWIFTPROX_SCENE_OPTIONS_DEFAULT. */
   size_t struct_size;
   /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
   double rotation_limit;
   /**
-   * How many threads may work on a query or on poses that are set together, the caller's among them. It changes no bit of any
-   * answer. Queries that stop early, those without a tolerance over many objects, and few pairs or objects stay in the caller's
-   * thread. More than 256 count as 256. Default: 0, which means 1.
+   * Number of threads for a query, or for poses that are set together, including the caller's. It changes no bit of any
+   * answer. Some work uses the caller's thread only: queries that stop early, queries without a tolerance over many objects,
+   * and few pairs or objects. Numbers above 256 mean 256. Default: 0, which means 1.
    */
   uint32_t worker_count;
   /**
-   * Shares the work out among the program's own threads. Default: null, together with finish_task: the scene has threads of its
-   * own, which wait between calls. swiftprox_scene_create starts them, and does without those that cannot be started;
-   * swiftprox_scene_destroy ends them and waits for that. The child of a fork() has none: its calls stay in the caller's
-   * thread. exit() does not wait for them. A program that unloads the library destroys its scenes first.
+   * Starts work on the program's own threads. Default: null, and finish_task too: the scene then has threads of its own,
+   * which wait between calls. swiftprox_scene_create starts them, and does without threads that cannot start.
+   * swiftprox_scene_destroy ends them and waits. After fork() the child has none; its calls use the caller's thread. exit()
+   * does not wait for them. Destroy all scenes before the library is unloaded.
    */
   swiftprox_enqueue_task_callback enqueue_task;
-  /** Waits for what enqueue_task has shared out. Default: null. */
+  /** Waits for the work that enqueue_task started. Default: null. */
   swiftprox_finish_task_callback finish_task;
-  /** Handed to both. Default: null. */
+  /** Passed to both callbacks. Default: null. */
   void *task_user;
 } swiftprox_scene_options;
 
@@ -1081,11 +1057,10 @@ typedef struct swiftprox_scene_options {
 #define SWIFTPROX_SCENE_OPTIONS_DEFAULT {sizeof(swiftprox_scene_options), 1e-2, 0, 0, 0, 0}
 
 /**
- * Makes an empty scene; the caller owns it and gives it back with swiftprox_scene_destroy. On failure `*scene` is null. `options`
- * may be null for the defaults.
+ * Creates an empty scene. The caller owns it and frees it with swiftprox_scene_destroy. Null `options` mean the defaults. On
+ * failure `*scene` is null.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range, or of enqueue_task and finish_task one is null and the
- * other is not.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range, or only one of enqueue_task and finish_task is null.
  *
  * Stable.
  */
@@ -1094,11 +1069,10 @@ swiftprox_status swiftprox_scene_create(const struct swiftprox_scene_options *op
                                         struct swiftprox_scene **scene);
 
 /**
- * Ends a scene, which the caller owns, a poisoned one too. Its shares of shapes are given back; its ids and results end with it.
- * Null is ignored.
+ * Destroys a scene, even a poisoned one. It releases its shares of shapes; its ids and results become invalid. Null is ignored.
  *
- * SWIFTPROX_ERROR_BUSY: another call uses the scene, which lives on. SWIFTPROX_ERROR_BUG: the scene is gone, but perhaps not all
- * of its memory. SWIFTPROX_ERROR_FILE, SWIFTPROX_ERROR_MEMORY: the scene is gone, and its recording was not written to its end.
+ * SWIFTPROX_ERROR_BUSY: another call uses the scene, which stays alive. After all other errors the scene is gone.
+ * SWIFTPROX_ERROR_BUG: some memory may be lost. SWIFTPROX_ERROR_FILE, SWIFTPROX_ERROR_MEMORY: the end of its recording is missing.
  *
  * Stable.
  */
@@ -1127,22 +1101,22 @@ typedef struct swiftprox_object_id {
 #define SWIFTPROX_OBJECT_ID_NULL ((swiftprox_object_id){0})
 #endif
 
-/** How an object begins. Begin with SWIFTPROX_OBJECT_OPTIONS_DEFAULT, then change what should differ. */
+/** How an object is made. Initialise with SWIFTPROX_OBJECT_OPTIONS_DEFAULT. */
 typedef struct swiftprox_object_options {
   /** Set by SWIFTPROX_OBJECT_OPTIONS_DEFAULT. */
   size_t struct_size;
-  /** The caller's own; it comes back in every result. Default: 0. */
+  /** The caller's number; every result returns it. Default: 0. */
   uint64_t user_data;
-  /** Where it stands, row-major [R|T]. Default: the identity. */
+  /** Its pose, row-major [R|T]. Default: the identity. */
   double pose[12];
-  /** Not 0: pairs of two such objects are never tested; it can still be moved. Default: 0. */
+  /** Not 0: pairs of two fixed objects are never tested. A fixed object can still be moved. Default: 0. */
   int32_t fixed;
   /**
-   * The groups that it is in, one bit each. Two objects are tested if each one's mask has a bit of the other's groups. Default:
-   * 0, which stands for the first group alone, 1.
+   * Its groups, one bit each. Two objects are tested if each one's mask has a bit of the other's groups. Default: 0, which
+   * means the first group only, 1.
    */
   uint32_t groups;
-  /** The groups that it is tested against. Default: 0, which stands for all. */
+  /** The groups it is tested against. Default: 0, which means all. */
   uint32_t mask;
 } swiftprox_object_options;
 /** What the header calls its default. */
@@ -1151,9 +1125,8 @@ typedef struct swiftprox_object_options {
 #define SWIFTPROX_OBJECT_OPTIONS_DEFAULT {sizeof(swiftprox_object_options), 0, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, 0, 0, 0}
 
 /**
- * Adds an object of one or several convex pieces in one local frame. All its pairs are active. The scene takes a share of each
- * shape: the caller's own may be released at once. On failure nothing is added and `*id` is null.
- * `options` may be null for the defaults.
+ * Adds an object of one or more convex pieces in one local frame. All its pairs are active. The scene takes its own share of each
+ * shape, so the caller may release its shares at once. Null `options` mean the defaults. On failure `*id` is null.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces. SWIFTPROX_ERROR_LIMIT: more objects or pieces than a scene holds.
  *
@@ -1167,12 +1140,11 @@ swiftprox_status swiftprox_scene_add_object(struct swiftprox_scene *scene,
                                             struct swiftprox_object_id *id);
 
 /**
- * Adds an object of one convex piece for each of `count` shapes, in their order, as swiftprox_scene_add_object does: all or none.
- * `options` are as many, one behind the other, each begun with SWIFTPROX_OBJECT_OPTIONS_DEFAULT; null for the defaults of all. `ids`
- * receives the ids.
+ * Adds one object of one convex piece for each of `count` shapes, in order, like swiftprox_scene_add_object. `options` is an array
+ * of `count` structs, each initialised with SWIFTPROX_OBJECT_OPTIONS_DEFAULT, or null for the defaults. `ids` receives the ids.
  *
- * On failure nothing is added, and all ids are null. The message names the first place that is refused. Errors as of
- * swiftprox_scene_add_object; SWIFTPROX_ERROR_STRUCT_SIZE also where the options have different sizes.
+ * On failure nothing is added and all ids are null. The message names the first refused place. Same errors as
+ * swiftprox_scene_add_object. SWIFTPROX_ERROR_STRUCT_SIZE: also if the options differ in size.
  *
  * Stable.
  */
@@ -1184,7 +1156,7 @@ swiftprox_status swiftprox_scene_add_objects(struct swiftprox_scene *scene,
                                              struct swiftprox_object_id *ids);
 
 /**
- * Removes an object and its pairs. Its id is refused from now on; all other ids stay as they are.
+ * Removes an object and its pairs. Its id becomes invalid; all other ids stay valid.
  *
  * Stable.
  */
@@ -1192,10 +1164,10 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_remove_object(struct swiftprox_scene *scene, struct swiftprox_object_id id);
 
 /**
- * Removes `count` objects and their pairs, as swiftprox_scene_remove_object does: all or none.
+ * Removes `count` objects and their pairs, like swiftprox_scene_remove_object.
  *
- * On failure nothing is removed; the message names the first id that is refused. SWIFTPROX_ERROR_HANDLE: it names no object of
- * this scene. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is given twice.
+ * On failure nothing is removed; the message names the first refused id. SWIFTPROX_ERROR_HANDLE: it names no object of this scene.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: it is given twice.
  *
  * Stable.
  */
@@ -1205,8 +1177,8 @@ swiftprox_status swiftprox_scene_remove_objects(struct swiftprox_scene *scene,
                                                 size_t count);
 
 /**
- * Sets `*valid` to 1 if an id names an object of this scene, else to 0 (also on failure): if it is null, of another scene, or of
- * an object that was removed. Two ids name the same object if their bits are equal.
+ * Sets `*valid` to 1 if the id names an object of this scene, else to 0. It is 0 for a null id, an id of another scene, a removed
+ * object, and on failure. Two ids name the same object if their bits are equal.
  *
  * Stable.
  */
@@ -1216,11 +1188,11 @@ swiftprox_status swiftprox_scene_is_object_valid(const struct swiftprox_scene *s
                                                  int32_t *valid);
 
 /**
- * Writes the ids of all objects in order of creation, which is that of results and of swiftprox_scene_set_poses, and their
- * number to `*count`. `ids` has room for `capacity` of them; with capacity 0 it may be null, and only the number is written. On
- * failure `*count` is 0.
+ * Writes the ids of all objects in order of creation, and their number to `*count`. Results and swiftprox_scene_set_poses use the
+ * same order. `ids` has room for `capacity` ids. With capacity 0 it may be null, and only the number is written. On failure
+ * `*count` is 0.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is neither 0 nor as large as the number of objects.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is not 0 and less than the number of objects.
  *
  * Stable.
  */
@@ -1231,7 +1203,7 @@ swiftprox_status swiftprox_scene_copy_object_ids(const struct swiftprox_scene *s
                                                  size_t *count);
 
 /**
- * Moves an object, a fixed one too: `pose` is 12 doubles, row-major [R|T]. On failure it stays where it is.
+ * Moves an object, also a fixed one. `pose` is 12 doubles, row-major [R|T]. On failure the object does not move.
  *
  * Stable.
  */
@@ -1241,7 +1213,7 @@ swiftprox_status swiftprox_scene_set_pose(struct swiftprox_scene *scene,
                                           const double *pose);
 
 /**
- * As swiftprox_scene_set_pose, from a row-major 3x3 `rotation` and a `translation`.
+ * Like swiftprox_scene_set_pose, with a row-major 3x3 `rotation` and a `translation`.
  *
  * Stable.
  */
@@ -1252,9 +1224,9 @@ swiftprox_status swiftprox_scene_set_transform(struct swiftprox_scene *scene,
                                                const double *translation);
 
 /**
- * Moves the objects of `count` ids, fixed ones too: `poses` holds 12 doubles for each. Of an object that is given twice the later
- * pose counts. Null `ids` are all objects that are not fixed, in order of creation. On failure all stay where they are; the
- * message says which pose or id is refused. Workers share the work where it is in order of creation.
+ * Moves `count` objects, also fixed ones. `poses` holds 12 doubles per id; the last pose of a repeated id counts. Null `ids` means
+ * all objects that are not fixed, in order of creation. Workers share the work if ids are in order of creation. On failure no
+ * object moves; the message names the refused pose or id.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: ids is null, and count is not the number of objects that are not fixed.
  *
@@ -1267,7 +1239,7 @@ swiftprox_status swiftprox_scene_set_poses(struct swiftprox_scene *scene,
                                            size_t count);
 
 /**
- * As swiftprox_scene_set_poses, from 9 doubles of `rotations` and 3 of `translations` for each object.
+ * Like swiftprox_scene_set_poses, with 9 doubles of `rotations` and 3 of `translations` per object.
  *
  * Stable.
  */
@@ -1278,26 +1250,27 @@ swiftprox_status swiftprox_scene_set_transforms(struct swiftprox_scene *scene,
                                                 const double *translations,
                                                 size_t count);
 
-/** What an object is. Set struct_size to sizeof(swiftprox_object_info) before asking for it. */
+/** Properties of an object. Set struct_size to sizeof(swiftprox_object_info) before the call. */
 typedef struct swiftprox_object_info {
   /** Set by the caller. */
   size_t struct_size;
-  /** The caller's own. */
+  /** The caller's number. */
   uint64_t user_data;
   /** Number of convex pieces. */
   size_t piece_count;
-  /** Where it stands, row-major [R|T]. */
+  /** Its pose, row-major [R|T]. */
   double pose[12];
   /** 1 if it is fixed, else 0. */
   int32_t fixed;
-  /** The groups that it is in, one bit each. */
+  /** Its groups, one bit each. */
   uint32_t groups;
-  /** The groups that it is tested against. */
+  /** The groups it is tested against. */
   uint32_t mask;
 } swiftprox_object_info;
 
 /**
- * Says what an object is: set info->struct_size to sizeof(swiftprox_object_info) first. On failure the pose is NaN, all else 0.
+ * Writes an object's properties. Set info->struct_size to sizeof(swiftprox_object_info) first. On failure the pose is NaN, all
+ * else 0.
  *
  * Stable.
  */
@@ -1307,10 +1280,10 @@ swiftprox_status swiftprox_scene_get_object_info(const struct swiftprox_scene *s
                                                  struct swiftprox_object_info *info);
 
 /**
- * Makes an object what `info` says: its user data, pose, fixedness, groups and mask. Fill info by
- * swiftprox_scene_get_object_info and change members; a pose as it was moves nothing. What pairs remember stays.
+ * Sets an object's user data, pose, fixed flag, groups and mask. Fill info with swiftprox_scene_get_object_info, then change
+ * members. An unchanged pose moves nothing. Pair caches are kept.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count is another one. Nothing has changed then.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count differs from the object's; nothing has changed.
  *
  * Stable.
  */
@@ -1326,7 +1299,7 @@ swiftprox_status swiftprox_scene_set_object_info(struct swiftprox_scene *scene,
  * @{
  */
 
-/** swiftprox_scene_query.distance_tolerance: 0 for swiftprox_scene_query_contact, infinity for all other queries. */
+/** Default of swiftprox_scene_query.distance_tolerance: 0 for swiftprox_scene_query_contact, infinity for all other queries. */
 #define SWIFTPROX_DEFAULT_TOLERANCE (-1.0)
 
 /** What a query of contacts says of each pair beside its answer. */
@@ -1344,51 +1317,51 @@ typedef enum swiftprox_contact_detail SWIFTPROX_INT32 {
   SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD = 3
 } swiftprox_contact_detail;
 
-/** What a query over a scene is asked for. Begin with SWIFTPROX_SCENE_QUERY_DEFAULT, then change what should differ. */
+/** Options of a query over a scene. Initialise with SWIFTPROX_SCENE_QUERY_DEFAULT. */
 typedef struct swiftprox_scene_query {
   /** Set by SWIFTPROX_SCENE_QUERY_DEFAULT. */
   size_t struct_size;
   /**
-   * List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
-   * to infinity (all pairs, however many). Default: SWIFTPROX_DEFAULT_TOLERANCE, of contacts 0, of all others infinity.
-   * swiftprox_scene_query_intersection does without it, but refuses one out of range.
+   * Pairs whose true distance is at most this are listed, from 0 to infinity (all pairs). Intersecting pairs, and pairs that
+   * a step budget leaves undecided, are always listed. Default: SWIFTPROX_DEFAULT_TOLERANCE, which is 0 for contacts, else
+   * infinity. swiftprox_scene_query_intersection only checks its range.
    */
   double distance_tolerance;
-  /** swiftprox_scene_query_approximate: upper - lower of a pair may be as large as this ... Default: 0. */
+  /** swiftprox_scene_query_approximate: upper - lower of a pair may be at most the larger of this ... Default: 0. */
   double absolute_error;
-  /** ... or as this times lower. Both 0 (the default): as narrow as exact answers. */
+  /** ... and this times lower. Default: 0. If both are 0, intervals are as narrow as exact answers. */
   double relative_error;
   /**
-   * swiftprox_scene_query_approximate: finite, it is what upper - lower of all listed pairs together may come to,
-   * whatever the two errors say, beside what exact answers take. Pairs that maps of support functions or levels of detail may
-   * answer with a share of it take one, all the same; others are answered as by exact queries, and so are all where the scene
-   * does not keep all pairs (swiftprox_scene_set_kept_pair_limit). Default: infinity.
+   * swiftprox_scene_query_approximate: if finite, the limit of the sum of upper - lower over all listed pairs, beyond what
+   * exact answers need. It replaces both errors. Only pairs that support maps or levels of detail can answer with a share of
+   * it take one. All other pairs are answered exactly. So are all pairs if the scene does not keep all pairs
+   * (swiftprox_scene_set_kept_pair_limit). Default: infinity.
    */
   double error_budget;
   /**
-   * swiftprox_scene_query_approximate: steps of marching after which a pair stops with what it has, 1 or more. Default:
-   * UINT32_MAX, no limit.
+   * swiftprox_scene_query_approximate: the largest number of marching steps per pair, 1 or more. A pair then stops with the
+   * interval it has. Default: UINT32_MAX, no limit.
    */
   uint32_t step_budget;
   /**
-   * Not 0: stop at the first intersecting pair in the order of results, and list no pairs at all then:
-   * swiftprox_scene_answer.found is it. Default: 0.
+   * Not 0: stop at the first intersecting pair in the order of results. It is swiftprox_scene_answer.found; no pairs are
+   * listed then. Default: 0.
    */
   int32_t early_exit;
-  /** Where pairs start and which levels of detail they go through (swiftprox/tuning.h). Default: null, the automatic choice. */
+  /** Where pairs start and which levels of detail they use (swiftprox/tuning.h). Default: null, the automatic choice. */
   const struct swiftprox_pair_tuning *tuning;
   /**
-   * swiftprox_scene_query_contact: pairs farther apart have no manifold, and points with a larger gap do not belong to one;
-   * from 0 to infinity. It is the distance tolerance if that is less. Default: infinity.
+   * swiftprox_scene_query_contact: pairs farther apart have no manifold; manifolds omit points with a larger gap. From 0 to
+   * infinity; the distance tolerance limits it. Default: infinity.
    */
   double margin;
   /**
-   * swiftprox_scene_query_contact: what is said of each pair beside its answer. absolute_error, relative_error and step_budget
-   * are then those of the depths. Queries of other kinds do as with none; all refuse an unknown number. Default:
+   * swiftprox_scene_query_contact: what each pair's contact adds to its answer. absolute_error, relative_error and
+   * step_budget then apply to the depths. Other queries ignore it. Every query refuses an unknown number. Default:
    * SWIFTPROX_CONTACT_DETAIL_NONE.
    */
   swiftprox_contact_detail detail;
-  /** swiftprox_scene_query_placed: the groups of objects that are asked, one bit each. Default: 0, which stands for all. */
+  /** swiftprox_scene_query_placed: the groups of objects to test, one bit each. Default: 0, which means all. */
   uint32_t mask;
 } swiftprox_scene_query;
 
@@ -1414,33 +1387,32 @@ typedef struct swiftprox_pair_result {
   struct swiftprox_pair_answer answer;
 } swiftprox_pair_result;
 
-/** What a query over a scene found. */
+/** The results of a query over a scene. */
 typedef struct swiftprox_scene_answer {
   /**
-   * The pairs that the query lists, by object 1, object 2, piece 1, piece 2, objects in order of creation. Owned by the
-   * scene, valid until its next query, swiftprox_scene_shrink, or its end: objects may be moved, added and removed while they
-   * are read. Null when count is 0.
+   * The listed pairs, sorted by object 1, object 2, piece 1, piece 2, with objects in order of creation. The scene owns
+   * them. They are valid until its next query, swiftprox_scene_shrink, or its end. Objects may be moved, added and removed
+   * meanwhile. Null if count is 0.
    */
   const struct swiftprox_pair_result *pairs;
-  /** How many pairs. */
+  /** Number of pairs. */
   size_t count;
   /** 1 if any tested pair intersects, else 0. */
   int32_t intersecting;
   /**
-   * The intersecting pair at which the query stopped, if it did (swiftprox_scene_query.early_exit), else null: of all that
-   * intersect the first in the order of pairs, with what the query says of such pairs. (A step budget may leave an earlier one
-   * undecided.) Owned and valid as pairs are.
+   * The intersecting pair at which the query stopped (swiftprox_scene_query.early_exit), else null. It is the first
+   * intersecting pair in the order of pairs, but a step budget may leave an earlier one undecided. It holds the query's
+   * usual answer. Owned and valid as pairs.
    */
   const struct swiftprox_pair_result *found;
 } swiftprox_scene_answer;
 
 /**
- * Lists the intersecting pairs (touching ones are), each with its verdict alone: of an answer outcome, decided_by, proof,
- * statistics and distance, lower and upper, which are 0, are said. `query` may be null for the defaults.
+ * Lists the intersecting pairs, touching ones included. Each answer has only outcome, decided_by, proof, statistics, and distance,
+ * lower and upper, which are 0. A null `query` means the defaults. On failure the answer is empty.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of query is out of range, also where this query does without it.
- * SWIFTPROX_ERROR_MEMORY: none for a changed list of pairs; the next query tries again. The answer is empty then. What a scene has
- * accepted it answers: no pair makes a query fail.
+ * No accepted pair makes a query fail. SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of query is out of range, even one this query
+ * does not use. SWIFTPROX_ERROR_MEMORY: no memory for a changed list of pairs; the next query tries again.
  *
  * Stable.
  */
@@ -1450,9 +1422,9 @@ swiftprox_status swiftprox_scene_query_intersection(struct swiftprox_scene *scen
                                                     struct swiftprox_scene_answer *answer);
 
 /**
- * Lists the pairs whose distance is at most the distance tolerance, intersecting ones included, with what swiftprox_pair_distance
- * says of each: of a separated pair distance, lower, upper, points in all frames, normal and features; of an intersecting one the
- * proof, and distance, lower and upper, which are 0. Errors as of swiftprox_scene_query_intersection.
+ * Lists the pairs within the distance tolerance, intersecting ones included, with answers as from swiftprox_pair_distance.
+ * Separated pairs have distance, lower, upper, points in all frames, normal and features. Intersecting pairs have the proof; for
+ * them distance, lower and upper are 0. Same errors as swiftprox_scene_query_intersection.
  *
  * Stable.
  */
@@ -1462,9 +1434,9 @@ swiftprox_status swiftprox_scene_query_distance(struct swiftprox_scene *scene,
                                                 struct swiftprox_scene_answer *answer);
 
 /**
- * As swiftprox_scene_query_distance, each distance as narrow as query->absolute_error, relative_error or error_budget ask
- * for and no narrower, with what swiftprox_pair_approximate says of each pair. A pair whose step budget ran out before the verdict
- * (SWIFTPROX_OUTCOME_UNDECIDED) is listed and does not count as intersecting. Errors as of swiftprox_scene_query_intersection.
+ * Like swiftprox_scene_query_distance, but each interval is only as narrow as query->absolute_error, relative_error or
+ * error_budget require. Answers are as from swiftprox_pair_approximate. A pair whose step budget ran out before the verdict
+ * (SWIFTPROX_OUTCOME_UNDECIDED) is listed, but does not count as intersecting. Same errors as swiftprox_scene_query_intersection.
  *
  * Stable.
  */
@@ -1474,13 +1446,11 @@ swiftprox_status swiftprox_scene_query_approximate(struct swiftprox_scene *scene
                                                    struct swiftprox_scene_answer *answer);
 
 /**
- * As swiftprox_scene_query_distance, with what swiftprox_pair_contact says of each pair; its tolerance is 0 unless query
- * says otherwise, so that only pairs that touch or intersect are listed.
+ * Like swiftprox_scene_query_distance, with answers as from swiftprox_pair_contact. The tolerance defaults to 0, so only touching
+ * or intersecting pairs are listed.
  *
- * With a query->detail the answers say what those of swiftprox_scene_query_distance do. swiftprox_scene_get_contacts then
- * hands over how deep each pair is, and where its objects meet: what swiftprox_pair_depth and swiftprox_pair_manifold say.
- *
- * Errors as of swiftprox_scene_query_intersection; SWIFTPROX_ERROR_MEMORY also when there is too little for depths and points.
+ * With a query->detail the answers are those of swiftprox_scene_query_distance. swiftprox_scene_get_contacts then returns depths
+ * and contact points, as from swiftprox_pair_depth and swiftprox_pair_manifold. Same errors as swiftprox_scene_query_intersection.
  *
  * Stable.
  */
@@ -1499,26 +1469,26 @@ typedef struct swiftprox_contact {
   size_t first_point;
 } swiftprox_contact;
 
-/** What a query of contacts said beside its answers. */
+/** The contacts of a query of contacts. */
 typedef struct swiftprox_scene_contacts {
   /**
-   * One for each of the pairs that the query listed, in their order; of a query that stopped that of
-   * swiftprox_scene_answer.found alone. Owned by the scene and valid as the answer's pairs are. Null when count is 0.
+   * One contact per listed pair, in the same order; after an early exit, only that of swiftprox_scene_answer.found. Owned by
+   * the scene and valid as the answer's pairs. Null if count is 0.
    */
   const struct swiftprox_contact *contacts;
-  /** How many. */
+  /** Number of contacts. */
   size_t count;
   /**
-   * The points of their manifolds: those of a contact begin at its first_point. Owned and valid as contacts are. Null when
+   * The points of all manifolds; those of a contact begin at its first_point. Owned and valid as contacts. Null if
    * point_count is 0.
    */
   const struct swiftprox_manifold_point *points;
-  /** How many. */
+  /** Number of points. */
   size_t point_count;
 } swiftprox_scene_contacts;
 
 /**
- * Hands over what the last query of a scene said beside its answers: nothing unless it was one of contacts with a
+ * Returns the contacts of the scene's last query. They are empty unless that was a query of contacts with a
  * swiftprox_scene_query.detail. On failure `*contacts` is empty.
  *
  * Stable.
@@ -1540,11 +1510,10 @@ typedef enum swiftprox_query_kind SWIFTPROX_INT32 {
 } swiftprox_query_kind;
 
 /**
- * As the query of that kind, of the pairs of one object alone: what it touches or comes near. query->error_budget is not heeded;
- * the tolerance of contacts is 0 and of others infinity unless query says otherwise. It takes as long as the pairs that are near,
- * if nothing else has moved.
+ * Runs a query of that kind over the pairs of one object. query->error_budget is ignored. The tolerance defaults to 0 for
+ * contacts, else to infinity. The time depends on the number of near pairs, if nothing else has moved.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT also for an unknown kind. Other errors as of swiftprox_scene_query_intersection.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: also for an unknown kind. Else same errors as swiftprox_scene_query_intersection.
  *
  * Stable.
  */
@@ -1556,12 +1525,11 @@ swiftprox_status swiftprox_scene_query_object(struct swiftprox_scene *scene,
                                               struct swiftprox_scene_answer *answer);
 
 /**
- * As swiftprox_scene_query_object, of a body that is not in the scene: `piece_count` convex pieces, each where it is in the world.
- * Each object of the scene is object 1 of its results; object 2 has the null id, and piece2 is the piece's place in `pieces`.
- * Objects are asked whose groups have a bit of query->mask, whatever their own masks, activation and filters say.
+ * Like swiftprox_scene_query_object, for a body outside the scene: `piece_count` convex pieces, each with its pose in the world.
+ * In results object 1 is an object of the scene. Object 2 has the null id, and piece2 is an index into `pieces`. Objects whose
+ * groups have a bit of query->mask are tested; their masks, activation and filters do not apply.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT also without pieces and for an unknown kind. Other errors as of
- * swiftprox_scene_query_intersection.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: also for no pieces or an unknown kind. Else same errors as swiftprox_scene_query_intersection.
  *
  * Stable.
  */
@@ -1581,11 +1549,11 @@ swiftprox_status swiftprox_scene_query_placed(struct swiftprox_scene *scene,
  */
 
 /**
- * Sets whether queries test pairs of objects: `active` other than 0, or 0. With two ids it is their pair, in either order, with all
- * its pairs of pieces; with one null pointer all pairs that the other object is in now; with two all that there are now. Objects
- * added later begin with all their pairs active; two fixed objects are never tested.
+ * Sets whether queries test pairs of objects: `active` is not 0, or 0. Two ids select their pair, in either order, with all its
+ * pairs of pieces. One null id selects all present pairs of the other object; two null ids select all present pairs. Pairs of
+ * objects added later are active. Two fixed objects are never tested.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: both ids are equal.
  *
  * Stable.
  */
@@ -1596,9 +1564,9 @@ swiftprox_status swiftprox_scene_set_pair_active(struct swiftprox_scene *scene,
                                                  int32_t active);
 
 /**
- * Sets `*active` to 1 if queries test the pair of two objects, given in either order, else to 0 (also on failure).
+ * Sets `*active` to 1 if the pair of two objects is active, else to 0. The order of the ids does not matter. On failure it is 0.
  *
- * Errors as of swiftprox_scene_set_pair_active; SWIFTPROX_ERROR_NULL_POINTER also when active is null.
+ * Same errors as swiftprox_scene_set_pair_active.
  *
  * Stable.
  */
@@ -1609,18 +1577,19 @@ swiftprox_status swiftprox_scene_get_pair_active(const struct swiftprox_scene *s
                                                  int32_t *active);
 
 /**
- * Says whether a pair of objects is to be tested (not 0) or not (0), the earlier created object first; `user` is the pointer given
- * with the callback. It should always say the same of a pair. It runs in the thread that queries, must return, and cannot use the
- * scene; a C++ exception that leaves it ends the program.
+ * Returns whether a pair of objects is tested: not 0, or 0. object1 was created first; `user` is the pointer given with the
+ * callback. It must always return the same for a pair. It runs in the thread that queries, must return, and must not use the
+ * scene. A C++ exception that leaves it ends the program.
  */
 typedef int32_t (*swiftprox_pair_filter_callback)(struct swiftprox_object_id object1,
                                                   struct swiftprox_object_id object2,
                                                   void *user);
 
 /**
- * Asks `filter` of each pair of objects whether it is to be tested, once for each of its pairs of pieces when that comes near, and
- * of many objects without a tolerance in each query. Null: none is asked, as before the first call. All pairs that are near are
- * asked anew: set the same filter again when it has changed its mind. The callback may be called from every thread that queries the scene.
+ * Sets a filter that decides which pairs of objects are tested. It is called once for each pair of pieces that comes near. Queries
+ * of many objects without a tolerance call it each time. Null (the default): no filter. Each call of this function makes the scene
+ * ask again about near pairs, so set the same filter again after its decisions change. Any thread that queries the scene may call
+ * the filter.
  *
  * Stable.
  */
@@ -1686,21 +1655,21 @@ typedef struct swiftprox_point_event {
   swiftprox_event_state state;
 } swiftprox_point_event;
 
-/** What a listener hears. */
+/** The events of a listener. */
 typedef struct swiftprox_listener_events {
   /**
-   * All pairs that the query lists, and those that were listed and are not, in the order of results. Owned by the listener,
-   * valid until it asks again or its end. Null when count is 0.
+   * All listed pairs, and pairs that are no longer listed, in the order of results. Owned by the listener; valid until its
+   * next call or its end. Null if count is 0.
    */
   const struct swiftprox_pair_event *pairs;
-  /** How many. */
+  /** Number of pairs. */
   size_t count;
   /**
-   * Their points, where the query asks for manifolds: those of a pair begin at its first_point. Owned and valid as pairs are.
-   * Null when point_count is 0.
+   * Their points, if the query asks for manifolds; those of a pair begin at its first_point. Owned and valid as pairs. Null
+   * if point_count is 0.
    */
   const struct swiftprox_point_event *points;
-  /** How many. */
+  /** Number of points. */
   size_t point_count;
 } swiftprox_listener_events;
 
@@ -1711,8 +1680,8 @@ typedef struct swiftprox_listener_events {
 typedef struct swiftprox_listener swiftprox_listener;
 
 /**
- * Makes a listener that remembers nothing yet; the caller owns it and gives it back with swiftprox_listener_destroy. On failure
- * `*listener` is null.
+ * Creates a listener with no history. The caller owns it and frees it with swiftprox_listener_destroy. On failure `*listener` is
+ * null.
  *
  * Experimental.
  */
@@ -1720,24 +1689,22 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_listener_create(struct swiftprox_listener **listener);
 
 /**
- * Gives back what swiftprox_listener_create made, and the events that it owns. Null is ignored.
+ * Frees a listener and the events it owns. Null is ignored.
  *
  * Experimental.
  */
 void swiftprox_listener_destroy(struct swiftprox_listener *listener);
 
 /**
- * As the query of that kind over all pairs, and what has changed since the listener last asked: which pairs of pieces and which
- * contact points have begun, which persist and which have ended. The first time all begin. Contacts with query->detail
- * SWIFTPROX_CONTACT_DETAIL_MANIFOLD have points; swiftprox_scene_get_contacts hands over where they are.
+ * Runs a query of that kind over all pairs, and reports the changes since the listener's last call. Pairs of pieces and contact
+ * points have begun, persist or have ended; in the first call all begin. Contacts with query->detail
+ * SWIFTPROX_CONTACT_DETAIL_MANIFOLD have points; swiftprox_scene_get_contacts returns their positions.
  *
- * A pair counts as long as the query lists it; of another tolerance, another listener. Each listener remembers for itself: what
- * others and other queries ask changes nothing of that. Removed objects, deactivated pairs and all that a former scene listed have
- * ended. A recording notes the query. The tolerance of contacts is 0 and of others infinity unless query says otherwise.
+ * Each listener has its own history, which other queries do not affect. Use one listener per tolerance; it defaults to 0 for
+ * contacts, else infinity. Removed objects, deactivated pairs and pairs of another scene have ended. Recordings include the query.
  *
- * On failure answer and events are empty, and the listener remembers what it did. SWIFTPROX_ERROR_INVALID_ARGUMENT also for an
- * unknown kind, and if query->early_exit is set. SWIFTPROX_ERROR_NULL_POINTER also if listener or events is null. Other errors as
- * of swiftprox_scene_query_contact.
+ * On failure answer and events are empty, and the history is unchanged. SWIFTPROX_ERROR_INVALID_ARGUMENT: also for an unknown
+ * kind, or if query->early_exit is set. Else same errors as swiftprox_scene_query_contact.
  *
  * Experimental.
  */
@@ -1756,23 +1723,22 @@ swiftprox_status swiftprox_scene_listen(struct swiftprox_scene *scene,
  * @{
  */
 
-/** A shape at one pose or at many: an argument of swiftprox_pair_distances, by value. All is only read during the call. */
+/** A shape at one or many poses, an argument of swiftprox_pair_distances by value. Pointers are only read during the call. */
 typedef struct swiftprox_poses {
   /** The shape. */
   const struct swiftprox_shape *shape;
-  /** 12 doubles for each pose, the row-major 3x4 matrix [R|T]. */
+  /** 12 doubles per pose, the row-major 3x4 matrix [R|T]. */
   const double *poses;
-  /** How many poses; 1 for an object that stays where it is. */
+  /** Number of poses; 1 for an object that does not move. */
   size_t count;
 } swiftprox_poses;
 
 /**
- * The distances of one pair at many poses, one after the other: bit for bit what swiftprox_pair_distance says with the one cache,
- * which it leaves as those calls would. Either object has as many poses as there are answers, or one. `answers` has room for the
- * larger count. `config` may be null for the defaults.
+ * Computes the distances of one pair at many poses in turn. Answers and cache are bit for bit those of repeated calls of
+ * swiftprox_pair_distance. Both objects have the same number of poses, or one has one. `answers` has room for the larger count.
  *
- * A pose that is refused gets an answer that says nothing, and all others are answered; the message names the first by its number.
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the counts differ, and neither is 1. Other errors as of swiftprox_pair_distance.
+ * A refused pose gets a reset answer, and all others are answered; the message names the first. SWIFTPROX_ERROR_INVALID_ARGUMENT:
+ * the counts differ, and neither is 1. Other errors as in swiftprox_pair_distance.
  *
  * Experimental.
  */
@@ -1783,30 +1749,29 @@ swiftprox_status swiftprox_pair_distances(struct swiftprox_poses object1,
                                           const struct swiftprox_pair_config *config,
                                           struct swiftprox_pair_answer *answers);
 
-/** A pair to be asked. */
+/** One pair of a batch. */
 typedef struct swiftprox_pair_question {
   /** Shape 1. */
   const struct swiftprox_shape *shape1;
-  /** Where it is, 12 doubles. */
+  /** Pose of shape 1, 12 doubles. */
   const double *pose1;
   /** Shape 2. */
   const struct swiftprox_shape *shape2;
-  /** Where it is, 12 doubles. */
+  /** Pose of shape 2, 12 doubles. */
   const double *pose2;
-  /** What this pair alone remembers; no two pairs share one. */
+  /** The pair's own cache; pairs must not share one. */
   struct swiftprox_pair_cache *cache;
 } swiftprox_pair_question;
 
 /**
- * Asks each of `count` pairs what `kind` names, into the answer at the same place. Answers and caches are bit for bit those of
- * swiftprox_pair_intersection, swiftprox_pair_distance, swiftprox_pair_contact or swiftprox_pair_approximate; the memory of pairs
- * that follow is asked for ahead. The workers of `scene` share 2,048 pairs or more; it may be null, and then the caller's thread
- * does all. The scene is not changed, and no other call may use it meanwhile. `config` may be null for the defaults.
+ * Runs the query `kind` for `count` pairs; answers[k] belongs to pairs[k]. Answers and caches are bit for bit those of
+ * swiftprox_pair_intersection, swiftprox_pair_distance, swiftprox_pair_contact or swiftprox_pair_approximate. With a `scene`, its
+ * workers share batches of 2,048 pairs or more; null uses only the caller's thread. The scene does not change, but no other call
+ * may use it meanwhile.
  *
- * A pair that is refused gets an answer that says nothing, and all others are answered: the message names the first by its number.
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: kind is unknown, or a member of config is out of range. SWIFTPROX_ERROR_NULL_POINTER: an array
- * or a member of a pair is null; then, and where memory is lacking, nothing is answered. SWIFTPROX_ERROR_BUG: all answers and
- * caches are reset.
+ * A refused pair gets a reset answer, and all others are answered; the message names the first. Null pointers and lack of memory
+ * leave all unanswered. SWIFTPROX_ERROR_BUG resets all answers and caches. SWIFTPROX_ERROR_INVALID_ARGUMENT: kind is unknown, or a
+ * member of config is out of range.
  *
  * Experimental.
  */

@@ -20,8 +20,8 @@ extern "C" {
  */
 
 /**
- * Copies the vertices of the hull, in the local frame: `capacity` is how many `vertices` has room for (3 coordinates each),
- * at least swiftprox_shape_info.vertex_count. `labels` receives the caller's number of each vertex, or is null.
+ * Copies the vertices of the hull in the local frame, 3 coordinates each. `capacity` is the room in vertices, at least
+ * swiftprox_shape_info.vertex_count. `labels`, if not null, receives the caller's number of each vertex.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written.
  *
@@ -34,10 +34,9 @@ swiftprox_status swiftprox_shape_copy_vertices(const struct swiftprox_shape *sha
                                                size_t capacity);
 
 /**
- * Copies the triangles of the hull, 3 corners each, counter-clockwise seen from outside, as places in what
- * swiftprox_shape_copy_vertices gives: `capacity` is how many triangles `corners` has room for, at least
- * swiftprox_shape_info.triangle_count. Faces of more than three sides come as several triangles; a body of dimension 1 or 0 has
- * none.
+ * Copies the triangles of the hull: 3 corners each, counter-clockwise seen from outside, as indices into the vertices of
+ * swiftprox_shape_copy_vertices. `capacity` is the room in triangles, at least swiftprox_shape_info.triangle_count. Larger faces
+ * are split into triangles; bodies of dimension 1 or 0 have none.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is too small; nothing is written.
  *
@@ -48,25 +47,25 @@ swiftprox_status swiftprox_shape_copy_triangles(const struct swiftprox_shape *sh
                                                 uint32_t *corners,
                                                 size_t capacity);
 
-/** A face of a shape's hull: all coplanar triangles, a convex polygon. */
+/** A face of a shape's hull: a convex polygon of all coplanar triangles. */
 typedef struct swiftprox_face {
-  /** Outward, a unit vector up to rounding, in the local frame. */
+  /** Outward unit normal, rounded, in the local frame. */
   double normal[3];
-  /** The product of the normal with a corner, rounded: normal * x = offset in the face's plane. */
+  /** The face's plane is normal * x = offset, rounded. */
   double offset;
-  /** How many corners the face has. */
+  /** Number of corners. */
   size_t corner_count;
-  /** How many of the caller's polygons are merged in it, 1 at least. */
+  /** Number of the caller's polygons merged in the face, at least 1. */
   size_t label_count;
 } swiftprox_face;
 
 /**
- * Says what a face of a shape is, by its place from 0 to below swiftprox_shape_info.face_count. `corners` receives its corners,
- * counter-clockwise seen from outside, as places in what swiftprox_shape_copy_vertices gives; `labels` the caller's polygons that
- * are merged in it, ascending, or the face's own number where the hull was made without polygons. Each gets as many as there is
- * room for, and may be null with no room. swiftprox_shape_find_face tells the place of a face of an answer.
+ * Writes a face of a shape; `index` is from 0 to below swiftprox_shape_info.face_count. `corners` receives its corners
+ * counter-clockwise seen from outside, as indices into the vertices of swiftprox_shape_copy_vertices. `labels` receives the
+ * caller's polygons of the face, ascending, or the face's own number if the hull was made without polygons. Both are cut at their
+ * capacity, and may be null with capacity 0. For a face of an answer use swiftprox_shape_find_face.
  *
- * On failure `*face` is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the shape has no such face.
+ * On failure `*face` is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such face.
  *
  * Stable.
  */
@@ -80,8 +79,8 @@ swiftprox_status swiftprox_shape_get_face(const struct swiftprox_shape *shape,
                                           size_t label_capacity);
 
 /**
- * The place of a face, for swiftprox_shape_get_face: of the one that the caller's polygon `label` is a part of, which is the id
- * of a face in an answer. Of several the first. Takes time in proportion to the faces. On failure `*index` is SIZE_MAX.
+ * Finds the index, for swiftprox_shape_get_face, of the first face that contains the caller's polygon `label`. Face ids of answers
+ * are such labels. Time is linear in the number of faces. On failure `*index` is SIZE_MAX.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: no face has the label.
  *
@@ -93,17 +92,14 @@ swiftprox_status swiftprox_shape_find_face(const struct swiftprox_shape *shape,
                                            size_t *index);
 
 /**
- * Makes a copy of a shape with every length multiplied by `scale`, a power of two; the caller owns it and gives it back with
- * swiftprox_shape_release. Vertices, levels of detail and distances are exactly those multiplied, and labels are the same. Levels
- * are not built anew, automatic ones are taken over if they are made; what answers rely on is proved and measured again, which
- * takes up to half as long as making the shape did. `progress` learns how far it is and can cancel it, or is null; `progress_user`
- * is handed to it.
+ * Creates a copy of a shape with every length multiplied by `scale`, a power of two. Release it with swiftprox_shape_release.
+ * Vertices, levels of detail and distances scale exactly; labels stay. It takes up to half the time of making the shape.
+ * `progress` (may be null, gets `progress_user`) reports progress and can cancel.
  *
- * A shape that is turned or moved needs no copy: objects share it, each with a pose, and so do pieces of one object. At any other
- * scale vertices would be rounded, so such a shape is made anew with swiftprox_shape_options.scale; one that is stretched or
- * mirrored is made from other vertices. On failure `*shape` is null.
+ * For other scales make the shape anew with swiftprox_shape_options.scale. To turn or move a shape, use poses.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: scale is no positive power of two, or lengths would leave the range of doubles.
+ * On failure `*shape` is null. SWIFTPROX_ERROR_INVALID_ARGUMENT: scale is not a positive power of two, or lengths leave the range
+ * of doubles.
  *
  * Stable.
  */
@@ -115,13 +111,11 @@ swiftprox_status swiftprox_shape_create_scaled(const struct swiftprox_shape *sou
                                                const struct swiftprox_shape **shape);
 
 /**
- * Saves a shape in a file, replacing what was there: with its levels of detail, except automatic ones, which are made again
- * when they are needed, as the look-up table is. Any machine can load it, with the levels that are saved: built anew, those of a
- * machine with other vector units may be slightly different ones. A version of this library that does not know the version of the
- * file refuses it.
+ * Saves a shape in a file and replaces its content. Levels of detail are saved, except automatic ones; these and the look-up table
+ * are made again when needed. Any machine can load the file; older libraries may refuse it.
  *
- * SWIFTPROX_ERROR_FILE: the file cannot be written or is no regular one (nothing waits for the reader of a pipe); the message
- * names it and says why. SWIFTPROX_ERROR_MEMORY: the file is as it was.
+ * SWIFTPROX_ERROR_FILE: the file cannot be written or is not a regular file; the message names it and the cause.
+ * SWIFTPROX_ERROR_MEMORY leaves the file as it was.
  *
  * Stable.
  */
@@ -130,16 +124,12 @@ swiftprox_status swiftprox_shape_save(const struct swiftprox_shape *shape,
                                       const char *path);
 
 /**
- * Loads a shape that swiftprox_shape_save has saved; the caller owns it and gives it back with swiftprox_shape_release. It has the
- * same hull, labels, levels and table, for the same answers. What answers
- * rely on is not believed but proved and measured again, so loading takes up to about half as long as making the shape did,
- * levels included; a damaged file is refused. `progress` learns how far it is and can cancel it, or is null; `progress_user` is
- * handed to it.
+ * Loads a shape saved by swiftprox_shape_save. Release it with swiftprox_shape_release. Hull, labels, levels, table and answers
+ * are the same. Data is checked again, so loading takes up to half the time of making the shape. `progress` (may be null, gets
+ * `progress_user`) reports progress and can cancel.
  *
- * On failure `*shape` is null.
- *
- * SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file, is larger than 4 GiB (4,294,967,296 bytes), is no shape file,
- * of another version or damaged; the message names it and says what is wrong.
+ * On failure `*shape` is null. SWIFTPROX_ERROR_FILE: the file is unreadable, not a regular file, above 4 GiB, not a shape file, of
+ * another version or damaged; the message says which.
  *
  * Stable.
  */
@@ -157,9 +147,9 @@ swiftprox_status swiftprox_shape_load(const char *path,
  */
 
 /**
- * Writes how far from convex a mesh may be because of the precision of its coordinates, relative to its bounding box's diagonal:
- * four units of the last place in which they are written (decimals, significant digits, floats), at least 1e-9 and at most 0.005.
- * `vertices` holds 3 * vertex_count coordinates as they were written down, before any transform. On failure it is NaN.
+ * Estimates how far from convex a mesh may be through the precision of its coordinates, relative to its bounding-box diagonal. The
+ * result is four units in the last written place (decimals, significant digits or floats), from 1e-9 to 0.005. `vertices` holds
+ * 3 * vertex_count coordinates as written, before any transform. On failure the tolerance is NaN.
  *
  * SWIFTPROX_ERROR_MESH: a coordinate is not finite. SWIFTPROX_ERROR_INVALID_ARGUMENT: there are no vertices.
  *
@@ -170,21 +160,18 @@ swiftprox_status swiftprox_mesh_estimate_tolerance(const double *vertices,
                                                    size_t vertex_count,
                                                    double *tolerance);
 
-/** Where swiftprox_mesh_decompose writes the triangles of a surface, piece by piece. The arrays are the caller's. */
+/** Output of swiftprox_mesh_decompose: the triangles of a surface, piece by piece. The caller owns the arrays. */
 typedef struct swiftprox_decomposition {
   /**
-   * Receives the vertices of each triangle, 3 * capacity numbers, counter-clockwise seen from outside: those of one piece
-   * follow each other. Of exactly equal vertices the first is named.
+   * Receives 3 vertex numbers per triangle, counter-clockwise seen from outside, piece by piece. Equal vertices get the number
+   * of the first. Room: 3 * capacity numbers.
    */
   uint32_t *corners;
-  /** Receives for each triangle the face of the mesh that it is a part of, or is null. */
+  /** Receives the mesh face of each triangle; may be null. */
   uint32_t *faces;
-  /** Receives for each triangle the number of its piece, ascending from 0, or is null. */
+  /** Receives the piece number of each triangle, ascending from 0; may be null. */
   uint32_t *pieces;
-  /**
-   * Triangles for which the arrays have room. Two fewer than corners, summed over the faces of three or more, are always
-   * enough.
-   */
+  /** Room of the arrays in triangles. The sum of (corners - 2) over all faces of three or more corners is always enough. */
   size_t capacity;
   /** Receives the number of triangles; 0 on failure. */
   size_t triangle_count;
@@ -193,29 +180,25 @@ typedef struct swiftprox_decomposition {
 } swiftprox_decomposition;
 
 /**
- * Cuts the surface of a mesh into convex pieces, as the decomposer of SWIFT++ did. The mesh need not be convex, and may be in
- * several parts. Each triangle of the surface is in one piece; the piece's body is the convex hull of its triangles, which lie
- * on that hull.
+ * Cuts the surface of a mesh into convex pieces, as the decomposer of SWIFT++ did. The mesh need not be convex or connected. Each
+ * triangle belongs to one piece and lies on that piece's convex hull.
  *
- * Of a closed surface, outside of which its faces run counter-clockwise, the hulls are inside of the body: bodies that are apart
- * are as far apart as their pieces. Pieces may overlap, and need not fill the body, so that a body wholly inside of another may
- * not meet one of its pieces. Surfaces without inside, which are open, or cavities, become flat pieces. A mesh whose closed
- * parts are all inside out is turned.
+ * For closed surfaces with outward faces the hulls stay inside the body: separated bodies have the distance of their pieces.
+ * Pieces may overlap and need not fill the body, so a body wholly inside another may touch no piece. Open surfaces and cavities
+ * become flat pieces. A mesh with all closed parts inside out is turned.
  *
- * For an object of a scene make a shape of each piece k with swiftprox_shape_create_from_mesh: the same vertices, the corners of
- * the piece's triangles, no valences, input = SWIFTPROX_INPUT_PATCH; and hand all of them to swiftprox_scene_add_object.
+ * Make a shape of each piece with swiftprox_shape_create_from_mesh: same vertices, its triangles, no valences,
+ * input = SWIFTPROX_INPUT_PATCH. Pass all shapes to swiftprox_scene_add_object.
  *
- * `vertices`, `indices` and `valences` are as swiftprox_shape_create_from_mesh takes them; a face need not be convex, and is to
- * be flat about. `tolerance` is relative to the bounding box's diagonal: what is that close to a plane counts as on it, and a
- * piece may be about that far beyond the surface; 0 is exact. swiftprox_mesh_estimate_tolerance says what the coordinates
- * excuse. Without it, plane faces that were turned and rounded come to pieces. It takes time in proportion to the square of the
- * triangles at worst, one to two seconds for 10,000. `progress` learns how far it is and can cancel it, or is null;
- * `progress_user` is handed to it.
+ * The mesh is as in swiftprox_shape_create_from_mesh, but its faces must only be nearly flat. `tolerance` is relative to the
+ * bounding-box diagonal. Points that close to a plane count as on it, and pieces may exceed the surface by about as much. 0 is
+ * exact, but splits flat faces with rounded vertices; swiftprox_mesh_estimate_tolerance suggests a value. Time is at worst
+ * quadratic, one to two seconds for 10,000 triangles. `progress` (may be null, gets `progress_user`) reports progress and can
+ * cancel.
  *
- * SWIFTPROX_ERROR_MESH: a coordinate is not finite; an index is out of range; an edge belongs to more than two faces, or to two in
- * the same direction; a face crosses itself; no face has an area: the message names face, edge or vertex.
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: tolerance is out of [0, 1], or capacity is too small: nothing is written to the arrays, and
- * the message says how many are needed.
+ * SWIFTPROX_ERROR_MESH: a coordinate is not finite, an index is out of range, a face crosses itself, or no face has an area. Also
+ * an edge with more than two faces, or two in one direction. SWIFTPROX_ERROR_INVALID_ARGUMENT: tolerance is outside [0, 1], or
+ * capacity is too small. Then the arrays are unchanged, and the message gives the room needed.
  *
  * Stable.
  */
@@ -286,12 +269,12 @@ typedef struct swiftprox_ray_answer {
 } swiftprox_ray_answer;
 
 /**
- * Where a ray meets a shape at a pose, the part of it that is in the closed body, a swept radius included: certain, whatever the
- * magnitudes. A ray that only touches is a hit. Ends are intervals that hold the true ones; they are at most 2^-40 of the lengths
- * that the ray and the body have wide, over that of the direction.
+ * Casts a ray at a shape at a pose and finds the part of the ray inside the closed body, swept radius included. The result is
+ * guaranteed; touching is a hit. Ends are intervals that contain the true ones. Their width is at most 2^-40 of the lengths of the
+ * ray and the body, divided by that of the direction.
  *
- * On failure the answer is reset: its outcome is SWIFTPROX_RAY_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: origin or direction
- * is not finite, the direction is 0, or t_max is negative or NaN.
+ * On failure the answer is reset and its outcome is SWIFTPROX_RAY_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: origin or
+ * direction is not finite, the direction is 0, or t_max is negative or NaN.
  *
  * Experimental.
  */
@@ -302,7 +285,7 @@ swiftprox_status swiftprox_shape_cast_ray(const struct swiftprox_shape *shape,
                                           struct swiftprox_ray_answer *answer);
 
 /**
- * How a ray cast came out, in words. Never null, valid for ever; for an unknown number the string says so.
+ * Returns the text for a ray outcome. Never null, valid forever, also for unknown numbers.
  *
  * Experimental.
  */
@@ -339,21 +322,20 @@ typedef struct swiftprox_scene_ray_hit {
   struct swiftprox_ray_answer answer;
 } swiftprox_scene_ray_hit;
 
-/** What a ray met in a scene. */
+/** The hits of a ray in a scene. */
 typedef struct swiftprox_scene_ray_answer {
-  /** In order of where the ray comes in. Owned by the scratch and valid until its next use. Null when count is 0. */
+  /** Hits in order of entry along the ray. Owned by the scratch and valid until its next use. Null if count is 0. */
   const struct swiftprox_scene_ray_hit *hits;
-  /** How many. */
+  /** Number of hits. */
   size_t count;
 } swiftprox_scene_ray_answer;
 
 /**
- * What a ray meets of the objects whose groups have a bit of mask (UINT32_MAX: all in some group): the first convex piece, all in
- * order, or any, found soonest. Each as swiftprox_shape_cast_ray has it; pieces that are met at one place, as far as doubles tell,
- * are in order of creation. Threads as of swiftprox_scene_least_distance; the scratch owns the hits and must not be null.
+ * Finds convex pieces that a ray meets, of objects whose groups have a bit of mask (UINT32_MAX: any group). `hits` selects the
+ * first piece, all in order, or any, found soonest. Each hit is as from swiftprox_shape_cast_ray. Hits at the same place are in
+ * order of creation. Threads: as for swiftprox_scene_least_distance. The scratch owns the hits and must not be null.
  *
- * On failure the answer is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT: the ray is refused as by swiftprox_shape_cast_ray, or hits is
- * unknown. SWIFTPROX_ERROR_BUSY: the scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER,
+ * On failure the answer is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT: a ray that swiftprox_shape_cast_ray refuses, or unknown hits.
  *
  * Experimental.
  */
@@ -405,11 +387,11 @@ typedef struct swiftprox_point_answer {
 } swiftprox_point_answer;
 
 /**
- * Where a point of the world is relative to a shape at a pose: inside, on it or outside, how far from its surface, and what of
- * that is nearest. Certain, whatever the magnitudes: integers decide where doubles cannot tell. It allocates.
+ * Locates a point of the world relative to a shape at a pose: inside, on or outside, distance from the surface and nearest part.
+ * The location is guaranteed: integers decide where doubles cannot. The function allocates.
  *
- * On failure the answer is reset: its location is SWIFTPROX_POINT_LOCATION_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: the point is
- * not finite. SWIFTPROX_ERROR_MEMORY,
+ * On failure the answer is reset and its location is SWIFTPROX_POINT_LOCATION_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: the point is
+ * not finite.
  *
  * Experimental.
  */
@@ -437,11 +419,10 @@ typedef struct swiftprox_support_vertex {
 } swiftprox_support_vertex;
 
 /**
- * The vertex of a shape at a pose that is farthest along a direction of the world, of any length but 0: for certain no other is
- * farther, whatever the magnitudes. Of a shape with a swept radius place and height are those of the ball about the vertex.
+ * Finds the vertex of a shape at a pose that is farthest along a direction of the world. The result is guaranteed. The direction
+ * may have any nonzero length. With a swept radius, place and height are those of the ball about the vertex.
  *
- * On failure the answer's numbers are NaN and 0. SWIFTPROX_ERROR_INVALID_ARGUMENT: the direction is 0 or not finite.
- * SWIFTPROX_ERROR_MEMORY,
+ * On failure numbers are NaN or 0. SWIFTPROX_ERROR_INVALID_ARGUMENT: the direction is 0 or not finite.
  *
  * Experimental.
  */
@@ -452,7 +433,7 @@ swiftprox_status swiftprox_shape_support(const struct swiftprox_shape *shape,
                                          struct swiftprox_support_vertex *answer);
 
 /**
- * A location, in words. Never null, valid for ever; a number that is none gets a string that says so.
+ * Returns the text for a location. Never null, valid forever, also for unknown numbers.
  *
  * Experimental.
  */

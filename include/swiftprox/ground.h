@@ -27,9 +27,10 @@ typedef struct swiftprox_half_space {
 } swiftprox_half_space;
 
 /**
- * The distance of a shape, which is object 1, from a half-space, or minus its depth, as of swiftprox_pair_signed_distance: the
- * interval holds for the exact shape and plane, and touching is decided in integers. The normal of the answer is the
- * half-space's, of unit length; its witness point is on the plane, in the world in both members, and its feature is of no kind.
+ * Computes the signed distance of a shape (object 1) from a half-space (object 2), as swiftprox_pair_signed_distance does. The
+ * interval is guaranteed for the exact shape and plane; integers decide touching. The normal is the half-space's, of unit length.
+ * The half-space's witness point is on the plane, in world coordinates in both members; its feature is
+ * SWIFTPROX_FEATURE_KIND_NONE.
  *
  * On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: the normal is 0, or a number of half_space is not finite.
  *
@@ -41,12 +42,12 @@ swiftprox_status swiftprox_pair_half_space_distance(struct swiftprox_placed obje
                                                     struct swiftprox_signed_distance *answer);
 
 /**
- * Where a shape, which is object 1, meets a half-space, or is up to config->margin apart: the corners of its face that looks most
- * at the plane, with a gap of at most the margin, and in any case its lowest point. Points and their room as of
- * swiftprox_pair_manifold; there is no cache, so that four points of a reduced manifold are chosen anew each time.
+ * Computes where a shape (object 1) meets a half-space or is at most config->margin apart. The points are the corners of the face
+ * that points most towards the plane, with a gap of at most the margin. The lowest point is always included. Output is as in
+ * swiftprox_pair_manifold. There is no cache, so each call chooses the four points of a reduced manifold anew.
  *
- * Errors as of swiftprox_pair_half_space_distance and swiftprox_pair_manifold. On failure the manifold is reset, and points are as
- * they were.
+ * Same errors as swiftprox_pair_half_space_distance and swiftprox_pair_manifold. On failure the manifold is reset and points are
+ * unchanged.
  *
  * Experimental.
  */
@@ -71,16 +72,15 @@ swiftprox_status swiftprox_pair_half_space_manifold(struct swiftprox_placed obje
 typedef struct swiftprox_ground swiftprox_ground;
 
 /**
- * Makes a ground from triangles; the caller owns it and gives it back with swiftprox_ground_release. The arrays are copied.
+ * Creates a ground from triangles. The caller owns it and gives it back with swiftprox_ground_release. The arrays are copied.
  *
- * `vertices` holds 3 * vertex_count coordinates, `corners` the 0-based vertex numbers of 3 * triangle_count corners. The front of
- * a triangle, out of which it pushes, is where its corners go around counter-clockwise. Triangles may make any surface, or none.
- * Sides with equal ends are one, if two triangles have it, the one way round and the other; over it bodies slide. Triangles
- * without area, or smaller than 2^-200, are left out, and keep their numbers.
+ * `vertices` holds 3 * vertex_count coordinates, `corners` 3 * triangle_count vertex numbers from 0. Triangles push bodies out of
+ * their front, where corners run counter-clockwise. They may form any surface, or none. Two triangles share an edge if its ends
+ * are equal and its directions opposite; bodies slide over it. Triangles without area, or smaller than 2^-200, are skipped, but
+ * keep their numbers.
  *
- * On failure `*ground` is null. SWIFTPROX_ERROR_MESH: a coordinate is not finite or beyond 2^200, a triangle names a vertex that
- * is not there, or none has an area. SWIFTPROX_ERROR_LIMIT: more than 2^30 triangles, or a count that does not fit 32 bits.
- * SWIFTPROX_ERROR_MEMORY,
+ * On failure `*ground` is null. SWIFTPROX_ERROR_MESH: a coordinate is not finite or beyond 2^200, a vertex number is too large, or
+ * no triangle has an area. SWIFTPROX_ERROR_LIMIT: more than 2^30 triangles.
  *
  * Experimental.
  */
@@ -92,17 +92,17 @@ swiftprox_status swiftprox_ground_create_from_triangles(const double *vertices,
                                                         const struct swiftprox_ground **ground);
 
 /**
- * Makes a ground from heights over a grid in the plane of x and y; the caller owns it and gives it back with
- * swiftprox_ground_release. The heights are copied.
+ * Creates a ground from heights over a grid in the xy plane. The caller owns it and gives it back with swiftprox_ground_release.
+ * The heights are copied.
  *
- * `heights` holds rows * columns of them, row by row, each row along x; NaN is a hole. Vertex i * columns + j is at (j *
- * column_spacing, i * row_spacing, height). Each cell is cut from its least corner to its greatest, into two triangles that look
- * up. With c = i * (columns - 1) + j of the least corner, triangle 2 * c has the corner along x, triangle 2 * c + 1 the other. A
- * cell with a hole at a corner is a hole.
+ * `heights` holds rows * columns numbers, row by row, each row along x. NaN is a hole; cells with one at a corner are holes.
+ * Vertex i * columns + j is at (j * column_spacing, i * row_spacing, height). The diagonal of each cell runs from its least to its
+ * greatest corner; both triangles face up. Let c = i * (columns - 1) + j for the least corner. Triangle 2 * c has the corner along
+ * x, triangle 2 * c + 1 the other.
  *
  * On failure `*ground` is null. SWIFTPROX_ERROR_INVALID_ARGUMENT: fewer than two rows or columns, or a spacing that is not
- * positive and finite. SWIFTPROX_ERROR_MESH: a coordinate is infinite or beyond 2^200, or all is holes. SWIFTPROX_ERROR_LIMIT:
- * more than 2^29 heights. SWIFTPROX_ERROR_MEMORY,
+ * positive and finite. SWIFTPROX_ERROR_MESH: a coordinate is infinite or beyond 2^200, or all cells are holes.
+ * SWIFTPROX_ERROR_LIMIT: more than 2^29 heights.
  *
  * Experimental.
  */
@@ -115,32 +115,32 @@ swiftprox_status swiftprox_ground_create_from_heights(size_t rows,
                                                       const struct swiftprox_ground **ground);
 
 /**
- * Gives the caller one more share of a ground, to be given back with a swiftprox_ground_release of its own; returns the ground.
- * Safe from any thread. Of null it returns null.
+ * Adds a share of a ground, and returns the ground. Give each share back with swiftprox_ground_release. Safe from any thread. For
+ * null it returns null.
  *
  * Experimental.
  */
 const struct swiftprox_ground *swiftprox_ground_retain(const struct swiftprox_ground *ground);
 
 /**
- * Gives back one share of a ground that the caller owns; the last one frees it. Safe from any thread. Null is ignored.
+ * Gives back one share of a ground; the last one frees it. Safe from any thread. Null is ignored.
  *
  * Experimental.
  */
 void swiftprox_ground_release(const struct swiftprox_ground *ground);
 
-/** What a ground is. */
+/** Properties of a ground. */
 typedef struct swiftprox_ground_info {
-  /** Vertices, as they were given. */
+  /** Number of vertices given. */
   size_t vertex_count;
-  /** Triangles, those included that are left out. */
+  /** Number of triangles, including skipped ones. */
   size_t triangle_count;
-  /** Memory that it holds, in bytes. */
+  /** Its memory in bytes. */
   size_t bytes;
 } swiftprox_ground_info;
 
 /**
- * Says what a ground is. On failure all is 0.
+ * Writes the properties of a ground. On failure all are 0.
  *
  * Experimental.
  */
@@ -163,12 +163,12 @@ typedef struct swiftprox_ground_distance {
 } swiftprox_ground_distance;
 
 /**
- * How far a shape, which is object 1, is from a ground, or whether they intersect, as `kind` says: SWIFTPROX_QUERY_KIND_DISTANCE
- * or SWIFTPROX_QUERY_KIND_INTERSECTION. The answer is as certain as that of swiftprox_pair_distance or
- * swiftprox_pair_intersection, of the ground as a set of points; `config` is as there. There is no cache.
+ * Returns the distance of a shape (object 1) to a ground, or only whether they intersect. `kind` is SWIFTPROX_QUERY_KIND_DISTANCE
+ * or SWIFTPROX_QUERY_KIND_INTERSECTION. The ground counts as a set of points. Guarantees and `config` are as for
+ * swiftprox_pair_distance and swiftprox_pair_intersection. There is no cache.
  *
- * On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: another kind, or a member of config is out of range.
- * SWIFTPROX_ERROR_MEMORY: some 4 kB are asked for. SWIFTPROX_ERROR_NULL_POINTER,
+ * On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: another kind, or a member of config is out of range. The call
+ * allocates about 4 kB.
  *
  * Experimental.
  */
@@ -194,7 +194,7 @@ typedef struct swiftprox_ground_contact {
   size_t first_point;
 } swiftprox_ground_contact;
 
-/** How many contacts there are with a ground, and points of all of them. */
+/** Numbers of contacts with a ground and of their points. */
 typedef struct swiftprox_ground_count {
   /** Contacts found. */
   size_t contact_count;
@@ -203,17 +203,16 @@ typedef struct swiftprox_ground_count {
 } swiftprox_ground_count;
 
 /**
- * Where a shape, which is object 1, meets a ground, or is up to config->margin apart: contacts, each of points with one normal out
- * of the ground, sorted by triangle. `contacts` and `points` receive as many as there is room for, and may be null with no room;
- * `count` says how many there are. Points of contact c are those from its first_point on, as many as its manifold.point_count.
+ * Finds the contacts of a shape (object 1) with a ground, up to config->margin apart, sorted by triangle. Each contact has points
+ * and one normal out of the ground. `contacts` and `points` receive what fits, and may be null if their capacity is 0. `count`
+ * receives all numbers found. Points of contact c begin at its first_point; there are manifold.point_count.
  *
- * A triangle acts on bodies whose centre of mass is not behind its plane. The normal is the one along which the body and the
- * triangle are nearest, or overlap least, where that is normal to the surface at the point that is touched; else it is the
- * triangle's. So no flat or concave edge between triangles holds up a body that slides over it.
+ * A triangle acts only on bodies whose centre of mass is not behind its plane. The normal is the direction of least distance or
+ * overlap, if that is normal to the surface at the touched point. Otherwise it is the triangle's. So bodies slide freely over flat
+ * and concave edges.
  *
- * On failure the counts are 0, and contacts and points are as they were. SWIFTPROX_ERROR_INVALID_ARGUMENT,
- * SWIFTPROX_ERROR_STRUCT_SIZE: as of swiftprox_pair_manifold. SWIFTPROX_ERROR_LIMIT: a capacity is larger than memory.
- * SWIFTPROX_ERROR_MEMORY,
+ * On failure the counts are 0; contacts and points are unchanged. Same errors as swiftprox_pair_manifold. SWIFTPROX_ERROR_LIMIT: a
+ * capacity is larger than memory.
  *
  * Experimental.
  */
@@ -259,32 +258,28 @@ typedef struct swiftprox_scene_ground_contact {
   struct swiftprox_ground_contact contact;
 } swiftprox_scene_ground_contact;
 
-/** Where objects of a scene meet a ground or a half-space. Owned by the scratch and valid until its next use. */
+/** Contacts of objects of a scene with a ground or a half-space. Owned by the scratch and valid until its next use. */
 typedef struct swiftprox_scene_ground_answer {
-  /** By object, piece and triangle. Null when contact_count is 0. */
+  /** Sorted by object, piece and triangle. Null if contact_count is 0. */
   const struct swiftprox_scene_ground_contact *contacts;
-  /** How many. */
+  /** Number of contacts. */
   size_t contact_count;
-  /**
-   * Points of contact c are those from its contact.first_point on, as many as its contact.manifold.point_count. Null when
-   * point_count is 0.
-   */
+  /** Points of contact c begin at its contact.first_point; there are contact.manifold.point_count. Null if point_count is 0. */
   const struct swiftprox_manifold_point *points;
-  /** How many. */
+  /** Number of points. */
   size_t point_count;
 } swiftprox_scene_ground_answer;
 
 /**
- * Where objects of a scene meet a ground that is in no scene, or are up to config->margin apart from it: piece by piece what
- * swiftprox_pair_ground_contacts says. set is who is asked; null: all objects, in order of creation. An object is asked if its
- * groups have a bit of filter->mask and its mask has a bit of filter->groups; a null filter has group 1 and all bits in its mask.
- * Activation and the scene's filter are about pairs of objects, and do not count. Fixed objects are left out, unless set->poses
- * says where they are; set->among is not looked at. config->rotation_limit is for the ground's pose. Threads as of
- * swiftprox_scene_least_distance; the scratch owns contacts and points and must not be null. Once it is large enough, only
- * integer arithmetic asks for memory.
+ * Finds the contacts of objects of a scene with a ground (grounds belong to no scene), up to config->margin apart. Contacts of
+ * each piece are as from swiftprox_pair_ground_contacts. Null set: all objects, in order of creation. Fixed objects are skipped,
+ * unless set->poses gives their poses; set->among is not read.
  *
- * On failure the answer is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT, SWIFTPROX_ERROR_STRUCT_SIZE: as of swiftprox_pair_manifold.
- * SWIFTPROX_ERROR_BUSY: the scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER,
+ * An object is tested if its groups have a bit of filter->mask, and its mask a bit of filter->groups. A null filter means group 1
+ * and a full mask. Activation and the scene's pair filter do not apply. config->rotation_limit is for the ground's pose.
+ *
+ * Threads: as for swiftprox_scene_least_distance. The scratch owns the results and must not be null. Once it is large enough, only
+ * integer arithmetic allocates. On failure the answer is empty. Same errors as swiftprox_pair_manifold.
  *
  * Experimental.
  */
@@ -299,8 +294,8 @@ swiftprox_status swiftprox_scene_ground_contacts(const struct swiftprox_scene *s
                                                  struct swiftprox_scene_ground_answer *answer);
 
 /**
- * The same of a half-space: a contact for each piece that is within the margin, as swiftprox_pair_half_space_manifold says; its
- * triangle is UINT32_MAX. Errors as of swiftprox_scene_ground_contacts; SWIFTPROX_ERROR_INVALID_ARGUMENT also as of
+ * Like swiftprox_scene_ground_contacts for a half-space: one contact for each piece within the margin, as from
+ * swiftprox_pair_half_space_manifold. Its triangle is UINT32_MAX. Same errors as swiftprox_scene_ground_contacts and
  * swiftprox_pair_half_space_distance.
  *
  * Experimental.

@@ -18,57 +18,69 @@ extern "C" {
  * @{
  */
 
-/** How an object moves. */
+/** Kinds of motion. */
 typedef enum swiftprox_motion_kind SWIFTPROX_INT32 {
-  /** It stays at start. */
+  /** The object stays at start. */
   SWIFTPROX_MOTION_KIND_FIXED = 0,
   /**
-   * A point p is at T + R c + t velocity + exp(t [rotation]) R (p - c) at time t, where start is [R|T] and c the centre: it
-   * turns at a constant rate about a centre that moves on a line.
+   * The object turns at a constant rate about a centre c that moves on a line. At time t, with start [R|T], a point p is at
+   * T + R c + t velocity + exp(t [rotation]) R (p - c).
    */
   SWIFTPROX_MOTION_KIND_SCREW = 1,
-  /** Its pose is (1 - t) start + t end, entry by entry. For turns of up to 0.2 radians: poses in between are refused beyond. */
+  /**
+   * The pose is (1 - t) start + t end, entry by entry. For turns of up to 0.2 radians; larger turns give refused poses in
+   * between.
+   */
   SWIFTPROX_MOTION_KIND_AFFINE = 2,
-  /** Where `pose` says. */
+  /** The callback `pose` gives the pose. */
   SWIFTPROX_MOTION_KIND_CALLBACK = 3
 } swiftprox_motion_kind;
 
 /**
- * Writes the pose at a time, 12 doubles, row by row; they are NaN before, which is refused. The same time gives the same pose. It
- * runs in the thread that asks, and must return; a C++ exception that leaves it ends the program.
+ * Writes the pose at a time: 12 doubles, row by row. They are NaN before the call, and refused if left so. Equal times must give
+ * equal poses. It runs in the calling thread and must return; a C++ exception that leaves it ends the program.
  */
 typedef void (*swiftprox_motion_callback)(void *user, double time, double *pose);
 
-/** A motion. Of its members only those of its kind are looked at. */
+/** A motion. Only the members of its kind are read. */
 typedef struct swiftprox_motion {
-  /** Which of the following it is. */
+  /** The kind of motion. */
   swiftprox_motion_kind kind;
-  /** The pose at time 0. Not of SWIFTPROX_MOTION_KIND_CALLBACK. */
+  /** The pose at time 0. Not for SWIFTPROX_MOTION_KIND_CALLBACK. */
   double start[12];
-  /** The pose at time 1, of SWIFTPROX_MOTION_KIND_AFFINE. */
+  /** For SWIFTPROX_MOTION_KIND_AFFINE: the pose at time 1. */
   double end[12];
-  /** Of SWIFTPROX_MOTION_KIND_SCREW: what it turns about, in the object's frame, */
+  /** For SWIFTPROX_MOTION_KIND_SCREW: the centre of rotation, in the object's frame. */
   double centre[3];
-  /** how fast that moves, in the world, */
+  /** For SWIFTPROX_MOTION_KIND_SCREW: the velocity of the centre, in the world. */
   double velocity[3];
-  /** and its angular velocity, in the world: along the axis, in radians per unit of time. All turned by may be 2^20 radians. */
+  /**
+   * For SWIFTPROX_MOTION_KIND_SCREW: the angular velocity in the world, along the axis, in radians per unit of time. The total
+   * turn may be 2^20 radians.
+   */
   double rotation[3];
-  /** Of SWIFTPROX_MOTION_KIND_CALLBACK: where it is at a time, */
+  /** For SWIFTPROX_MOTION_KIND_CALLBACK: gives the pose at a time. */
   swiftprox_motion_callback pose;
-  /** what is handed to that, */
+  /** For SWIFTPROX_MOTION_KIND_CALLBACK: passed to `pose`. */
   void *user;
-  /** a bound of the acceleration of all points of the object at all times that are asked about, */
+  /**
+   * For SWIFTPROX_MOTION_KIND_CALLBACK: an upper bound of the acceleration of all points of the object over the range of times.
+   * Answers are only as right as bend and rounding.
+   */
   double bend;
-  /** and how far from the motion that is meant the poses may have a point. Answers are as right as these two. */
+  /**
+   * For SWIFTPROX_MOTION_KIND_CALLBACK: the largest distance of a point at the callback's pose from its place in the intended
+   * motion.
+   */
   double rounding;
 } swiftprox_motion;
 
 /**
- * The motion about a centre, in the object's frame (null: its origin), that starts at pose1 at time 0 and by the shortest turn
- * comes to pose2 at time 1. `end_error` (may be null): no point within `reach` of the centre ends farther than that from where
- * pose2 has it, which is rounding and what one rotation is more distorted than the other.
+ * Makes the screw motion from pose1 at time 0 to pose2 at time 1 by the shortest turn. `centre` is in the object's frame; null
+ * means its origin. `end_error` may be null. It receives a bound, from rounding and distortion of the rotations: points within
+ * `reach` of the centre end at most that far from pose2.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the centre is not finite, or the reach is not from 0 on. Then nothing is written.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the centre is not finite, or the reach is negative or NaN. Nothing is written then.
  *
  * Experimental.
  */
@@ -121,19 +133,19 @@ typedef struct swiftprox_cast_answer {
   struct swiftprox_pair_answer contact;
 } swiftprox_cast_answer;
 
-/** What a cast is asked for. Begin with SWIFTPROX_CAST_CONFIG_DEFAULT, then change what should differ. */
+/** Options of a cast. Initialise with SWIFTPROX_CAST_CONFIG_DEFAULT. */
 typedef struct swiftprox_cast_config {
   /** Set by SWIFTPROX_CAST_CONFIG_DEFAULT. */
   size_t struct_size;
-  /** Where the range of times begins. Default: 0. */
+  /** Start of the time range. Default: 0. */
   double t_begin;
-  /** Where it ends, not before it begins. Default: 1. */
+  /** End of the time range, at least t_begin. Default: 1. */
   double t_end;
-  /** How wide the interval of a hit may be, and the shortest step; from 2^-50 of the larger end on. Default: 1e-9. */
+  /** Allowed width of a hit's time interval, and the shortest step. At least 2^-50 of the larger end. Default: 1e-9. */
   double time_tolerance;
-  /** Objects are free where they are farther apart than this, from 0 on. Default: 0. */
+  /** Objects farther apart than this are free; at least 0. Default: 0. */
   double margin;
-  /** Certified queries after which it stops with what is proved, 1 or more. Default: 100,000. */
+  /** The largest number of queries, 1 or more. Then the cast stops with the bounds so far. Default: 100,000. */
   uint32_t step_budget;
 } swiftprox_cast_config;
 
@@ -141,16 +153,14 @@ typedef struct swiftprox_cast_config {
 #define SWIFTPROX_CAST_CONFIG_DEFAULT {sizeof(swiftprox_cast_config), 0, 1, 1e-9, 0, 100000}
 
 /**
- * Whether two moving objects stay farther apart than config->margin, or when they first do not: certain for the motions exactly as
- * they are described, at all times of the range and not only at some of them. Rounding of poses is accounted for.
+ * Decides whether two moving objects stay farther apart than config->margin, or when they first do not. The answer is guaranteed
+ * for the motions as described at all times of the range, with poses' rounding included.
  *
- * `cache` is what the pair remembers, as of swiftprox_pair_distance, and may be shared with that. It changes how long the cast
- * takes and where within what is proved a time lies, never what holds. `config` may be null for the defaults. On failure the
- * answer is reset: its outcome is SWIFTPROX_CAST_OUTCOME_NONE.
+ * `cache` may be shared with swiftprox_pair_distance. It affects speed and the choice of times within the guaranteed bounds. On
+ * failure the answer is reset and its outcome is SWIFTPROX_CAST_OUTCOME_NONE; SWIFTPROX_ERROR_BUG also resets the cache.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of config or of a motion is out of range or not finite, or a callback's poses show
- * that its bend is wrong. SWIFTPROX_ERROR_POSE: a pose of a motion is refused; the message says when. SWIFTPROX_ERROR_BUG: the
- * cache is reset, too.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of config or a motion is out of range, or a callback contradicts its bend.
+ * SWIFTPROX_ERROR_POSE: a motion's pose is refused; the message gives the time.
  *
  * Experimental.
  */
@@ -175,19 +185,19 @@ typedef struct swiftprox_clearance {
   uint32_t queries;
 } swiftprox_clearance;
 
-/** What a clearance is asked for. Begin with SWIFTPROX_CLEARANCE_CONFIG_DEFAULT, then change what should differ. */
+/** Options of a clearance. Initialise with SWIFTPROX_CLEARANCE_CONFIG_DEFAULT. */
 typedef struct swiftprox_clearance_config {
   /** Set by SWIFTPROX_CLEARANCE_CONFIG_DEFAULT. */
   size_t struct_size;
-  /** Where the range of times begins. Default: 0. */
+  /** Start of the time range. Default: 0. */
   double t_begin;
-  /** Where it ends, not before it begins. Default: 1. */
+  /** End of the time range, at least t_begin. Default: 1. */
   double t_end;
-  /** upper - lower may be as large as this ... from 0 to infinity. Default: 0. */
+  /** Allowed upper - lower, from 0 to infinity. Default: 0. */
   double absolute_error;
-  /** ... or as this times lower. Default: 0.01. Both 0: as narrow as can be proved. */
+  /** Allowed (upper - lower) / lower. Default: 0.01. It is enough to meet one of the two errors. Both 0: as narrow as possible. */
   double relative_error;
-  /** Certified queries after which it stops with what is proved, 1 or more. Default: 100,000. */
+  /** The largest number of queries, 1 or more. Then the search stops with the bounds so far. Default: 100,000. */
   uint32_t step_budget;
 } swiftprox_clearance_config;
 
@@ -195,9 +205,9 @@ typedef struct swiftprox_clearance_config {
 #define SWIFTPROX_CLEARANCE_CONFIG_DEFAULT {sizeof(swiftprox_clearance_config), 0, 1, 0, 0.01, 100000}
 
 /**
- * The smallest distance of two moving objects over the range of times, as an interval [lower, upper]: as narrow as asked for, or
- * as can be proved. It is wider where the step budget runs out, and where rounding of poses hides more. Arguments and errors as of
- * swiftprox_pair_cast; on failure the numbers are NaN.
+ * Computes the least distance of two moving objects over the range of times, as a guaranteed interval [lower, upper]. It is as
+ * narrow as requested or possible: an exhausted step budget and rounded poses widen it. Same arguments and errors as
+ * swiftprox_pair_cast. On failure the numbers are NaN.
  *
  * Experimental.
  */
@@ -211,7 +221,7 @@ swiftprox_status swiftprox_pair_clearance(const struct swiftprox_shape *shape1,
                                           struct swiftprox_clearance *answer);
 
 /**
- * How a cast came out, in words. Never null, valid for ever; an unknown number gets a string that says so.
+ * Returns the text for a cast outcome. Never null, valid forever, also for unknown numbers.
  *
  * Experimental.
  */
@@ -241,15 +251,14 @@ typedef struct swiftprox_scene_cast_answer {
 } swiftprox_scene_cast_answer;
 
 /**
- * Whether moving objects stay farther than config->margin from all others, which rest, or when they first do not: certain at all
- * times of the range, as swiftprox_pair_cast is. One motion moves all objects of the set as one body, else each has its own;
- * pieces with poses of their own move with their object. Pairs of two of them are asked about if set->among is not 0; set->poses
- * is not looked at. Pairs are those that queries test; both may be fixed. config->step_budget is that of each pair; config may be
- * null for the defaults. Threads and scratch as of swiftprox_scene_least_distance.
+ * Tests whether moving objects stay farther than config->margin from all others, which rest. If not, it finds the first time. The
+ * answer is guaranteed for all times of the range, as in swiftprox_pair_cast. One motion moves the whole set as one body;
+ * set->count motions move one object each. Pieces with their own poses move with their object. set->among not 0 adds pairs within
+ * the set; set->poses is not read.
  *
- * On failure the answer is reset: its outcome is SWIFTPROX_CAST_OUTCOME_NONE. SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is
- * neither 1 nor set->count, or as of swiftprox_pair_cast. SWIFTPROX_ERROR_BUSY: the scene is being changed. Others as of
- * swiftprox_pair_cast, and SWIFTPROX_ERROR_MEMORY,
+ * Only pairs that queries test count, but both objects may be fixed. config->step_budget applies per pair; null config means the
+ * defaults. Threads and scratch: as for swiftprox_scene_least_distance. On failure the outcome is SWIFTPROX_CAST_OUTCOME_NONE.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is neither 1 nor set->count. Else same errors as swiftprox_pair_cast.
  *
  * Experimental.
  */
@@ -263,11 +272,11 @@ swiftprox_status swiftprox_scene_cast(const struct swiftprox_scene *scene,
                                       struct swiftprox_scene_cast_answer *answer);
 
 /**
- * swiftprox_scene_cast of many edges: answers has room for edge_count. The motions of the edges stand one behind the other: one
- * for each edge, or one for each object of the set at each edge. An edge is valid up to its answer's t_lo.
+ * Runs swiftprox_scene_cast for many edges; answers has room for edge_count. motions holds, edge after edge, either one motion per
+ * edge or one per object of the set. An edge is free up to its answer's t_lo.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is neither edge_count nor that times set->count. Others as of
- * swiftprox_scene_cast; the message names the edge, and that and all edges behind it have answers that are reset.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is neither edge_count nor edge_count times set->count. Else same errors as
+ * swiftprox_scene_cast. The message names the edge; its answer and all later ones are reset.
  *
  * Experimental.
  */

@@ -19,20 +19,18 @@ extern "C" {
  */
 
 /**
- * Writes down what is done to a scene from now on, in a file, replacing what was there: a bug report and a benchmark in one. First
- * comes what the scene holds. `path` null: ends the recording, if there is one, as swiftprox_scene_destroy does. A recording that
- * is going on ends before another one begins. swiftprox-replay plays recordings back, and swiftprox_replay_open does.
+ * Records a scene in a file from now on, for bug reports and benchmarks. Its present content comes first. An existing file is
+ * replaced. A running recording ends first. Null `path` only ends it, as swiftprox_scene_destroy does. swiftprox-replay and
+ * swiftprox_replay_open play recordings back.
  *
- * All that changes what queries answer is written down, and each query with a digest of its answer; workers and statistics are
- * not. Of the callback of swiftprox_scene_set_pair_filter the decisions are. Each shape is written down once. The file is brought
- * up to date before each query: one that ends the program is its last record. Record from the scene's beginning, before its first
- * object, for a replay that answers with the same bits; later on what pairs remember is not written down.
+ * The file has every change that affects answers, and each query with a digest of its answer. It has no workers or statistics. A
+ * pair filter is recorded by its decisions, each shape once. The file is updated before each query, so a query that crashes is its
+ * last record. For a replay with the same bits, record before the first object is added: pair caches are not recorded.
  *
- * Where the file cannot be written any more the recording ends, and the scene goes on. The log is told, and so is the call that
- * ends the recording.
+ * If writing fails, the recording ends and the scene goes on. The log and the call that ends the recording report it.
  *
- * SWIFTPROX_ERROR_FILE: the file cannot be written, or is no regular file; or the recording before could not be written to its
- * end, and then no other is begun. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path. The scene is not recorded then.
+ * SWIFTPROX_ERROR_FILE: the file is not writable or not regular; or the former recording could not be completed, and no new one
+ * begins. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path. The scene is then not recorded.
  *
  * Stable.
  */
@@ -41,36 +39,36 @@ swiftprox_status swiftprox_scene_record(struct swiftprox_scene *scene,
                                         const char *path);
 
 /**
- * Plays back what swiftprox_scene_record has written. Make one with swiftprox_replay_open.
+ * Plays back a recording of swiftprox_scene_record. Create one with swiftprox_replay_open.
  *
- * A step is what was done up to a query, and the query. For each step call swiftprox_replay_read, which reads it,
- * swiftprox_replay_change, which does what was done in it, and swiftprox_replay_ask, which makes its query; or make queries of
- * your own of the scene instead. A file of any content is safe: it is an error, or does to the scene what a program could.
+ * A step is a query and all changes before it. For each step call swiftprox_replay_read, swiftprox_replay_change and
+ * swiftprox_replay_ask. You may replace the last by your own queries of the scene. Files of any content are safe: they cause an
+ * error, or change the scene as a program could.
  */
 typedef struct swiftprox_replay swiftprox_replay;
 
-/** A step of a recording. Set struct_size to sizeof(swiftprox_replay_step_info) before asking for it. */
+/** A step of a recording. Set struct_size to sizeof(swiftprox_replay_step_info) before the call. */
 typedef struct swiftprox_replay_step_info {
   /** Set by the caller. */
   size_t struct_size;
   /** 1 if there is a step, 0 at the end of the recording. */
   int32_t has_step;
-  /** 1 if the step ends in a query, else 0: at the end of the recording, and of a query that was refused. */
+  /** 1 if the step ends in a query. 0 at the end of the recording, and for a query that was refused. */
   int32_t has_query;
   /** The kind of the query. */
   swiftprox_query_kind kind;
-  /** 1 at the end of a recording that was not ended, as when the program was, else 0. */
+  /** 1 at the end of an unfinished recording, such as that of a program that crashed, else 0. */
   int32_t cut_off;
-  /** How much of the file is read, from 0 to 1. */
+  /** Part of the file read so far, from 0 to 1. */
   double fraction;
 } swiftprox_replay_step_info;
 
 /**
- * Opens a recording and makes a scene to play it back in, with the workers of `options`, which may be null for the defaults, and
- * the rotation limit of the recorded scene. The caller gives both back with swiftprox_replay_close. On failure `*replay` is null.
+ * Opens a recording and creates a scene for it, with the workers of `options` and the recorded rotation limit. Null `options` mean
+ * the defaults. The caller frees both with swiftprox_replay_close. On failure `*replay` is null.
  *
- * SWIFTPROX_ERROR_FILE: the file cannot be read, is no regular file, no recording, of another version, or damaged at its
- * beginning. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path, or of enqueue_task and finish_task one is null and the other is not.
+ * SWIFTPROX_ERROR_FILE: the file is unreadable, not regular, not a recording, of another version, or damaged at its beginning.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path, or only one of enqueue_task and finish_task is null.
  *
  * Stable.
  */
@@ -80,9 +78,9 @@ swiftprox_status swiftprox_replay_open(const char *path,
                                        struct swiftprox_replay **replay);
 
 /**
- * Ends a replay and its scene, which the caller owns. Null is ignored.
+ * Ends a replay and destroys its scene. Null is ignored.
  *
- * SWIFTPROX_ERROR_BUSY: another call uses the scene, and both live on. Other errors as of swiftprox_scene_destroy.
+ * SWIFTPROX_ERROR_BUSY: another call uses the scene; both stay alive. Else same errors as swiftprox_scene_destroy.
  *
  * Stable.
  */
@@ -90,19 +88,19 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_replay_close(struct swiftprox_replay *replay);
 
 /**
- * Gives the scene of a replay, which owns it: ask it what you like between the steps, change nothing, and do not destroy it. Null
- * for null.
+ * Returns the scene of a replay, which the replay owns. You may query it between the steps, but must not change or destroy it. For
+ * null it returns null.
  *
  * Stable.
  */
 struct swiftprox_scene *swiftprox_replay_scene(struct swiftprox_replay *replay);
 
 /**
- * Reads the next step. Set step->struct_size first. A recording that is cut off ends with its last whole record. On failure
- * `*step` says that there is no step.
+ * Reads the next step. Set step->struct_size first. An unfinished recording ends with its last whole record. On failure `*step`
+ * has no step.
  *
- * SWIFTPROX_ERROR_FILE: the recording is damaged here, the message says where; the steps before are good.
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the step before has not been done.
+ * SWIFTPROX_ERROR_FILE: the recording is damaged here; the message says where. Earlier steps are good.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: swiftprox_replay_change was not called for the step before.
  *
  * Stable.
  */
@@ -111,10 +109,10 @@ swiftprox_status swiftprox_replay_read(struct swiftprox_replay *replay,
                                        struct swiftprox_replay_step_info *step);
 
 /**
- * Does what was done in the step that was read, without its query.
+ * Applies the changes of the step that was read, without its query.
  *
- * SWIFTPROX_ERROR_FILE: the scene refuses it, as the program has changed it or the recording is damaged; it cannot be gone on
- * with.
+ * SWIFTPROX_ERROR_FILE: the scene refuses a change, because the program changed the scene or the recording is damaged. The replay
+ * cannot go on.
  *
  * Stable.
  */
@@ -122,20 +120,18 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_replay_change(struct swiftprox_replay *replay);
 
 /**
- * Makes the query of the step that was read and done, and holds its answer against the recorded one: the same pairs are to be
- * listed with the same outcomes, and the sums of their lower and of their upper ends are to be those of intervals that have a
- * number in common. That holds on every machine, except with a step budget: such answers are not checked. The answer is
- * as of the query itself; of a query about events it lists the pairs of pieces that are near. `*identical` is 1 if its distances,
- * intervals, points, normals and depths are bit for bit the recorded ones, else 0; `identical` may be null.
+ * Runs the query of the step that was read and applied, and checks its answer against the recording. Pairs and outcomes must be
+ * equal. The sums of lower ends and of upper ends must form intervals that overlap. This is guaranteed on every machine, except
+ * for queries with a step budget, which are not checked.
  *
- * With another `distance_tolerance` than SWIFTPROX_DEFAULT_TOLERANCE that is taken in place of the recorded one, and the answer is
- * not checked.
+ * The answer is as from the query itself; queries of events list near pairs of pieces. `*identical` is 1 if distances, intervals,
+ * points, normals and depths have the recorded bits, else 0; `identical` may be null. A `distance_tolerance` other than
+ * SWIFTPROX_DEFAULT_TOLERANCE replaces the recorded one, and the answer is not checked.
  *
- * SWIFTPROX_ERROR_UNVERIFIED: it is not the recorded answer; the message says what of it is not. The answer is there all the same;
- * on other failures it is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such query, or the step has not been done; or the
- * query is out of range, as the last of a recording that is cut off may be. SWIFTPROX_ERROR_FILE: the recording is damaged, its
- * query is about an object or a shape that it has not told of. SWIFTPROX_ERROR_HANDLE: the query is about an object that has been
- * removed.
+ * SWIFTPROX_ERROR_UNVERIFIED: the answer differs; the message says where. It is still returned; after other errors it is empty.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no query, the step was not applied, or the query is out of range. The last query of
+ * an unfinished recording may be. SWIFTPROX_ERROR_FILE: the query names an unknown object or shape. SWIFTPROX_ERROR_HANDLE: it
+ * names a removed object.
  *
  * Stable.
  */
@@ -146,7 +142,7 @@ swiftprox_status swiftprox_replay_ask(struct swiftprox_replay *replay,
                                       int32_t *identical);
 
 /**
- * Writes the number of an object of the replay's scene: how many there were before it in the recording. On failure it is 0.
+ * Writes the number of an object of the replay's scene: how many objects the recording has before it. On failure it is 0.
  *
  * Stable.
  */

@@ -20,9 +20,8 @@ extern "C" {
  */
 
 /**
- * Adds an object like `original`: with its pieces (shared) and their poses, its pose, fixedness, groups and mask, and all user
- * data, as they are now. All its pairs are active, whatever those of its original are; what pairs remember is not copied. On
- * failure nothing is added and `*id` is null.
+ * Adds a copy of `original` as it is now: its pieces (shared) and their poses, its pose, fixed flag, groups, mask and all user
+ * data. All pairs of the copy are active. Pair caches are not copied. On failure nothing is added and `*id` is null.
  *
  * SWIFTPROX_ERROR_LIMIT: more objects than a scene holds.
  *
@@ -34,9 +33,9 @@ swiftprox_status swiftprox_scene_copy_object(struct swiftprox_scene *scene,
                                              struct swiftprox_object_id *id);
 
 /**
- * Gives a piece of an object, by its number from 0: a size_t as info's piece_count is, where results and other calls have a
- * uint32_t, so that programs of before run on. The scene owns the share: take one more with swiftprox_shape_retain to keep
- * the shape longer than the object. On failure `*shape` is null.
+ * Returns the shape of a piece of an object. `piece` counts from 0; it is a size_t for compatibility, though results use a
+ * uint32_t. The scene owns the share. To keep the shape longer than the object, call swiftprox_shape_retain. On failure `*shape`
+ * is null.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
  *
@@ -49,12 +48,11 @@ swiftprox_status swiftprox_scene_get_piece(const struct swiftprox_scene *scene,
                                            const struct swiftprox_shape **shape);
 
 /**
- * Moves one piece within its object, by its number from 0: `pose` is 12 doubles, row-major [R|T]. The piece is in the world where
- * the object's pose times this one puts it, each of the twelve numbers rounded; its exact body is what these give. Points and
- * features of results are in the piece's own frame. On failure it stays where it is.
+ * Moves a piece, numbered from 0, within its object. `pose` is 12 doubles, row-major [R|T]. The piece's pose in the world is the
+ * object's pose times this one, each entry rounded; queries take the rounded pose as exact. Points and features of results are in
+ * the piece's own frame. On failure the piece does not move.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece. SWIFTPROX_ERROR_POSE: the pose is refused, alone or with the
- * object's.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such piece. SWIFTPROX_ERROR_POSE: the pose is refused, alone or with the object's.
  *
  * Stable.
  */
@@ -65,10 +63,10 @@ swiftprox_status swiftprox_scene_set_piece_pose(struct swiftprox_scene *scene,
                                                 const double *pose);
 
 /**
- * Writes where a piece of an object is in the world, 12 doubles, row-major [R|T]: the pose for which queries answer, as
- * swiftprox_pair_verify takes it. On failure they are NaN.
+ * Writes a piece's pose in the world: 12 doubles, row-major [R|T]. Queries use this pose, and swiftprox_pair_verify takes it. On
+ * failure the doubles are NaN.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such piece.
  *
  * Stable.
  */
@@ -79,8 +77,8 @@ swiftprox_status swiftprox_scene_get_piece_pose(const struct swiftprox_scene *sc
                                                 double *pose);
 
 /**
- * Sets the number of a piece, which swiftprox_scene_get_piece_user_data gives, and the events of listeners; 0 before. Results name
- * the object and the piece.
+ * Sets the caller's number of a piece; it is 0 at first. swiftprox_scene_get_piece_user_data and the events of listeners return
+ * it; other results name the object and the piece.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
  *
@@ -93,7 +91,7 @@ swiftprox_status swiftprox_scene_set_piece_user_data(struct swiftprox_scene *sce
                                                      uint64_t user_data);
 
 /**
- * Writes the caller's number of a piece, in a time that does not grow with the scene. On failure it is 0.
+ * Writes the caller's number of a piece. The time does not grow with the scene. On failure it is 0.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: the object has no such piece.
  *
@@ -106,11 +104,11 @@ swiftprox_status swiftprox_scene_get_piece_user_data(const struct swiftprox_scen
                                                      uint64_t *user_data);
 
 /**
- * A box along the world's axes that contains an object, swept radii included: the corners where all coordinates are least and
- * greatest, three numbers each. It is wider than the object by less than 1e-5 of the radius and the place of each piece; around a
- * piece of more than 512 vertices it is the box of that piece's own turned box. On failure all numbers are NaN.
+ * Writes the corners of a box along the world's axes that contains the object, swept radii included. Each corner has three
+ * numbers. The box exceeds the object by less than 1e-5 of each piece's radius and position. A piece of more than 512 vertices is
+ * represented by its oriented box instead. On failure all numbers are NaN.
  *
- * SWIFTPROX_ERROR_HANDLE: the id is null, stale or another scene's.
+ * SWIFTPROX_ERROR_HANDLE: the id is null, stale or of another scene.
  *
  * Stable.
  */
@@ -128,12 +126,11 @@ swiftprox_status swiftprox_scene_get_object_box(const struct swiftprox_scene *sc
  */
 
 /**
- * From now on queries test these pairs of objects and no others, however near: for a program with a broad phase of its own.
- * `pairs` holds 2 ids for each of the `count`, in any order; what is there twice is tested once. Activation, filters and fixed
- * objects are heeded as ever; objects removed later are in no pair. Pairs that stay keep what they remember. On failure the pairs
- * of before stay.
+ * Restricts queries to the given pairs of objects, however near others are; for programs with their own broad phase. `pairs` holds
+ * 2 ids for each of `count` pairs, in any order. Duplicates are tested once. Activation, filters and fixed objects are respected
+ * as usual; pairs of objects removed later are dropped. Remaining pairs keep their caches. On failure the former pairs stay.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: one object twice in a pair. The message says which.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: a pair names one object twice. The message says which.
  *
  * Stable.
  */
@@ -143,8 +140,7 @@ swiftprox_status swiftprox_scene_set_pairs(struct swiftprox_scene *scene,
                                            size_t count);
 
 /**
- * Takes back what swiftprox_scene_set_pairs has set: from now on the scene finds the pairs that are near by itself, as it did
- * before.
+ * Undoes swiftprox_scene_set_pairs: the scene finds near pairs by itself again.
  *
  * Stable.
  */
@@ -159,11 +155,11 @@ swiftprox_status swiftprox_scene_reset_pairs(struct swiftprox_scene *scene);
  */
 
 /**
- * The distance of a pair of the last query of contacts, or minus how deep it is: one interval through zero, normal and witness
- * points, as of swiftprox_pair_signed_distance. They come from swiftprox_pair_result.answer or swiftprox_contact.depth, at no
- * further search. `number` is the pair's among swiftprox_scene_contacts.contacts. On failure the answer's numbers are NaN.
+ * Returns the signed distance of a pair of the last query of contacts: its distance, or minus its penetration depth. One interval
+ * spans zero; normal and witness points are as from swiftprox_pair_signed_distance. It takes no further search. `number` is an
+ * index into swiftprox_scene_contacts.contacts. On failure the answer's numbers are NaN.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: there are not so many contacts, or the last query was none of contacts with a
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: number is too large, or the last query was not of contacts with a
  * swiftprox_scene_query.detail.
  *
  * Stable.
@@ -185,31 +181,31 @@ typedef struct swiftprox_object_pair {
   uint64_t user_data2;
 } swiftprox_object_pair;
 
-/** What has changed since the last query about events. */
+/** The changes since the last query of events. */
 typedef struct swiftprox_scene_events {
   /**
-   * Pairs of objects that are near and were not, in order of creation. Owned by the scene, valid until its next query about
-   * events. Null when began_count is 0.
+   * Pairs of objects that have become near, in order of creation. Owned by the scene, valid until its next query of events.
+   * Null if began_count is 0.
    */
   const struct swiftprox_object_pair *began;
-  /** How many. */
+  /** Number of pairs. */
   size_t began_count;
   /**
-   * Pairs of objects that were near and are not, those of removed objects and of deactivated pairs among them. Owned and valid
-   * as began are. Null when ended_count is 0.
+   * Pairs of objects that are no longer near, including those of removed objects and deactivated pairs. Owned and valid as
+   * began. Null if ended_count is 0.
    */
   const struct swiftprox_object_pair *ended;
-  /** How many. */
+  /** Number of pairs. */
   size_t ended_count;
 } swiftprox_scene_events;
 
 /**
- * Which pairs of objects began or ended touching (`distance` 0), or being within a distance, since the last call; the first call
- * lists all that are. Objects are near if any of their pieces are. It is a query as others are: results of queries before end. The
- * scene has one such memory; swiftprox_scene_listen has one for each listener, and tells of contact points. On failure `*events`
- * is empty, and what was near stays remembered.
+ * Lists pairs of objects that became or stopped being near since the last call; the first call lists all near pairs. Near means
+ * touching (`distance` 0) or within `distance`, for any of their pieces. Like all queries it ends the results of earlier ones. A
+ * scene has one such history. swiftprox_scene_listen has one per listener, and reports contact points. On failure `*events` is
+ * empty, and the history is unchanged.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the distance is negative or NaN.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: distance is negative or NaN.
  *
  * Stable.
  */
@@ -270,8 +266,8 @@ typedef struct swiftprox_scene_statistics {
 } swiftprox_scene_statistics;
 
 /**
- * What the queries of a scene did since it was made or swiftprox_scene_reset_statistics was called. On failure error_spent is NaN,
- * all else 0.
+ * Returns statistics of all queries since the scene was made or swiftprox_scene_reset_statistics was called. On failure
+ * error_spent is NaN, all else 0.
  *
  * Stable.
  */
@@ -288,10 +284,10 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_reset_statistics(struct swiftprox_scene *scene);
 
 /**
- * Queries without a tolerance are about all pairs of pieces. While these are no more than `limit`, each remembers its last answer,
- * which makes the next one several times faster and takes about 150 bytes, if there is memory for that. Of more than `limit` only
- * near pairs remember theirs. Results and their order are the same. Default: 1048576 pairs, about 150 MB, which 1448
- * single pieces make. 0: none but near pairs.
+ * Sets for how many pairs of pieces a scene keeps caches. Queries without a tolerance test all pairs. Up to `limit` pairs, each
+ * keeps its last answer, in about 150 bytes if there is memory. The next answer is then several times faster. Beyond `limit` only
+ * near pairs keep theirs, as with 0. Results and their order stay the same. Default: 1048576 pairs, about 150 MB, from 1448 single
+ * pieces.
  *
  * Stable.
  */
@@ -300,10 +296,10 @@ swiftprox_status swiftprox_scene_set_kept_pair_limit(struct swiftprox_scene *sce
                                                      uint64_t limit);
 
 /**
- * Gives back the memory that a scene keeps for later: that of the last query's results, which end, and that of pairs that are no
- * more. What the others remember stays. The next query takes anew what it needs.
+ * Frees memory that a scene keeps for later: the last query's results, which become invalid, and memory of removed pairs. Caches
+ * of other pairs stay. The next query allocates what it needs.
  *
- * SWIFTPROX_ERROR_MEMORY: there is not enough for a smaller list of pairs; nothing has changed.
+ * SWIFTPROX_ERROR_MEMORY: no memory for a smaller list of pairs; nothing has changed.
  *
  * Stable.
  */

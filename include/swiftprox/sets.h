@@ -18,15 +18,15 @@ extern "C" {
  * @{
  */
 
-/** Objects that a question is about. */
+/** A set of objects for a query. */
 typedef struct swiftprox_object_set {
-  /** Which, in any order. */
+  /** Their ids, in any order. */
   const struct swiftprox_object_id *ids;
-  /** How many. */
+  /** Number of objects. */
   size_t count;
-  /** 12 doubles for each object: where it is for this question. Null: where the scene has it. */
+  /** 12 doubles per object: its pose for this query. Null: the scene's poses. */
   const double *poses;
-  /** Not 0: pairs of two objects of the set are asked about, too. */
+  /** Not 0: pairs within the set are tested, too. */
   int32_t among;
 } swiftprox_object_set;
 
@@ -41,11 +41,11 @@ typedef struct swiftprox_object_set {
 typedef struct swiftprox_scratch swiftprox_scratch;
 
 /**
- * Makes room to work in for questions that threads ask a scene at once: about sets of objects, and of rays, grounds and
- * half-spaces. The caller owns it and gives it back with swiftprox_scratch_destroy. One thread at a time uses it, for any scenes.
- * Of sets it keeps what pairs of objects remember, which changes how fast an answer comes and which of several nearest points it
- * gives, never a verdict: where bits matter, take a new one. Rays, grounds and half-spaces remember nothing: whatever it has seen,
- * they are answered bit for bit as with a new one. On failure `*scratch` is null.
+ * Creates working memory for concurrent queries of object sets, rays, grounds and half-spaces. The caller owns it and frees it
+ * with swiftprox_scratch_destroy. It serves one thread at a time, and any scenes. On failure `*scratch` is null.
+ *
+ * For sets it keeps caches of pairs, which affect speed and the choice among several nearest points, never a verdict. Where bits
+ * matter, use a new scratch. Rays, grounds and half-spaces use no cache; a used scratch gives the same bits as a new one.
  *
  * Experimental.
  */
@@ -53,18 +53,17 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scratch_create(struct swiftprox_scratch **scratch);
 
 /**
- * Gives back what swiftprox_scratch_create made, and what it owns. Null is ignored.
+ * Frees a scratch and the results it owns. Null is ignored.
  *
  * Experimental.
  */
 void swiftprox_scratch_destroy(struct swiftprox_scratch *scratch);
 
 /**
- * Makes questions about sets fast after objects were moved, added or removed: they find what is near by the trees of the broad
- * phase, which this brings up to date. It changes no answer. Without it they go through what has changed one by one, and through
- * all pieces if many have.
+ * Updates the broad phase after objects were moved, added or removed, so that queries of sets are fast. It changes no answer.
+ * Without it, such queries test changed pieces one by one, or all pieces if many have changed.
  *
- * SWIFTPROX_ERROR_MEMORY: questions take longer.
+ * SWIFTPROX_ERROR_MEMORY: such queries take longer.
  *
  * Experimental.
  */
@@ -85,15 +84,12 @@ typedef struct swiftprox_least_distance {
 } swiftprox_least_distance;
 
 /**
- * The least distance between two sets of objects, or between a set and all other objects (against is null), with its interval and
- * a pair that has it. Of sets farther apart than cut_off (infinity: none are) no more than that is said.
+ * Returns the least distance between two sets, with its interval and a nearest pair. Null `against` means all other objects. For
+ * sets farther apart than cut_off the answer says only that; infinity means no limit. Only pairs that queries test count:
+ * activation, groups and the filter are respected. Two fixed objects are skipped, unless one of the sets has poses.
  *
- * Pairs are those that queries test: activation, groups and the filter are heeded. Two fixed objects are left out, unless one of
- * the sets has poses. Any number of threads may ask a scene at once that nobody changes, each with its own scratch; a null scratch
- * is made for the call.
- *
- * On failure the answer's numbers are NaN. SWIFTPROX_ERROR_INVALID_ARGUMENT: cut_off is negative or NaN. SWIFTPROX_ERROR_BUSY: the
- * scene is being changed. SWIFTPROX_ERROR_MEMORY, SWIFTPROX_ERROR_NULL_POINTER,
+ * Any number of threads may query a scene that no call changes, each with its own scratch. A null scratch means a temporary one.
+ * On failure the answer's numbers are NaN. SWIFTPROX_ERROR_INVALID_ARGUMENT: cut_off is negative or NaN.
  *
  * Experimental.
  */
@@ -127,13 +123,13 @@ typedef struct swiftprox_first_hit {
 } swiftprox_first_hit;
 
 /**
- * At which of many times a set of objects is no farther from something than margin: all other objects, and if set->among is not 0
- * one another. poses are 12 doubles for each object at the first time, then at the second, and so on; set->poses is not looked at,
- * nor are poses of times that are not tried. Pairs are those that queries test; both may be fixed. Threads and scratch as of
+ * Finds a time at which a set of objects is within margin of any other object, or of one another if set->among is not 0. poses
+ * holds 12 doubles per object for the first time, then for the second, and so on. set->poses and poses of untried times are not
+ * read. Only pairs that queries test count, but both objects may be fixed. Threads and scratch: as for
  * swiftprox_scene_least_distance.
  *
- * On failure nothing is said: time and tried are 0, the pair's ids null. Errors as of swiftprox_scene_least_distance;
- * SWIFTPROX_ERROR_INVALID_ARGUMENT also for an empty set, an unknown order, and a margin that is negative, infinite or NaN.
+ * On failure time and tried are 0, the pair's ids null. SWIFTPROX_ERROR_INVALID_ARGUMENT: an empty set, an unknown order, or a
+ * margin that is negative, infinite or NaN.
  *
  * Experimental.
  */

@@ -54,36 +54,33 @@ typedef enum swiftprox_lookup SWIFTPROX_INT32 {
 } swiftprox_lookup;
 
 /**
- * Which levels of detail and which look-up table a shape is made with, for swiftprox_shape_options.tuning. Begin with
- * SWIFTPROX_SHAPE_TUNING_DEFAULT, then change what should differ.
+ * Levels of detail and look-up table of a new shape, for swiftprox_shape_options.tuning. Initialise with
+ * SWIFTPROX_SHAPE_TUNING_DEFAULT.
  */
 typedef struct swiftprox_shape_tuning {
   /** Set by SWIFTPROX_SHAPE_TUNING_DEFAULT. */
   size_t struct_size;
-  /** How levels of detail are made. Default: automatic. */
+  /** How to make levels of detail. Default: automatic. */
   swiftprox_hierarchy hierarchy;
   /**
-   * Which table says where a query starts when the last one of the pair tells nothing. It is made by the first query that looks
-   * into it: less than a quarter of the time that making the shape took. A body smaller than 2^-200 or larger than 2^200 has
-   * none. Default: automatic.
+   * The table of starting points for queries with a cold cache. The first query that needs it makes it, in less than a quarter
+   * of the time of making the shape. Bodies smaller than 2^-200 or larger than 2^200 have none. Default: automatic.
    */
   swiftprox_lookup lookup;
   /**
-   * The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1, both exclusive; less
-   * where that many would have more features than faces of many corners have. Default: 0.25. This and the two that follow
-   * do not count for automatic levels.
+   * Fraction of triangles that each level keeps from the next finer one, strictly between 0 and 1. Faces with many corners may
+   * lower it. Default: 0.25. Automatic levels ignore this and the two members below.
    */
   double decimation;
-  /** No level has fewer triangles. Default: 50. */
+  /** The least number of triangles in a level. Default: 50. */
   size_t minimum_triangles;
-  /** No more levels than these. Default: 32. */
+  /** The largest number of levels. Default: 32. */
   size_t most_levels;
-  /** Radius of the sphere of a spherical table's sample points as a multiple of the body's radius, at least 1. Default: 2. */
+  /** For a spherical table: radius of the sphere of sample points as a multiple of the body's radius, at least 1. Default: 2. */
   double lookup_radius_factor;
   /**
-   * Resolution of the table: of shells, cells along a side of the square that all directions are mapped to, a power of two
-   * from 4 to 512; of a spherical table, increments from pole to pole, 2 to 512 (32, 16, 8: 5.625, 11.25, 22.5 degrees).
-   * Default: 0, which means what the number of vertices asks for, or 32.
+   * Resolution of the table. Shells: cells along a side of the square of directions, a power of two from 4 to 512. Spherical:
+   * increments from pole to pole, 2 to 512 (32 means 5.625 degrees). Default: 0, chosen by the number of vertices, or 32.
    */
   uint32_t lookup_resolution;
 } swiftprox_shape_tuning;
@@ -93,36 +90,33 @@ typedef struct swiftprox_shape_tuning {
 #define SWIFTPROX_SHAPE_TUNING_DEFAULT \
   {sizeof(swiftprox_shape_tuning), SWIFTPROX_HIERARCHY_AUTOMATIC, SWIFTPROX_LOOKUP_AUTOMATIC, 0.25, 50, 32, 2, 0}
 
-/**
- * Which levels of detail and which look-up table a shape has. Set struct_size to sizeof(swiftprox_shape_tuning_info) before asking
- * for it.
- */
+/** Levels of detail and look-up table of a shape. Set struct_size to sizeof(swiftprox_shape_tuning_info) before the call. */
 typedef struct swiftprox_shape_tuning_info {
   /** Set by the caller. */
   size_t struct_size;
   /** How the levels of detail are made. */
   swiftprox_hierarchy hierarchy;
-  /** The look-up table that the shape has, never SWIFTPROX_LOOKUP_AUTOMATIC. */
+  /** The look-up table, never SWIFTPROX_LOOKUP_AUTOMATIC. */
   swiftprox_lookup lookup;
   /**
-   * The number of levels of detail, the body itself not counted; they are numbered from 1, the finest, on, and the body is
-   * level 0. Automatic ones are made by the first query that goes through them: 0 until then.
+   * Number of levels of detail without the body, which is level 0. Level 1 is the finest. Automatic levels count after the first
+   * query that uses them.
    */
   size_t level_count;
-  /** Of swiftprox_shape_info.bytes, what the levels take, with their look-up tables once queries have made these. */
+  /** The part of swiftprox_shape_info.bytes for levels, including their look-up tables once made. */
   size_t level_bytes;
   /**
-   * Of swiftprox_shape_info.bytes, what the table takes, and maps of the support function: 0 until a query, or the making of
-   * levels, looks into the table, which makes it; of maps until an approximate distance does. Those of levels are the levels'.
+   * The part of swiftprox_shape_info.bytes for the shape's table and support maps. The table is made when a query or the making
+   * of levels needs it; maps when an approximate distance does. Those of levels are in level_bytes.
    */
   size_t lookup_bytes;
-  /** The table's resolution, as in swiftprox_shape_tuning; 0 without one. */
+  /** The table's resolution as in swiftprox_shape_tuning; 0 without a table. */
   uint32_t lookup_resolution;
 } swiftprox_shape_tuning_info;
 
 /**
- * Says which levels of detail and which look-up table a shape has: set info->struct_size to sizeof(swiftprox_shape_tuning_info)
- * first. On failure all is 0.
+ * Writes which levels of detail and look-up table a shape has. Set info->struct_size to sizeof(swiftprox_shape_tuning_info) first.
+ * On failure all members are 0.
  *
  * Experimental.
  */
@@ -130,32 +124,29 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_get_tuning_info(const struct swiftprox_shape *shape,
                                                  struct swiftprox_shape_tuning_info *info);
 
-/** A polygon mesh in the caller's arrays, as swiftprox_shape_create_from_mesh takes it. */
+/** A polygon mesh in the caller's arrays, as for swiftprox_shape_create_from_mesh. */
 typedef struct swiftprox_mesh {
   /** 3 * vertex_count coordinates. */
   const double *vertices;
-  /** The number of vertices. */
+  /** Number of vertices. */
   size_t vertex_count;
-  /** The 0-based vertex numbers of all faces, one face after the other. */
+  /** 0-based vertex numbers of all faces in turn. */
   const uint32_t *indices;
-  /** The number of vertices of each face, or null when all are triangles. */
+  /** Number of vertices of each face; null means triangles. */
   const uint32_t *valences;
-  /** The number of faces. */
+  /** Number of faces. */
   size_t face_count;
 } swiftprox_mesh;
 
 /**
- * Makes a shape with levels of detail that the caller gives; the caller owns it and gives it back with swiftprox_shape_release.
- * The finest level comes first: `levels[0]` is the body itself, as
- * swiftprox_shape_create_from_mesh takes it; of each further one the convex hull of its vertices counts (faces are not looked at
- * and may be left out), moved so that its centre of mass falls on that of the next finer level and scaled so that it barely
- * bounds the body. The arrays are copied. options->tuning->hierarchy is to be SWIFTPROX_HIERARCHY_NONE or automatic; the input
- * transform goes for all levels.
+ * Creates a shape with the caller's levels of detail, finest first. Release it with swiftprox_shape_release. The arrays are
+ * copied. `levels[0]` is the body, as for swiftprox_shape_create_from_mesh. Each other level is the convex hull of its vertices;
+ * its faces are ignored. It is moved to the centre of mass of the next finer level and scaled until it bounds the body.
  *
- * On failure `*shape` is null. `options` may be null for the defaults.
+ * options->tuning->hierarchy must be SWIFTPROX_HIERARCHY_NONE or automatic. The input transform applies to all levels.
  *
- * SWIFTPROX_ERROR_MESH: the body breaks the contract of swiftprox_shape_create_from_mesh, or a level has no interior; the message
- * names it.
+ * On failure `*shape` is null. SWIFTPROX_ERROR_MESH: the body breaks the rules of swiftprox_shape_create_from_mesh, or a level has
+ * no interior; the message names it.
  *
  * Experimental.
  */
@@ -165,7 +156,7 @@ swiftprox_status swiftprox_shape_create_from_levels(const struct swiftprox_mesh 
                                                     const struct swiftprox_shape_options *options,
                                                     const struct swiftprox_shape **shape);
 
-/** What a level of detail is. Set struct_size to sizeof(swiftprox_level_info) before asking for it. */
+/** Properties of a level of detail. Set struct_size to sizeof(swiftprox_level_info) before the call. */
 typedef struct swiftprox_level_info {
   /** Set by the caller. */
   size_t struct_size;
@@ -173,22 +164,19 @@ typedef struct swiftprox_level_info {
   size_t vertex_count;
   /** Edges between faces that are not coplanar. */
   size_t edge_count;
-  /** Faces, coplanar triangles counted as one. */
+  /** Faces; coplanar triangles count as one. */
   size_t face_count;
   /** Triangles of the level's hull. */
   size_t triangle_count;
-  /**
-   * An upper bound, rounding included, of the largest distance of a point of the level from the body; 0 for level 0, the
-   * body.
-   */
+  /** Upper bound of the largest distance of the level's points from the body, rounding included; 0 for level 0, the body. */
   double deviation;
-  /** Memory that the level holds, in bytes. */
+  /** Memory of the level in bytes. */
   size_t bytes;
 } swiftprox_level_info;
 
 /**
- * Says what a level of detail is: `level` is from 0, the body itself, to swiftprox_shape_tuning_info.level_count, the coarsest.
- * Set info->struct_size to sizeof(swiftprox_level_info) first. On failure the deviation is NaN, all else 0.
+ * Writes the properties of a level of detail. `level` is from 0, the body, to swiftprox_shape_tuning_info.level_count, the
+ * coarsest. Set info->struct_size to sizeof(swiftprox_level_info) first. On failure the deviation is NaN, all else 0.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level.
  *
@@ -200,9 +188,9 @@ swiftprox_status swiftprox_shape_get_level_info(const struct swiftprox_shape *sh
                                                 struct swiftprox_level_info *info);
 
 /**
- * Copies the vertices of a level of detail, in the local frame: `level` is from 0, the body itself, to
- * swiftprox_shape_tuning_info.level_count; `capacity` is how many `vertices` has room for (3 coordinates each), at least
- * swiftprox_level_info.vertex_count. For bodies far from their own origin the coordinates are rounded by a unit in the last place.
+ * Copies the vertices of a level of detail in the local frame, 3 coordinates each. `level` is from 0, the body, to
+ * swiftprox_shape_tuning_info.level_count. `capacity` is the room in vertices, at least swiftprox_level_info.vertex_count. Bodies
+ * far from their origin have coordinates rounded by one unit in the last place.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
  *
@@ -215,9 +203,8 @@ swiftprox_status swiftprox_shape_copy_level_vertices(const struct swiftprox_shap
                                                      size_t capacity);
 
 /**
- * Copies the triangles of a level of detail, 3 corners each, counter-clockwise seen from outside, as places in what
- * swiftprox_shape_copy_level_vertices gives; `capacity` is how many triangles `corners` has room for, at least
- * swiftprox_level_info.triangle_count.
+ * Copies the triangles of a level of detail: 3 corners each, counter-clockwise seen from outside, as indices into the vertices of
+ * swiftprox_shape_copy_level_vertices. `capacity` is the room in triangles, at least swiftprox_level_info.triangle_count.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such level, or capacity is too small; nothing is written.
  *
@@ -280,18 +267,17 @@ typedef enum swiftprox_refinement SWIFTPROX_INT32 {
 } swiftprox_refinement;
 
 /**
- * Where queries start and which levels of detail they go through, for swiftprox_pair_config.tuning and
- * swiftprox_scene_query.tuning. It changes how fast an answer comes, never the verdict. Begin with SWIFTPROX_PAIR_TUNING_DEFAULT,
- * then change what should differ.
+ * Start and levels of detail of queries, for swiftprox_pair_config.tuning and swiftprox_scene_query.tuning. It affects speed,
+ * never the verdict. Initialise with SWIFTPROX_PAIR_TUNING_DEFAULT.
  */
 typedef struct swiftprox_pair_tuning {
   /** Set by SWIFTPROX_PAIR_TUNING_DEFAULT. */
   size_t struct_size;
   /** Where marching starts. Default: the automatic choice. */
   swiftprox_start start;
-  /** Which levels of detail queries go through. Default: the automatic choice. */
+  /** Which levels of detail queries use. Default: the automatic choice. */
   swiftprox_levels levels;
-  /** How they go from level to level. Default: the adaptive way. */
+  /** How queries go from level to level. Default: adaptive. */
   swiftprox_refinement refinement;
 } swiftprox_pair_tuning;
 /** What the header calls its default. */

@@ -20,24 +20,19 @@ extern "C" {
  */
 
 /**
- * Re-checks an answer, trusting nothing of the search that found it. SWIFTPROX_OK: it holds for these shapes and poses.
+ * Checks an answer independently of the search that found it. SWIFTPROX_OK: it is right for these shapes and poses.
  *
- * Verdict and interval are proved for the exact objects R*v + T, with no tolerance. Separated and beyond: the distance is not 0,
- * and it is in [lower, upper]; a lower of 0 is said only of a distance below all doubles, or beyond a tolerance. Intersecting: the
- * differences of the proof's vertex pairs hold the origin in their hull. Undecided: the distance is at most upper. `distance` is
- * in the interval.
+ * Verdict and interval are proved without tolerance for the exact objects R*v + T. `distance` must be in the interval. Other
+ * members may be off by 2^-47 * (both radii + distances of the centres from each other and from their local origins). The normal
+ * must have unit length, and separate separated objects by at least lower. Witness points must lie in their objects and agree in
+ * both frames: on the features if separated, one common point for a contact. Unset numbers must be NaN. decided_by, statistics and
+ * the direction of a contact's normal are not checked.
  *
- * The other members are rounded, so they hold up to an allowance of 2^-47 (radius 1 + radius 2 + distance of the centres in the
- * world and of each from its local origin). The normal is of unit length; along it separated objects are at least lower apart.
- * The witness points are in their objects, and the same in both frames. Those of separated objects are on their features, at a
- * distance in [lower, upper]; those of a contact are one point. What an answer does not say is NaN. decided_by and statistics are
- * not checked, nor is more of a contact's normal than its length.
+ * Time is linear in the number of vertices.
  *
- * Takes time linear in the number of vertices: double-double arithmetic proves most intervals, integers the others.
- *
- * SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT: an enumerator in the
- * answer is unknown, it holds no outcome, its proof has no such vertex, or a normal or points are said of objects so large or far
- * apart that doubles cannot tell. SWIFTPROX_ERROR_POSE, SWIFTPROX_ERROR_NULL_POINTER: as of swiftprox_pair_distance.
+ * SWIFTPROX_ERROR_UNVERIFIED: the answer is wrong; the message says where. SWIFTPROX_ERROR_INVALID_ARGUMENT: the answer has an
+ * unknown enumerator, no outcome or no such vertex. It is also returned for normals or points of objects too large or far apart
+ * for doubles.
  *
  * Stable.
  */
@@ -47,17 +42,14 @@ swiftprox_status swiftprox_pair_verify(struct swiftprox_placed object1,
                                        const struct swiftprox_pair_answer *answer);
 
 /**
- * Re-checks a depth, trusting nothing of the search that found it; `cache` is that of the query, which holds the proof, or any
- * other: then a proof is searched for. SWIFTPROX_OK: it holds for these shapes and poses.
+ * Checks a depth independently of the search that found it. SWIFTPROX_OK: it is right for these shapes and poses. The query's
+ * `cache` holds the proof; with another cache the function searches for one.
  *
- * Verdict and interval are proved for the exact objects R*v + T, with no tolerance: that they overlap, touch or are separated, and
- * that the depth is in [lower, upper]. The other members are rounded, and hold up to the allowance of swiftprox_pair_verify:
- * points and features, and world2 - world1 is depth * normal up to that and upper - lower. How it ended and the statistics are not
- * checked.
+ * Verdict (overlapping, touching or separated) and interval are proved without tolerance for the exact objects R*v + T. Other
+ * members are checked up to the allowance of swiftprox_pair_verify. world2 - world1 must be depth * normal, up to that and
+ * upper - lower. Ending and statistics are not checked.
  *
- * Takes time linear in the number of vertices and in the size of the cache.
- *
- * Errors as of swiftprox_pair_verify.
+ * Time is linear in the number of vertices and the size of the cache. Same errors as swiftprox_pair_verify.
  *
  * Stable.
  */
@@ -68,22 +60,20 @@ swiftprox_status swiftprox_pair_depth_verify(struct swiftprox_placed object1,
                                              const struct swiftprox_depth_answer *answer);
 
 /**
- * Re-checks a manifold, trusting nothing of the search that found it; config is that of the query, and `cache` too, or any other:
- * then a proof of the depth is searched for. `points` holds the manifold's, manifold->point_count of them. SWIFTPROX_OK: it holds
- * for these shapes and poses.
+ * Checks a manifold independently of the search that found it. SWIFTPROX_OK: it is right for these shapes and poses. `config` is
+ * that of the query. With another `cache` than the query's, the function searches for a proof of the depth. `points` holds
+ * manifold->point_count points.
  *
- * Verdict and interval are proved for the exact objects R*v + T, with no tolerance, as by swiftprox_pair_verify and
- * swiftprox_pair_depth_verify. The other members are rounded. The normal is of unit length; along it objects that are apart are at
- * least lower apart, others overlap by at most -lower. Each point has a place on either object: no farther than b out of
- * it, no farther than b and the width of the gap behind a face that looks towards the other object, and the same in both frames.
- * The object has its feature; the place is no farther than b from that if it is a vertex or an edge. The gap is that of the two
- * places along the normal, up to the allowance of swiftprox_pair_verify; sideways they are no more than b off. One of the points
- * is as deep as the objects are, if none was left out.
+ * Verdict and interval are proved as in swiftprox_pair_verify and swiftprox_pair_depth_verify. The normal must have unit length:
+ * along it, separated objects are at least lower apart, others overlap by at most -lower. Points must be on their objects,
+ * features and line up to b, and agree in both frames. Behind a face they may also be off by the gap's width. Gaps must match the
+ * points up to the allowance of swiftprox_pair_verify. One point must have the full depth, unless points were left out.
  *
- * b is that allowance, 2^-25 of the pair's size (both radii and the distance of the centres) and eight times what contact faces
- * are thick at most. That a face is complete is not checked.
+ * b is that allowance plus 2^-25 of the pair's size plus eight times the largest thickness of contact faces. The size is both
+ * radii plus the distance of the centres. Completeness of faces is not checked.
  *
- * SWIFTPROX_ERROR_UNVERIFIED: it does not hold; the message says what. Others as of swiftprox_pair_verify and swiftprox_pair_manifold.
+ * SWIFTPROX_ERROR_UNVERIFIED: the manifold is wrong; the message says where. Other errors as in swiftprox_pair_verify and
+ * swiftprox_pair_manifold.
  *
  * Stable.
  */
@@ -103,19 +93,16 @@ swiftprox_status swiftprox_pair_manifold_verify(struct swiftprox_placed object1,
  */
 
 /**
- * Re-checks the answer of swiftprox_pair_cast for the same motions and configuration, trusting nothing of the search that found
- * it. SWIFTPROX_OK: it holds.
+ * Checks an answer of swiftprox_pair_cast for the same motions and config, independently of its search. SWIFTPROX_OK: it is right.
  *
- * Proved are, at every time and without tolerance: of a free pair that it is farther apart than the margin and at least
- * clearance; of all others that it is farther apart than the margin up to t_lo, if that is not the beginning; of a hit that it is
- * no farther apart than the margin and upper at t_hi; of a near miss that it is no farther apart than upper at t_lo. `contact` is
- * checked by swiftprox_pair_verify for the poses there. `queries` is not checked.
+ * It proves without tolerance, at every time: free pairs stay farther apart than the margin, and at least clearance. Other pairs
+ * stay farther apart than the margin up to t_lo, unless that is the beginning. Hits are at most the margin and upper apart at
+ * t_hi. Near misses are at most upper apart at t_lo. swiftprox_pair_verify checks `contact`. `queries` is not checked.
  *
- * Steps and directions come from a sweep without a cache. Each is proved over all vertices, so it takes time in proportion to
- * both.
+ * Time grows with the number of vertices times the number of steps.
  *
- * SWIFTPROX_ERROR_UNVERIFIED: something does not hold, or is not proved; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT:
- * an enumerator in the answer is unknown, or it holds no outcome. Others as of swiftprox_pair_cast and swiftprox_pair_verify.
+ * SWIFTPROX_ERROR_UNVERIFIED: something is wrong or unproved; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT: the answer
+ * has an unknown enumerator or no outcome. Other errors as in swiftprox_pair_cast and swiftprox_pair_verify.
  *
  * Experimental.
  */

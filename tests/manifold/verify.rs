@@ -214,8 +214,9 @@ fn forgeries_are_refused() {
     }
 }
 
-/// Two places as far beside a corner of the upper box: in line, their gap in an interval wide enough for both to be off. Cause: a point
-/// could be out of its body by what corners at one place are apart, 2⁻²⁵ of the size. Cut-off: 256 times the allowance, 1.4e-11 here.
+/// Two places as far beside a corner of the upper box: in line, their gap in an interval wide enough for both to be off. Cause: a
+/// point could be out of its body by what corners at one place are apart, 2⁻²⁵ of the size. Cut-off: 256 times the allowance,
+/// 1.4e-11 here.
 #[test]
 fn a_point_beside_its_body_is_refused_however_wide_its_gap() {
     let ([upper, lower], poses) = stacked(-0.0625, 0.3);
@@ -369,9 +370,9 @@ fn a_depth_beyond_the_largest_double_is_told_to_be_too_large() {
     assert_eq!(verify_depth(case.bodies(), &cache, &answer), told);
 }
 
-/// A corner of a cube beside a sliver 1e-5 long that stands on edge to the normal: no point is deeper than the objects are, and each is
-/// in its body. Cause: what is nearer than one place took its height from the sliver's plane, which goes on out of it a hundred times
-/// as far; the point was 1.3e-6 out of a body of 1e-5, with a gap of as much. From a slope of ten or so on.
+/// A corner of a cube beside a sliver 1e-5 long that stands on edge to the normal: no point is deeper than the objects are, and
+/// each is in its body. Cause: what is nearer than one place took its height from the sliver's plane, which goes on out of it a
+/// hundred times as far; the point was 1.3e-6 out of a body of 1e-5, with a gap of as much. From a slope of ten or so on.
 #[test]
 fn a_corner_beside_a_body_on_edge_is_as_high_as_that() {
     let sliver = [

@@ -88,8 +88,8 @@ fn points_at(points: &[Vector], [start, end]: &[Pose; 2], time: f64) -> Polytope
     Polytope::from_rationals(points.iter().map(at).collect())
 }
 
-/// Round bodies whose poses change linearly from one skewed pose to another. Between two doubles they are apart at the first and not
-/// at the second, in rational numbers: free until the second is refused, and a hit at the first.
+/// Round bodies whose poses change linearly from one skewed pose to another. Between two doubles they are apart at the first and
+/// not at the second, in rational numbers: free until the second is refused, and a hit at the first.
 #[test]
 fn one_double_beyond_the_first_contact_is_refused() {
     const IDENTITY: [f64; 12] = [1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 0.0, 1.0, 0.0];
@@ -153,8 +153,8 @@ fn one_double_beyond_the_first_contact_is_refused() {
     assert!(hits > 30, "{hits}");
 }
 
-/// A ball of 1/2 that flies at a cube of half side 1 from x = 3: at time t they are 1.5 − 2t apart. Another passes it at a distance of
-/// a quarter; and one whose pose at time 1, where it touches, is told exactly.
+/// A ball of 1/2 that flies at a cube of half side 1 from x = 3: at time t they are 1.5 − 2t apart. Another passes it at a
+/// distance of a quarter; and one whose pose at time 1, where it touches, is told exactly.
 #[test]
 fn closed_forms_of_flights_are_told_to_the_double_or_to_rounding() {
     let (ball, cube) = (swept(&[Vector::zeros()], 0.5), cuboid([1.0; 3]));

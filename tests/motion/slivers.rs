@@ -7,9 +7,9 @@ use testkit::shapes::hull;
 
 use crate::{moving, run};
 
-/// A needle of ten thousand times its thickness that flies at a tetrahedron. Cause: a climb on slivers ended below the farthest vertex,
-/// as single precision has it rise no more, and what its edges proved was half a body short; so a sweep found no step although the
-/// distance told of room. Of 90,000 casts of such bodies the check refused 31, this one among them.
+/// A needle of ten thousand times its thickness that flies at a tetrahedron. Cause: a climb on slivers ended below the farthest
+/// vertex, as single precision has it rise no more, and what its edges proved was half a body short; so a sweep found no step
+/// although the distance told of room. Of 90,000 casts of such bodies the check refused 31, this one among them.
 #[test]
 fn a_climb_that_ends_early_ends_no_proof() {
     let needle = [
@@ -51,8 +51,9 @@ fn a_climb_that_ends_early_ends_no_proof() {
     check_hit(&shapes, &still, &flight);
 }
 
-/// A point that flies at a bar a million times as long as thick. Cause: that they are deeper in each other than the poses are rounded
-/// was known by four differences of vertices; the check asked for a depth, whose lower end is 0 there. It refused 4 of 90,000.
+/// A point that flies at a bar a million times as long as thick. Cause: that they are deeper in each other than the poses are
+/// rounded was known by four differences of vertices; the check asked for a depth, whose lower end is 0 there. It refused 4 of
+/// 90,000.
 #[test]
 fn four_differences_prove_a_hit() {
     let (long, thin) = (574.289794921875, 0.000569205149076879);

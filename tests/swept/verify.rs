@@ -37,8 +37,8 @@ struct Case {
 }
 
 impl Case {
-    /// Points, segments, triangles, tetrahedra and hulls of eight points, one up to 10⁴ times as large as the other, apart or in each
-    /// other; and radii around their distance.
+    /// Points, segments, triangles, tetrahedra and hulls of eight points, one up to 10⁴ times as large as the other, apart or in
+    /// each other; and radii around their distance.
     fn new(random: &mut Random, round: usize) -> Case {
         let counts = [1, 2, 3, 4, 8];
         let sizes = [1.0, random.pick(&[1.0, 1e-2, 1e-4])];
@@ -102,8 +102,8 @@ fn is_refused(checked: Result<(), Error>) -> bool {
 }
 
 /// Of any kinds of bodies and poses. Cause: points of bodies that intersect by their radii were measured in the body's own frame,
-/// where the ball is not round; so half of all contacts at poses that shrink were refused, and points out of the ball passed at such
-/// as stretch. The common point of thin bodies that are nearly parallel was two, as much as 1e-8 of the radius apart.
+/// where the ball is not round; so half of all contacts at poses that shrink were refused, and points out of the ball passed at
+/// such as stretch. The common point of thin bodies that are nearly parallel was two, as much as 1e-8 of the radius apart.
 #[test]
 fn what_queries_say_passes_and_one_double_beyond_the_truth_does_not() {
     let mut random = Random::new(0x5ed1);
@@ -165,9 +165,9 @@ fn what_queries_say_passes_and_one_double_beyond_the_truth_does_not() {
     assert!(refused.iter().all(|&count| count > 1_000), "{refused:?}");
 }
 
-/// A point in a square with a ball of 1/2 swept over it is 1/2 deep: no less, not by one double. Cause: less than the radii left less
-/// than nothing for the polyhedra, which counted as touching. It showed from one double to 45 % too little, where the witness points
-/// gave it away, as what a manifold said of the depth, not as a depth.
+/// A point in a square with a ball of 1/2 swept over it is 1/2 deep: no less, not by one double. Cause: less than the radii left
+/// less than nothing for the polyhedra, which counted as touching. It showed from one double to 45 % too little, where the
+/// witness points gave it away, as what a manifold said of the depth, not as a depth.
 #[test]
 fn a_manifold_is_not_less_deep_than_its_radii() {
     let square = [[-1.0, -1.0, 0.0], [1.0, -1.0, 0.0], [1.0, 1.0, 0.0], [-1.0, 1.0, 0.0]].map(Vector::from);
@@ -223,8 +223,8 @@ fn the_ball_is_round_in_the_world() {
     assert!(seen > 40);
 }
 
-/// A cube that turns while its pose's entries change linearly is smaller in between; a ball that rests is hit all the same, and each
-/// hit is proved. Cause: as above; all 200 were refused.
+/// A cube that turns while its pose's entries change linearly is smaller in between; a ball that rests is hit all the same, and
+/// each hit is proved. Cause: as above; all 200 were refused.
 #[test]
 fn casts_of_balls_at_cubes_that_are_distorted_pass() {
     let (ball, cube) = (sphere(0.5), cuboid([1.0; 3]));
@@ -243,8 +243,8 @@ fn casts_of_balls_at_cubes_that_are_distorted_pass() {
     }
 }
 
-/// Thin bodies that are nearly parallel: where they are nearest is hardly told along them, and the normal is off the line between the
-/// two places. Cause: the common point was looked for along the normal, from either, and was two points.
+/// Thin bodies that are nearly parallel: where they are nearest is hardly told along them, and the normal is off the line between
+/// the two places. Cause: the common point was looked for along the normal, from either, and was two points.
 #[test]
 fn thin_bodies_have_a_common_point() {
     let mut random = Random::new(0x9e3d1e);

@@ -399,7 +399,8 @@ pub fn projected<S: Scalar>(product: S, correction: S) -> S {
     product * correction
 }
 
-/// How far a direction across an edge, of reciprocal length `inverse`, is out of the cone of its normals: what [`from_foot`] leaves.
+/// How far a direction across an edge, of reciprocal length `inverse`, is out of the cone of its normals: what [`from_foot`]
+/// leaves.
 #[inline(always)]
 pub fn misfit_across_edge<S: Scalar>(leaning: S, inverse: S) -> S {
     constant::<S>(UNIT_ROUNDOFF) * (constant::<S>(29.0) + constant::<S>(10.5) * leaning.abs() * inverse)
