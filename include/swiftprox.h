@@ -490,7 +490,7 @@ typedef enum swiftprox_outcome SWIFTPROX_INT32 {
   SWIFTPROX_OUTCOME_UNDECIDED = 4
 } swiftprox_outcome;
 
-/** What decided a pair query. Values are never reused. */
+/** What decided a pair query. */
 typedef enum swiftprox_decided_by SWIFTPROX_INT32 {
   /** Nothing: the value of a fresh answer. */
   SWIFTPROX_DECIDED_BY_NONE = 0,
@@ -712,7 +712,7 @@ swiftprox_status swiftprox_pair_approximate(struct swiftprox_placed object1,
  * @{
  */
 
-/** How a depth query ended. Values are never reused. */
+/** How a depth query ended. */
 typedef enum swiftprox_depth_ending SWIFTPROX_INT32 {
   /** Nothing was asked yet. */
   SWIFTPROX_DEPTH_ENDING_NONE = 0,

@@ -18,7 +18,7 @@ pub enum Outcome {
     Undecided = 4,
 }
 
-/// What decided a pair query. Values are never reused.
+/// What decided a pair query.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
 pub enum DecidedBy {

@@ -38,7 +38,7 @@ impl DepthConfig {
     }
 }
 
-/// How a depth query ended. Values are never reused.
+/// How a depth query ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
 pub enum DepthEnding {
