@@ -130,7 +130,7 @@ extern "C" {
  */
 const char *swiftprox_library_version(void);
 
-/** Status of a call. Numbers are never reused. */
+/** Status of a call. */
 typedef enum swiftprox_status SWIFTPROX_INT32 {
   /** Success. */
   SWIFTPROX_OK = 0,

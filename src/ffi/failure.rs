@@ -2,7 +2,7 @@
 
 use crate::base::error::Error;
 
-/// Status of a call. Numbers are never reused.
+/// Status of a call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(i32)]
 pub enum StatusCode {
