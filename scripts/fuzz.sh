@@ -55,7 +55,7 @@ export PROGRAMS=$CARGO_TARGET_DIR/$profile
 run() {
     local target=$1 limits=$2 new="$FOUND/$1" log="$TMPDIR/$1.log"
     mkdir -p "$new" "artifacts/$target"
-    if "$PROGRAMS/$target" "$new" "corpus/$target" $limits -max_len=512 -timeout=20 \
+    if "$PROGRAMS/$target" "$new" "corpus/$target" $limits -max_len=512 -timeout=60 \
         -rss_limit_mb=2048 -malloc_limit_mb=256 -artifact_prefix="artifacts/$target/" -print_final_stats=1 >"$log" 2>&1; then
         echo "fuzz: $target: $(sed -n 's/^stat::number_of_executed_units: *//p' "$log") executions, $(
             sed -n 's/.*\(cov: [0-9]*\).*/\1/p' "$log" | tail -n 1) edges, no failure"
