@@ -17,12 +17,12 @@
 //! ```
 //!
 //! [`pair`] queries are pure functions; a [`scene`] keeps objects, poses and caches and answers for all pairs at once. The C
-//! interface is documented in `include/swiftprox.h`, what both share in `docs/conventions.md`.
+//! interface is documented in `include/swiftprox.h`, the conventions of both in `docs/conventions.md`.
 //!
 //! See `ARCHITECTURE.md` for the data flow; the folders below are stages in that order, each using only those above it.
 
-// What is hidden from the documentation is public for tests, benchmarks, fuzzing and examples alone: it is no interface, and
-// changes without notice.
+// Items hidden from the documentation are public for tests, benchmarks, fuzzing and examples alone: they are no interface, and
+// change without notice.
 
 #[doc(hidden)]
 pub mod base;

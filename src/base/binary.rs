@@ -3,14 +3,14 @@
 use crate::base::error::{Error, Result};
 use crate::base::memory::{extend, with_capacity};
 
-/// FNV-1a, 64 bits, of nothing (G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm", IETF
-/// draft).
+/// The 64-bit FNV-1a hash of no bytes (G. Fowler, L. C. Noll, K.-P. Vo, D. Eastlake, "The FNV Non-Cryptographic Hash Algorithm",
+/// IETF draft).
 pub(crate) const EMPTY_CHECKSUM: u64 = 0xcbf2_9ce4_8422_2325;
 
-/// What FNV-1a multiplies by.
+/// The FNV-1a multiplier.
 pub(crate) const CHECKSUM_PRIME: u64 = 0x0000_0100_0000_01b3;
 
-/// The checksum of what has the checksum `before`, and these bytes behind it.
+/// The checksum of data with the checksum `before`, followed by these bytes.
 pub(crate) fn checksum(before: u64, bytes: &[u8]) -> u64 {
     bytes.iter().fold(before, |sum, byte| (sum ^ u64::from(*byte)).wrapping_mul(CHECKSUM_PRIME))
 }
@@ -41,10 +41,10 @@ impl Writer {
     }
 }
 
-/// Reads what is left of some bytes.
+/// Reads the rest of some bytes.
 #[derive(Debug)]
 pub(crate) struct Reader<'a> {
-    /// Whose bytes they are, in messages.
+    /// The owner of the bytes, for messages.
     whose: &'static str,
     whole: usize,
     pub(crate) rest: &'a [u8],
@@ -87,7 +87,7 @@ impl<'a> Reader<'a> {
         Ok(f64::from_le_bytes(self.raw()?))
     }
 
-    /// A list of items of so many bytes each; its length is checked against what is left before anything is allocated.
+    /// A list of items of so many bytes each; its length is checked against the rest before anything is allocated.
     pub(crate) fn list<T>(&mut self, size: usize, item: impl Fn(&mut Reader<'a>) -> Result<T>) -> Result<Vec<T>> {
         let count = self.number()? as usize;
         if count > self.rest.len() / size {

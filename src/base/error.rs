@@ -1,5 +1,5 @@
-//! What can go wrong: the caller's input, a limit of ours, a bug of ours. One enum; every message says what was wrong
-//! and where: which face, which vertex, which line of which file.
+//! Every possible failure: the caller's input, a limit of ours, a bug of ours. One enum; every message says what was wrong and
+//! where: which face, which vertex, which line of which file.
 
 use std::fmt;
 use std::ops::RangeInclusive;
@@ -19,11 +19,11 @@ pub enum Error {
     Handle(String),
     /// A limit of the library was reached: a count that does not fit.
     Limit(String),
-    /// The memory for an array is not there; the message says how much was asked for. Nothing has changed.
+    /// The memory for an array is not there; the message says how much was requested. Nothing has changed.
     Memory(String),
     /// The caller's callback asked to stop.
     Cancelled(String),
-    /// An answer that was to be verified does not hold; the message says what does not.
+    /// An answer failed its verification; the message says which fact does not hold.
     Unverified(String),
     /// A bug of ours, caught.
     Bug(String),
@@ -58,7 +58,7 @@ impl Error {
         }
     }
 
-    /// The same, with what it is about before the message.
+    /// The same, with its subject before the message.
     pub(crate) fn about(mut self, what: &str) -> Error {
         let (Error::Argument(m)
         | Error::Pose(m)

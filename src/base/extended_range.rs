@@ -21,7 +21,7 @@ impl Extended {
         if difference.is_finite() {
             return Extended::from(difference);
         }
-        // Twice the difference of the halves. What halving loses of a subnormal is nothing beside the other number.
+        // Twice the difference of the halves. The bit that halving loses of a subnormal is negligible beside the other number.
         let half = Extended::from(0.5 * p - 0.5 * q);
         Extended { exponent: half.exponent + 1, ..half }
     }
@@ -73,7 +73,7 @@ impl Add for Extended {
 
     /// Off by u of the sum, with the right sign.
     fn add(self, other: Extended) -> Extended {
-        // Beyond this, of mantissas as they are here, the smaller one is less than u² of the sum.
+        // Beyond this, for mantissas as they are here, the smaller one is less than u² of the sum.
         const FARTHEST: i32 = 600;
         let (large, small) = if self.exponent >= other.exponent { (self, other) } else { (other, self) };
         if large.mantissa == 0.0 {

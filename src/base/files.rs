@@ -1,4 +1,4 @@
-//! Files read and written, regular ones: whatever else bears a file's name is refused, not waited for. What is read whole is no
+//! Reads and writes regular files: whatever else bears a file's name is refused, not waited for. A file that is read whole is no
 //! larger than the limit.
 
 use std::fs::{File, OpenOptions};
@@ -75,7 +75,7 @@ fn open(options: &mut OpenOptions, path: &Path) -> std::io::Result<File> {
     options.open(path)
 }
 
-/// What is no regular file, in words.
+/// The kind of a file that is not regular, in words.
 fn kind(file_type: &std::fs::FileType) -> &'static str {
     #[cfg(unix)]
     {
@@ -93,7 +93,7 @@ fn kind(file_type: &std::fs::FileType) -> &'static str {
     if file_type.is_dir() { "a directory" } else { "no regular file" }
 }
 
-/// All that a reader gives, `expected` bytes or not: files of /proc say that they are empty, others grow meanwhile.
+/// All bytes that a reader gives, `expected` in number or not: files of /proc say that they are empty, others grow meanwhile.
 fn read_at_most(reader: impl Read, expected: u64, most: u64, name: &str) -> Result<Vec<u8>> {
     // One byte more, so that the end is seen without growing.
     let mut bytes = memory::with_capacity(usize::try_from(expected).unwrap_or(usize::MAX - 1) + 1)?;

@@ -1,4 +1,4 @@
-//! An order that keeps what is near in space near in memory: along a Z-order curve (G. M. Morton, 1966). Whatever walks over a
+//! An order that keeps neighbours in space near in memory: along a Z-order curve (G. M. Morton, 1966). Whatever walks over a
 //! surface of a million triangles waits for memory unless neighbours are neighbours there, too.
 
 use crate::base::error::Result;
@@ -7,7 +7,7 @@ use crate::base::memory::{collected, copied, extend, filled, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::sorting::sort_in_steps;
 
-/// Fewer points than these, and what is built of them, are in the caches in any order.
+/// Fewer points than these, and the data built from them, are in the caches in any order.
 const FEWEST: usize = 4096;
 
 /// The indices of all points in their order along the curve, those in one cell of it by index; as they are where they are few. So
@@ -90,7 +90,7 @@ pub fn is_identity(order: &[u32]) -> bool {
     order.iter().zip(0..).all(|(i, place)| *i == place)
 }
 
-/// Where each index of 0..n is in an order of them.
+/// The place of each index of 0..n in an order of them.
 pub fn places_of(order: &[u32]) -> Result<Vec<u32>> {
     let mut places = filled(0, order.len())?;
     for (place, i) in (0..).zip(order) {

@@ -1,8 +1,8 @@
-//! Locks whose content a panic does not spoil: what stands behind each is as good half done as whole, or done anew.
+//! Locks whose content a panic does not spoil: the value behind each is as good half done as whole, or done anew.
 
 use std::sync::{Mutex, MutexGuard, PoisonError};
 
-/// What stands behind a lock.
+/// The value behind a lock.
 #[inline(always)]
 pub(crate) fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)

@@ -46,7 +46,7 @@ pub fn are_finite(v: &Vector) -> bool {
     v.iter().all(|x| x.is_finite())
 }
 
-/// Whether |v|² is 1 up to 1e-9: what is asserted of unit vectors.
+/// Whether |v|² is 1 up to 1e-9: the assertion for unit vectors.
 #[inline]
 pub fn is_unit(v: &Vector) -> bool {
     (v.norm_squared() - 1.0).abs() <= 1e-9
@@ -106,7 +106,7 @@ impl Pose {
         self.rotate(p) + self.translation()
     }
 
-    /// The pose of what is at `inner` in a frame that is at this pose, each number rounded.
+    /// The pose of an object at `inner` in a frame that is at this pose, each number rounded.
     pub(crate) fn after(&self, inner: &Pose) -> Pose {
         Pose::new(&(self.rotation() * inner.rotation()), &self.transform(&inner.translation()))
     }
@@ -151,7 +151,7 @@ impl Pose {
     #[inline]
     pub fn checked_defect(&self, limit: f64) -> Result<f64> {
         let defect = self.rotation_defect();
-        // Of what is not finite 0·x is a NaN.
+        // If x is not finite, 0·x is a NaN.
         let is_finite = self.rows.iter().map(|[x, y, z, t]| 0.0 * (x + y + z + t)).sum::<f64>() == 0.0;
         if is_finite & (defect <= limit) && self.rotation().determinant() > 0.0 {
             return Ok(defect);

@@ -1,7 +1,8 @@
-//! Arrays in proportion to what a caller gave: asked for in a way that can be refused.
+//! Arrays in proportion to the caller's input: requested in a way that can be refused.
 //!
 //! Rust ends the program where memory is not there. A vector that grows with the input, or with a scene, therefore gets its room
-//! here: a refusal is [`Error::Memory`]. What is small whatever the input is need not ask; `docs/conventions.md` lists that.
+//! here: a refusal is [`Error::Memory`]. An allocation that is small for any input needs no such request; `docs/conventions.md`
+//! lists that.
 
 use std::any::Any;
 use std::cell::Cell;
@@ -28,7 +29,7 @@ pub(crate) fn filled<T: Clone>(value: T, count: usize) -> Result<Vec<T>> {
     Ok(list)
 }
 
-/// What an iterator gives.
+/// The items of an iterator.
 #[inline]
 pub(crate) fn collected<T>(items: impl IntoIterator<Item = T>) -> Result<Vec<T>> {
     let mut list = Vec::new();
@@ -50,7 +51,7 @@ pub(crate) fn reserve<T>(list: &mut Vec<T>, count: usize) -> Result<()> {
     if count > list.capacity() - list.len() { grow(list, count) } else { Ok(()) }
 }
 
-/// As [`reserve`], for an eighth of those there are: for what is large and stays, and seldom grows.
+/// Same as [`reserve`], for an eighth of the present length: for lists that are large and stay, and seldom grow.
 #[inline]
 pub(crate) fn reserve_sparingly<T>(list: &mut Vec<T>, count: usize) -> Result<()> {
     if count <= list.capacity() - list.len() {
@@ -70,7 +71,7 @@ pub(crate) fn push<T>(list: &mut Vec<T>, item: T) -> Result<()> {
     Ok(())
 }
 
-/// All that an iterator gives at the end. What is there after a refusal is part of it.
+/// Appends all items of an iterator. Those that are there after a refusal are among them.
 #[inline]
 pub(crate) fn extend<T>(list: &mut Vec<T>, items: impl IntoIterator<Item = T>) -> Result<()> {
     let items = items.into_iter();
@@ -96,7 +97,7 @@ pub(crate) fn push_to_heap<T: Ord>(heap: &mut BinaryHeap<T>, item: T) -> Result<
     Ok(())
 }
 
-/// What came of something, if anything did; only a lack of memory and a cancelling caller are errors here.
+/// The value of a result, if there is one; only a lack of memory and a cancelling caller are errors here.
 pub(crate) fn found<T>(result: Result<T>) -> Result<Option<T>> {
     match result {
         Err(error @ (Error::Memory(_) | Error::Cancelled(_))) => Err(error),
@@ -110,7 +111,7 @@ fn grow<T>(list: &mut Vec<T>, count: usize) -> Result<()> {
     list.try_reserve(count).map_err(|e| lacking::<T>(list.len().saturating_add(count), &e))
 }
 
-/// The error of a collection of the standard library that asked for room itself: for `count` of `T`.
+/// The error of a collection of the standard library that requested room itself: for `count` of `T`.
 #[cold]
 #[inline(never)]
 pub(crate) fn lacking<T>(count: usize, error: &TryReserveError) -> Error {
@@ -118,11 +119,11 @@ pub(crate) fn lacking<T>(count: usize, error: &TryReserveError) -> Error {
     Error::Memory(format!("there is no memory for an array of {bytes} bytes: {error}"))
 }
 
-/// What a panic carries where integers of any size get no new block (the crate dashu-int).
+/// The payload of the panic where integers of any size get no new block (the crate dashu-int).
 const NO_MEMORY: &str = "out of memory";
 
 /// … and where theirs is not made another size: its `Buffer::reallocate_raw` unwraps the pointer. Nothing of ours unwraps an
-/// option, as a test of the project sees to, and what else dashu-int unwraps is there.
+/// option, as a test of the project sees to, and all other options that dashu-int unwraps are there.
 const NO_OTHER_SIZE: &str = "called `Option::unwrap()` on a `None` value";
 
 thread_local! {
@@ -130,8 +131,8 @@ thread_local! {
     static CATCHES: Cell<bool> = const { Cell::new(false) };
 }
 
-/// Does what computes with integers of any size: their lack of memory is an error here, and no panic goes on that tells of it.
-/// `work` only computes: what it writes to, other than its result, nobody looks at after an error.
+/// Runs work that computes with integers of any size: their lack of memory is an error here, and the panic that reports it goes
+/// no further. `work` only computes: after an error its result alone is read, and nothing else that it writes to.
 ///
 /// # Errors
 /// [`Error::Memory`].
@@ -158,7 +159,7 @@ fn is_lack_of_memory(payload: &(dyn Any + Send)) -> bool {
     payload.downcast_ref::<&str>().is_some_and(|message| [NO_MEMORY, NO_OTHER_SIZE].contains(message))
 }
 
-/// A list of what an iterator gives, with room for a few more at least, for [`in_integers`].
+/// A list of an iterator's items, with room for a few more at least, for [`in_integers`].
 ///
 /// # Panics
 /// As integers do, where there is no memory.
@@ -176,12 +177,12 @@ pub(crate) fn listed<T>(items: impl IntoIterator<Item = T>) -> Vec<T> {
     list
 }
 
-/// What the first who needs it makes, while others who need it wait.
+/// A value that the first thread to need it makes, while others that need it wait.
 #[derive(Debug)]
 pub struct OnNeed<T> {
     made: OnceLock<T>,
-    /// Held while it is made. True where memory was lacking: then it is done without until somebody insists, as trying again takes
-    /// long.
+    /// Held while it is made. True where memory was lacking: then callers manage without it until one insists, as trying again
+    /// takes long.
     lacked: Mutex<bool>,
 }
 
@@ -191,13 +192,13 @@ impl<T> OnNeed<T> {
         OnNeed { made: OnceLock::new(), lacked: Mutex::new(false) }
     }
 
-    /// What is made.
+    /// The value, if it is made.
     #[inline(always)]
     pub fn get(&self) -> Option<&T> {
         self.made.get()
     }
 
-    /// Made by who can do without: `None` where memory is or was lacking.
+    /// Made for a caller that needs no value: `None` where memory is or was lacking.
     #[cold]
     #[inline(never)]
     pub fn make(&self, make: impl FnOnce() -> Result<T>) -> Option<&T> {
@@ -211,10 +212,10 @@ impl<T> OnNeed<T> {
         self.get()
     }
 
-    /// Made by who insists.
+    /// Made for a caller that insists.
     ///
     /// # Errors
-    /// What `make` says, usually [`Error::Memory`]; it is not made then.
+    /// Those of `make`, usually [`Error::Memory`]; the value is not made then.
     pub fn insist(&self, make: impl FnOnce() -> Result<T>) -> Result<()> {
         let mut lacked = locked(&self.lacked);
         if self.get().is_none() {

@@ -1,5 +1,5 @@
-//! What every stage stands on: errors, memory and files that may be refused, progress, vectors and poses, vector units,
-//! arithmetic whose signs and last bits are known, and threads. It knows nothing of polyhedra.
+//! The base of every stage: errors, memory and files that may be refused, progress, vectors and poses, vector units, arithmetic
+//! whose signs and last bits are known, and threads. It knows nothing of polyhedra.
 
 pub mod error;
 pub(crate) mod locks;

@@ -20,7 +20,7 @@ pub fn unit(v: &Vector) -> Vector {
     if largest == 0.0 {
         return v;
     }
-    // Keeps the squares in range; at most three rounds, all exact. What is infinite stays so.
+    // Keeps the squares in range; at most three rounds, all exact. Infinite values stay infinite.
     const STEP: f64 = f64::from_bits((1023 + 400) << 52);
     while v.amax() < 1.0 / STEP {
         v *= STEP;
@@ -56,7 +56,7 @@ pub fn normal_of(area: &WideVector, o: &Vector, p: &Vector, q: &Vector) -> Vecto
     }
 }
 
-/// As [`normal_of`], by integers: for the thinnest triangles.
+/// Same as [`normal_of`], by integers: for the thinnest triangles.
 #[cold]
 fn exact_normal(o: &Vector, p: &Vector, q: &Vector) -> Vector {
     let parts = [o, p, q].into_iter().flat_map(|v| v.iter().map(|x| mantissa_and_exponent(*x)));

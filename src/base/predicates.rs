@@ -84,7 +84,7 @@ impl ExactPoints {
         ExactPoints::new_in_steps(points, &mut Progress::new(&mut |_| true))
     }
 
-    /// As [`ExactPoints::new`], saying how far it is.
+    /// Same as [`ExactPoints::new`], with progress reports.
     ///
     /// # Errors
     /// [`crate::base::error::Error::Cancelled`] when the caller does not want to go on.
@@ -220,9 +220,9 @@ impl ExactPoints {
         FilteredPlane { corners, normal, error: FILTER * spread + self.guard }
     }
 
-    /// How far point `p` lies above the plane, in units of the length of its unscaled normal. The
-    /// sign is exact, the magnitude what [`ExactPoints::orientation`] says: of several points the
-    /// one with the largest is about the farthest, however small.
+    /// How far point `p` lies above the plane, in units of the length of its unscaled normal. The sign is exact, the magnitude
+    /// what [`ExactPoints::orientation`] says: among several points, the one with the largest is about the farthest, however
+    /// small.
     pub fn height(&self, plane: &FilteredPlane, p: u32) -> f64 {
         let a = &self.scaled[plane.corners[0] as usize];
         let point = &self.scaled[p as usize];
@@ -237,10 +237,10 @@ impl ExactPoints {
         if plane.corners.contains(&p) {
             return 0.0;
         }
-        // Both off by what is said at `plane`; the factor covers what is left to round.
+        // Both are off by the bound at `plane`; the factor covers the remaining rounding.
         let (normal, permanent) = normal_and_permanent(plane.corners.map(|i| &self.scaled[i as usize]));
         let length = Vector::from(normal).norm() - 8.0 * UNIT_ROUNDOFF * permanent.iter().sum::<f64>();
-        // What the filter does not decide may be told by a rank.
+        // A rank may decide where the filter does not.
         let height = self.height(plane, p).abs().max(plane.error);
         let bound = (height + plane.error) / length * (1.0 + 16.0 * UNIT_ROUNDOFF);
         if length > 0.0 { bound } else { f64::INFINITY }
@@ -289,7 +289,7 @@ impl ExactPoints {
 
     /// One coordinate of some points, as integers.
     fn integers<const N: usize>(&self, original: &[[f64; 3]], named: [u32; N], axis: usize) -> Integers<N> {
-        // Where there are averages, every point is the sum of four, in units of a quarter.
+        // If there are averages, every point is the sum of four, in units of a quarter.
         let count = if self.averages.is_empty() { 1 } else { 4 };
         let terms = named.map(|i| {
             let corners = (i as usize).checked_sub(original.len()).map_or([i; 4], |average| self.averages[average]);

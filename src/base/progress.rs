@@ -8,8 +8,8 @@ use crate::base::simd::environment;
 /// Steps between two reports. A step takes well below a microsecond; the longest, a sign from integers of 2,000 bits, some ten.
 const STEPS_A_REPORT: usize = 2048;
 
-/// Where a long build says how far it is: the caller's function gets a fraction that never falls, from 0 to 1, and returns whether
-/// to go on.
+/// Progress reports of a long build: the caller's function gets a fraction that never falls, from 0 to 1, and returns whether to
+/// go on.
 pub struct Progress<'a> {
     callback: &'a mut (dyn FnMut(f64) -> bool + 'a),
     start: f64,
@@ -24,7 +24,7 @@ impl<'a> Progress<'a> {
         Progress { callback, start: 0.0, end: 1.0, steps: 0 }
     }
 
-    /// A part of it: what reports to the part from 0 to 1 appears between `start` and `end` of the whole.
+    /// A part of it: reports to the part from 0 to 1 appear between `start` and `end` of the whole.
     pub fn part(&mut self, start: f64, end: f64) -> Progress<'_> {
         debug_assert!(0.0 <= start && start <= end && end <= 1.0);
         let length = self.end - self.start;
@@ -49,16 +49,16 @@ impl<'a> Progress<'a> {
     /// One step of a loop, `done` of `all` of which are done: reports now and then.
     ///
     /// # Errors
-    /// As [`Progress::report`].
+    /// Same as [`Progress::report`].
     #[inline]
     pub fn step(&mut self, done: usize, all: usize) -> Result<()> {
         self.steps(1, done, all)
     }
 
-    /// As [`Progress::step`], for what takes as long as `count` steps.
+    /// Same as [`Progress::step`], for work that takes as long as `count` steps.
     ///
     /// # Errors
-    /// As [`Progress::report`].
+    /// Same as [`Progress::report`].
     #[inline]
     pub fn steps(&mut self, count: usize, done: usize, all: usize) -> Result<()> {
         self.steps += count;

@@ -1,7 +1,7 @@
-//! Numbers that a formula of rounding is written for: doubles, or what stands for them where its rounding is proved (`proofs/`).
+//! Numbers that a formula of rounding is written for: doubles, or their stand-ins where its rounding is proved (`proofs/`).
 //!
-//! A formula on which a bound rests is generic over [`Scalar`], so that what is proved is what runs. For doubles all of it is
-//! inlined.
+//! A formula on which a bound rests is generic over [`Scalar`], so that the proved code is the code that runs. For doubles all of
+//! it is inlined.
 
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -32,7 +32,7 @@ impl Scalar for f64 {
     }
 }
 
-/// What can be added and multiplied: double-doubles, or what stands for them.
+/// Numbers that can be added and multiplied: double-doubles, or their stand-ins.
 pub trait Ring: Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> {}
 
 impl<D: Copy + Add<Output = D> + Sub<Output = D> + Mul<Output = D>> Ring for D {}

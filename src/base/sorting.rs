@@ -9,7 +9,7 @@ use crate::base::progress::Progress;
 /// As many items are sorted in a few milliseconds.
 const BLOCK: usize = 1 << 14;
 
-/// Sorts items of which `compare` tells any two apart: in blocks, then merged; fast where long parts are in order.
+/// Sorts items, any two of which `compare` tells apart: in blocks, then merged; fast where long parts are in order.
 ///
 /// # Errors
 /// [`crate::base::error::Error::Cancelled`] when the caller does not want to go on; the items are in any order then;
@@ -45,7 +45,7 @@ pub fn sort_in_steps<T: Copy>(
     Ok(())
 }
 
-/// Appends what two sorted lists hold, in order; tells of steps as it goes.
+/// Appends the items of two sorted lists, in order; reports steps as it goes.
 fn merge<T: Copy>(
     mut left: &[T],
     mut right: &[T],
@@ -84,7 +84,7 @@ mod tests {
         let mut random = Random::new(31);
         let counts = [0, 1, BLOCK - 1, BLOCK, BLOCK + 1, 3 * BLOCK, 5 * BLOCK + 7];
         for count in if cfg!(miri) { &counts[..2] } else { &counts[..] } {
-            // Many equal keys, told apart by what follows them.
+            // Many equal keys, told apart by the data that follow them.
             let random_keys: Vec<(u64, usize)> = (0..*count).map(|i| (random.next_u64() % 1000, i)).collect();
             let ascending: Vec<(u64, usize)> = (0..*count).map(|i| (i as u64 / 3, i)).collect();
             for items in [random_keys, ascending] {

@@ -39,7 +39,7 @@ pub fn fan_of(polyhedron: &Polyhedron) -> Result<Option<Fan>> {
     let Some(arcs) = arcs_around_corners(polyhedron, &corners)? else { return Ok(None) };
     let axes = axes_of(&arcs, corners.len())?;
     let reaches = collected(polyhedron.faces.iter().map(|face| reach_along(polyhedron, &face.normal)))?;
-    // Of each corner κ, rounded up, and how far the planes of its faces are beyond it.
+    // For each corner κ, rounded up, and how far the planes of its faces are beyond it.
     let (mut spreads, mut misses) = (filled(0.0_f64, corners.len())?, filled(0.0_f64, corners.len())?);
     for arc in &arcs {
         let (normal, position) = (&arc.normals[0], polyhedron.vertices[corners[arc.corner] as usize].position);
@@ -100,9 +100,9 @@ fn arcs_around_corners(polyhedron: &Polyhedron, corners: &[u32]) -> Result<Optio
     Ok(is_closed.then_some(arcs))
 }
 
-/// Of each corner, a unit vector that all of its faces' normals look along, as closely as it is found: from their sum on towards
-/// the centre of the least ball around them (Bădoiu and Clarkson 2003). The sum alone need not be one: at the base of a pyramid two
-/// steep sides outweigh the base.
+/// For each corner, a unit vector that all of its faces' normals look along, as closely as it is found: from their sum on towards
+/// the centre of the least ball around them (Bădoiu and Clarkson 2003). The sum alone need not be one: at the base of a pyramid
+/// two steep sides outweigh the base.
 fn axes_of(arcs: &[Arc], count: usize) -> Result<Vec<Vector>> {
     let mut axes = filled(Vector::zeros(), count)?;
     for arc in arcs {
@@ -110,7 +110,7 @@ fn axes_of(arcs: &[Arc], count: usize) -> Result<Vec<Vector>> {
     }
     axes.iter_mut().for_each(|axis| *axis /= axis.norm());
     let (mut best, mut centres) = (filled((f64::NEG_INFINITY, Vector::zeros()), count)?, copied(&axes)?);
-    // Of each corner the least product of its axis with a normal, and that normal.
+    // For each corner, the least product of its axis with a normal, and that normal.
     let mut least = filled((f64::INFINITY, Vector::zeros()), count)?;
     for round in 1..=ROUNDS_OF_CENTRES {
         least.fill((f64::INFINITY, Vector::zeros()));
@@ -135,7 +135,7 @@ fn axes_of(arcs: &[Arc], count: usize) -> Result<Vec<Vector>> {
 /// Steps towards the centre of a least ball: after so many it is found to one part in eight of the ball's radius.
 const ROUNDS_OF_CENTRES: u32 = 64;
 
-/// Directions of no symmetry, of which one is to be clear of all arcs.
+/// Directions without symmetry, one of which is to be clear of all arcs.
 const GENERIC: [[f64; 3]; 4] =
     [[0.2137, 0.5411, 0.8131], [-0.7419, 0.3137, 0.5923], [0.6131, -0.7717, 0.1693], [-0.3319, -0.4273, -0.8423]];
 
@@ -155,7 +155,7 @@ fn winding_about(g: &Vector, arcs: &[Arc], axes: &[Vector]) -> Option<i32> {
     for arc in arcs {
         let (q, [a, b]) = (&axes[arc.corner], &arc.normals);
         let sides = [g.dot(&a.cross(b)), q.dot(&g.cross(b)), q.dot(&a.cross(g))];
-        // All three look along the axis: what looks back from it is in the opposite triangle at most.
+        // All three look along the axis: a direction that looks back from it is in the opposite triangle at most.
         if g.dot(q) <= 0.0 || (sides.iter().any(|x| *x > CLEAR) && sides.iter().any(|x| *x < -CLEAR)) {
             continue;
         }

@@ -198,7 +198,7 @@ struct FacesAround<'a> {
     /// Each face once, or, where there are more than `MOST_FACES_TRIED`, once for each of its triangles, by angle.
     faces: Vec<u32>,
     starts: Vec<u32>,
-    /// Where there are so many: the angles of the triangles about the axis to the centre of mass, ascending.
+    /// In the latter case, the angles of the triangles about the axis to the centre of mass, ascending.
     angles: Vec<f64>,
 }
 
@@ -325,7 +325,7 @@ fn bare_faces(face_count: usize, holders: &[u32], label: u32) -> Result<Vec<(u32
 }
 
 /// Labels for the faces that hold no polygon, with those faces. They spread from faces that have one, across the flattest edge
-/// first: of a polygon that is not quite plane, and so several faces of the hull, all get its label before any gets another's.
+/// first: if a polygon is not quite plane, and so several faces of the hull, all get its label before any gets another's.
 fn borrowed_labels(
     polyhedron: &Polyhedron,
     holders: &[u32],

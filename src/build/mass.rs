@@ -73,7 +73,7 @@ fn solid(
     Ok((volume.hi > 0.0 && (0..3).all(inside)).then_some((volume.hi / 6.0, centre)))
 }
 
-/// The area-weighted centre of the surface; of a flat body that of the polygon.
+/// The area-weighted centre of the surface; for a flat body, that of the polygon.
 fn surface_centre(positions: &[Vector], triangles: &[[u32; 3]], areas: &[WideVector]) -> Vector {
     let mut total = 0.0;
     let mut moment = Vector::zeros();
@@ -86,12 +86,12 @@ fn surface_centre(positions: &[Vector], triangles: &[[u32; 3]], areas: &[WideVec
     if total > 0.0 { moment / (3.0 * total) } else { positions.iter().sum::<Vector>() / positions.len() as f64 }
 }
 
-/// The inertia tensor of a body of mass 1 about its centre of mass, in the axes of its local frame; of a body without interior that
-/// of its area or length.
+/// The inertia tensor of a body of mass 1 about its centre of mass, in the axes of its local frame; for a body without interior,
+/// that of its area or length.
 ///
 /// Everything is measured from the centre of mass, from where all tetrahedra over triangles are positive: so nothing cancels, and
-/// each entry is off by a few u of the largest. Heights over triangles are in double-double: of a thin body they have the digits
-/// that its thickness needs. What the centre's own rounding leaves is removed with the first moment.
+/// each entry is off by a few u of the largest. Heights over triangles are in double-double: for a thin body they have the digits
+/// that its thickness needs. The error that the centre's own rounding leaves is removed with the first moment.
 pub fn inertia(polyhedron: &Polyhedron) -> Matrix {
     // Near size 1: no square of a length leaves the doubles on the way.
     let radius = polyhedron.mass.radius;
@@ -123,7 +123,7 @@ fn covariance(polyhedron: &Polyhedron, factor: f64) -> Matrix {
         let weight = if is_solid { wide_dot(&a, &area).hi } else { narrow(&area).norm() };
         sums.add(weight, [a, b, c].map(|corner| narrow(&corner)));
     }
-    // Of a tetrahedron with a corner at the origin, and of a triangle: the integrals over their weights.
+    // For a tetrahedron with a corner at the origin, and for a triangle: the integrals over their weights.
     let (first, second) = if is_solid { (4.0, 20.0) } else { (3.0, 12.0) };
     let weight = sums.weight.hi;
     let aside = Vector::from_fn(|i, _| sums.first[i].hi / (first * weight));

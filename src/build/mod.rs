@@ -1,5 +1,5 @@
-//! From polygons or points to a polyhedron: the exact hull, what the input may be off by, merged faces, and how far each plane
-//! misses the hull.
+//! From polygons or points to a polyhedron: the exact hull, the noise of the input, merged faces, and how far each plane misses
+//! the hull.
 
 #[doc(hidden)]
 pub mod hull;

@@ -1,15 +1,15 @@
 //! How far the exact hull rises above a vertex along a floating direction: a rigorous upper bound without scanning all
 //! vertices and without exact arithmetic.
 //!
-//! The vertices x with n·x ≥ n·s form a connected part of the triangulated hull's graph, flat vertices included: a vertex
-//! that is not a global maximum of n·x has a neighbour with a strictly larger value (a local maximum of a linear function
-//! over a convex surface is global), and the vertices where the maximum is attained are connected. So a search from s over all
-//! vertices whose *computed* n·(x − s) is not certainly negative meets every vertex that matters.
+//! The vertices x with n·x ≥ n·s form a connected part of the triangulated hull's graph, flat vertices included: a vertex that is
+//! not a global maximum of n·x has a neighbour with a strictly larger value (a local maximum of a linear function over a convex
+//! surface is global), and the vertices where the maximum is attained are connected. So a search from s over all vertices whose
+//! *computed* n·(x − s) is not provably negative meets every vertex that matters.
 //!
 //! A search that meets the apex of a cone looks at all its neighbours, and for all faces of the cone together that would be the
-//! square of their number. So the effort is limited, and what it does not suffice for is bounded by the planes of two triangles
-//! at an edge, which takes no search: with their exact outward normals mᵢ and a vertex a of both, mᵢ·(x − a) ≤ 0 on the whole
-//! hull, hence n·(x − a) ≤ |n − c₁m₁ − c₂m₂|·|x − a| for all cᵢ ≥ 0.
+//! square of their number. So the effort is limited, and the rest is bounded by the planes of two triangles at an edge, which
+//! takes no search: with their exact outward normals mᵢ and a vertex a of both, mᵢ·(x − a) ≤ 0 on the whole hull, hence n·(x − a)
+//! ≤ |n − c₁m₁ − c₂m₂|·|x − a| for all cᵢ ≥ 0.
 
 use crate::base::double_double::{wide_difference, wide_dot, widen};
 use crate::base::error::Result;
@@ -26,7 +26,7 @@ const NORMAL_ERROR: f64 = 2.5 * UNIT_ROUNDOFF;
 /// Below this Σ|nᵢ||xᵢ − sᵢ| the products might underflow; 2⁻⁹⁰⁰.
 const SMALLEST: f64 = f64::from_bits((1023 - 900) << 52);
 
-/// A hull whose extent along directions is asked for, with scratch for it.
+/// A hull whose extent along directions is queried, with scratch for it.
 #[derive(Debug, Clone)]
 pub struct RiseBounds<'a> {
     surface: &'a Triangulation,
@@ -89,7 +89,7 @@ impl<'a> RiseBounds<'a> {
     pub fn rise_beside(&self, normal: &Vector, start: u32, half_edge: u32, beside: [&Vector; 2]) -> f64 {
         let [from_first, between] = [normal - beside[0], beside[1] - beside[0]];
         let square = between.norm_squared();
-        // c₁ = 1 − t, c₂ = t. Where the normals are equal, or a NaN comes of it, either will do.
+        // c₁ = 1 − t, c₂ = t. Where the normals are equal, or the result is a NaN, either will do.
         let t = if square > 0.0 { (from_first.dot(&between) / square).clamp(0.0, 1.0) } else { 0.0 };
         let t = if t.is_nan() { 0.0 } else { t };
         let rest = from_first - between * t;

@@ -1,4 +1,4 @@
-//! Which faces of the hull a polygon lies over that is not all of it on one: its corners are off a plane by their precision, and
+//! The faces of the hull that a polygon lies over if it is not all on one: its corners are off a plane by their precision, and
 //! the hull's faces over it go their own ways.
 
 use crate::base::error::Result;
@@ -6,7 +6,7 @@ use crate::base::math::Vector;
 use crate::base::memory::{filled, push};
 use crate::polyhedron::{Face, NONE, Polyhedron};
 
-/// A face looks the way a polygon does whose normals have at least this cosine. What is steeper is another side of the body, or
+/// A face looks the way a polygon does if their normals have at least this cosine. A steeper face is another side of the body, or
 /// next to nothing of the polygon.
 const ALIKE: f64 = 0.5;
 
@@ -15,7 +15,7 @@ pub struct Spread<'a> {
     polyhedron: &'a Polyhedron,
     /// How far corners of a polygon may be off the plane of a face over it.
     near: f64,
-    /// What rounding may make of a length.
+    /// A bound of the rounding error of a length.
     bound: f64,
     /// The last polygon that came to each face.
     seen: Vec<u32>,

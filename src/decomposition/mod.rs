@@ -7,11 +7,11 @@
 //! 1. all its triangles stay on the boundary of its hull: no vertex lies above the plane of a triangle, and
 //! 2. nothing else of the surface passes through the inside of the hull.
 //!
-//! Of a closed surface the hull is therefore inside of the body: next to the patch it is, and the surface does not cut it. So the
-//! pieces of bodies that are apart are as far apart as the surfaces. Where a surface has no inside (it is open, or a cavity) its
-//! patches are flat, and the hull is a part of the surface itself.
+//! For a closed surface the hull is therefore inside of the body: next to the patch it is, and the surface does not cut it. So
+//! the pieces of bodies that are apart are as far apart as the surfaces. Where a surface has no inside (it is open, or a cavity)
+//! its patches are flat, and the hull is a part of the surface itself.
 //!
-//! Both tests are exact for a tolerance of 0. Otherwise what is closer to a plane than the tolerance counts as on it.
+//! Both tests are exact for a tolerance of 0. Otherwise any point closer to a plane than the tolerance counts as on it.
 
 mod triangulation;
 mod surface;
@@ -51,11 +51,11 @@ impl Decomposition {
     }
 }
 
-/// Decomposes the surface of a mesh, which may be in several parts and need not be convex. `tolerance` is relative to the bounding
-/// box's diagonal: what is that close to a plane counts as on it, so that a piece may be that far beyond the surface.
+/// Decomposes the surface of a mesh, which may be in several parts and need not be convex. `tolerance` is relative to the
+/// bounding box's diagonal: a point that close to a plane counts as on it, so that a piece may be that far beyond the surface.
 ///
-/// Faces of more than three corners are cut into triangles; they may be non-convex, and are to be flat about. Of a face whose
-/// corners are on one line, or equal, nothing is left. A surface whose closed parts are all inside out is turned.
+/// Faces of more than three corners are cut into triangles; they may be non-convex, and are to be flat about. A face whose
+/// corners are on one line, or equal, vanishes. A surface whose closed parts are all inside out is turned.
 ///
 /// # Errors
 /// [`crate::base::error::Error::Argument`] for a tolerance out of range; [`crate::base::error::Error::Mesh`] for a mesh without
@@ -90,7 +90,7 @@ fn decomposed(mesh: &PolygonMesh, tolerance: f64, progress: &mut Progress) -> Re
     Ok(decomposition)
 }
 
-/// Of the bounding box; halves, so that no finite coordinate overflows.
+/// The diagonal of the bounding box; halves, so that no finite coordinate overflows.
 fn diagonal(points: &[Vector]) -> f64 {
     let mut bounds = [Vector::repeat(f64::INFINITY), Vector::repeat(f64::NEG_INFINITY)];
     for point in points {

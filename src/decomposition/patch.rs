@@ -46,7 +46,7 @@ impl Bounds {
     }
 }
 
-/// Something that is not of the patch, and what keeps the patch's hull away from it, once that was asked.
+/// Something that is not of the patch, and the reason why the patch's hull stays away from it, once that was queried.
 struct Obstacle<Thing, Kept> {
     thing: Thing,
     kept_by: Option<Kept>,
@@ -64,7 +64,7 @@ impl<Thing, Kept> Obstacle<Thing, Kept> {
         self.kept_by.is_some()
     }
 
-    /// What held for a patch that did not come about: it may hold the whole of a smaller one.
+    /// Forgets the result for a patch that did not come about: it may hold the whole of a smaller one.
     fn forget_beyond(&mut self, vertex_count: usize) {
         if self.vertex_count > vertex_count {
             self.kept_by = None;
@@ -83,9 +83,9 @@ struct Rim {
 struct Patch {
     triangles: Vec<u32>,
     vertices: Vec<u32>,
-    /// Of its triangles.
+    /// The planes of its triangles.
     planes: Vec<Plane>,
-    /// Of its seed.
+    /// The normal of its seed.
     normal: Vector,
     is_flat: bool,
     is_solid: bool,
@@ -96,7 +96,7 @@ struct Patch {
     rims: Vec<Obstacle<Rim, Line>>,
 }
 
-/// Which triangles patches have taken.
+/// The triangles that patches have taken.
 pub struct Growth<'a> {
     surface: &'a Surface,
     bounds: Vec<Bounds>,
@@ -281,8 +281,8 @@ impl Growth<'_> {
     }
 }
 
-/// The edges of triangles with area beyond which there is nothing, a triangle in the same plane that faces the other way, or one
-/// without area, of which neither is known.
+/// The edges of triangles with area that have nothing beyond them, a triangle in the same plane that faces the other way, or one
+/// without area, for which neither is known.
 fn rims(surface: &Surface) -> Result<Vec<Rim>> {
     let mut found = Vec::new();
     for (t, corners) in surface.triangles.iter().enumerate() {

@@ -44,7 +44,7 @@ pub struct HullOfPatch {
 }
 
 impl HullOfPatch {
-    /// Of some vertices; it only proposes planes, so that their rounded positions are good enough.
+    /// The hull of some vertices; it only proposes planes, so that their rounded positions are good enough.
     pub fn new(surface: &Surface, vertices: &[u32]) -> Result<HullOfPatch> {
         let positions: Vec<Vector> = collected(vertices.iter().map(|v| surface.position[*v as usize]))?;
         let hull = convex_hull(&positions)?;
@@ -72,7 +72,7 @@ impl HullOfPatch {
     }
 }
 
-/// A plane between a patch and a triangle that is quickly found: of the triangle, or of one of the patch.
+/// A quickly found plane between a patch and a triangle: that of the triangle, or of one of the patch.
 pub fn near_separation(
     surface: &Surface,
     planes: &[Plane],

@@ -24,7 +24,7 @@ pub struct Plane {
 pub struct Surface {
     pub points: ExactPoints,
     pub position: Vec<Vector>,
-    /// Their corners; of exactly equal vertices the first.
+    /// Their corners; among exactly equal vertices, the first.
     pub triangles: Vec<[u32; 3]>,
     /// The face of the mesh that each is a part of.
     pub faces: Vec<u32>,
@@ -40,7 +40,7 @@ impl Surface {
     /// From a mesh in the caller's numbering. `margin` is a length.
     ///
     /// # Errors
-    /// As [`decompose`](crate::decomposition::decompose).
+    /// Same as [`decompose`](crate::decomposition::decompose).
     pub fn new(mesh: &PolygonMesh, margin: f64, progress: &mut Progress) -> Result<Surface> {
         debug_assert!(margin >= 0.0);
         check_indices(mesh)?;
@@ -139,10 +139,10 @@ impl Surface {
         for t in part {
             let [a, b, c] = self.triangles[*t as usize].map(|v| self.position[v as usize] - origin);
             sum += a.dot(&b.cross(&c));
-            // Of a product of three entries there are six, each below the product of the largest ones.
+            // There are six products of three entries, each below the product of the largest ones.
             magnitude += 6.0 * a.amax() * b.amax() * c.amax();
         }
-        // Of a term the differences and products are off by 8u of its magnitude, the sum by u of all for each term.
+        // The differences and products of a term are off by 8u of its magnitude, the sum by u of all for each term.
         let bound = (part.len() as f64 + 8.0) * UNIT_ROUNDOFF * magnitude;
         if sum.abs() > bound { sum.signum() } else { 0.0 }
     }
@@ -166,7 +166,7 @@ fn triangles_of(
         while polygon.len() > 1 && polygon.first() == polygon.last() {
             polygon.pop();
         }
-        // What is left of a face whose corners are equal: its neighbours meet each other there.
+        // The rest of a face whose corners are equal: its neighbours meet each other there.
         if polygon.len() < 3 {
             continue;
         }

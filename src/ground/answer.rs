@@ -1,4 +1,4 @@
-//! What is said of a body that meets a ground.
+//! The answer for a body that meets a ground.
 
 use super::room::Room;
 use crate::pair::{Manifold, ManifoldPoint};
@@ -12,7 +12,7 @@ pub struct GroundContact {
     pub manifold: Manifold,
     /// The triangle that has the least.
     pub triangle: u32,
-    /// Where among all points those of the contact begin.
+    /// Start of the contact's points among all points.
     pub first_point: usize,
 }
 
@@ -22,7 +22,7 @@ pub struct GroundContact {
 pub struct GroundContacts {
     /// By their triangles.
     pub contacts: Vec<GroundContact>,
-    /// Of each contact its points together. The face of object 2 is a triangle of the ground.
+    /// The points of each contact, together. The face of object 2 is a triangle of the ground.
     pub points: Vec<ManifoldPoint>,
     pub(super) room: Room,
 }

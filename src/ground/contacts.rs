@@ -1,4 +1,4 @@
-//! Where a body meets a ground: contacts with normals of the surface.
+//! Contacts of a body with a ground, with normals of the surface.
 
 use super::PlacedGround;
 use super::answer::GroundContacts;
@@ -18,19 +18,20 @@ use crate::pair::{
 };
 use crate::shape::{Triangle, TriangleShape};
 
-/// Where a body, which is object 1, meets a ground, or is up to `config.margin` apart; written over what `found` holds.
+/// Finds the contacts of a body, which is object 1, with a ground that it meets or is up to `config.margin` apart from. Writes
+/// them over the contents of `found`.
 ///
-/// The ground pushes out of the front of its triangles. A triangle acts on bodies whose centre of mass is not behind its plane. The
-/// normal of a contact is the one along which the body and the triangle are nearest, or overlap least, where that is in the normal
-/// cone of the surface at the point that is touched; else it is the triangle's. So no contact holds a body up that slides over an
-/// edge which is flat or concave. Contacts with one normal are one, however many triangles they are on.
+/// The ground pushes out of the front of its triangles. A triangle acts on bodies whose centre of mass is not behind its plane.
+/// The normal of a contact is the one along which the body and the triangle are nearest, or overlap least, if that is in the
+/// normal cone of the surface at the touched point; else it is the triangle's. So no contact holds up a body that slides over a
+/// flat or concave edge. Contacts with one normal are one, however many triangles they are on.
 ///
 /// A gap is that of the body's point over the point on the triangle, along the normal, and holds for them. Whether a body touches a
 /// triangle is as certain as [`pair::signed_distance`] says. There is no cache, so that four points of a reduced contact are chosen
 /// anew each time.
 ///
 /// # Errors
-/// As of [`pair::manifold`]; then `found` is empty. [`Error::Memory`](crate::base::error::Error::Memory).
+/// Same as [`pair::manifold`]; then `found` is empty. [`Error::Memory`](crate::base::error::Error::Memory).
 pub fn ground_contacts(
     body: Placed,
     ground: PlacedGround,
@@ -47,10 +48,10 @@ pub fn ground_contacts(
     asked
 }
 
-/// The same, added behind what `found` holds; what is there after a refusal is part of it.
+/// The same, appended to the contents of `found`; contacts that are there after a refusal are part of it.
 ///
 /// # Errors
-/// As [`ground_contacts`].
+/// Same as [`ground_contacts`].
 pub(crate) fn add_contacts(
     body: Placed,
     ground: PlacedGround,
@@ -84,14 +85,14 @@ pub(crate) fn add_contacts(
     })
 }
 
-/// What a walk over the triangles near a body has found.
+/// The findings of a walk over the triangles near a body.
 struct Meeting<'a> {
     body: Placed<'a>,
     ground: PlacedGround<'a>,
     reach: Reach,
     within: PairConfig,
     all: ManifoldConfig,
-    /// The triangle that is asked about.
+    /// The query's triangle.
     shape: &'a mut TriangleShape,
     touches: &'a mut Vec<Touch>,
     points: &'a mut Vec<ManifoldPoint>,
@@ -171,7 +172,7 @@ impl Meeting<'_> {
     fn touch(&mut self, triangle: u32, contact: &SignedDistance, is_over: bool) -> Result<()> {
         let bodies = [self.body, self.shape.shown().at(self.ground.pose)];
         let first_point = self.points.len();
-        // What is not over the triangle is none of the points that faces have in common, however deep it is.
+        // A point that is not over the triangle is none of the points that faces have in common, however deep it is.
         let far = SignedDistance { lower: f64::INFINITY, upper: f64::INFINITY, ..*contact };
         let along = if is_over { contact } else { &far };
         let manifold = add_points(self.points, |sink| manifold_along(bodies, along, &self.all, sink))?;
@@ -198,13 +199,14 @@ impl Meeting<'_> {
     }
 }
 
-/// A contact turned to the normal of its triangle, of which a corner is given in the world: a low point of the body, the witness
-/// point unless it was above, and what is below that on the plane. `lower` and `upper` become its height over the plane.
+/// A contact turned to the normal of its triangle, given one of the triangle's corners in the world. Its points are a low point
+/// of the body, the witness point unless it was above, and the point below that on the plane. `lower` and `upper` become its
+/// height over the plane.
 fn along(up: &Vector, corner: &Vector, contact: &SignedDistance, body: &Placed) -> SignedDistance {
     debug_assert!(is_unit(up));
     let (polyhedron, radius) = (body.shape.polyhedron(), body.shape.swept_radius());
     let normal = Vector::from(contact.normal);
-    // Of the polyhedron; from there it is the radius to the ball's lowest.
+    // A point of the polyhedron; from there it is the radius to the ball's lowest.
     let (own, feature1) = if normal.dot(up) > 0.0 {
         (Vector::from(contact.world1) + normal * radius, contact.feature1)
     } else {
@@ -247,7 +249,7 @@ mod tests {
     use crate::random::Random;
     use crate::shape::{Shape, ShapeOptions, TriangleShape};
 
-    /// A manifold reads nothing of a triangle but what [`TriangleShape::show`] moves: the rest is that of another triangle.
+    /// A manifold reads only the data of a triangle that [`TriangleShape::show`] moves: the rest is that of another triangle.
     #[test]
     fn a_manifold_needs_no_more_of_a_triangle_than_is_shown() {
         let mut random = Random::new(0x5ee);

@@ -10,10 +10,10 @@ use crate::polyhedron::{NONE, Polyhedron};
 use crate::shape::Triangle;
 use crate::solve::state::FeatureId;
 
-/// Rotations of which no entry of RᵀR − I exceeds this are taken for rigid, and their transpose for the inverse.
+/// Rotations with no entry of RᵀR − I above this are taken for rigid, and their transpose for the inverse.
 const RIGID: f64 = 16.0 * U;
 
-/// What a face of the body says of a triangle.
+/// The verdict of a face of the body on a triangle.
 pub(super) enum Behind {
     /// The triangle is farther from the body than the margin.
     Beyond,
@@ -21,12 +21,12 @@ pub(super) enum Behind {
     Open,
 }
 
-/// Looks at the body's own box, and at the face most parallel to a triangle of those at the lowest vertex, for poses that are
+/// Looks at the body's own box, and at the face most parallel to a triangle among those at the lowest vertex, for poses that are
 /// accepted.
 ///
-/// Of a face with the plane n·x = o and the slack σ, all of the body has n·x ≤ o + σ, and all of the face |n·x − o| ≤ σ. So the
+/// For a face with the plane n·x = o and the slack σ, all of the body has n·x ≤ o + σ, and all of the face |n·x − o| ≤ σ. So the
 /// signed distance is at least that of the triangle from the plane, less σ. A point with n·x < o − σ for all faces is not on the
-/// surface; the set of these is convex, and inside if the centre, which is inside, is one of them. Such a point is as deep as the
+/// surface. The set of these is convex, and inside if the centre, which is inside, is one of them. Such a point is as deep as the
 /// least of o − n·x − σ.
 pub(super) fn behind_face(
     body: Placed,
@@ -59,7 +59,7 @@ pub(super) fn behind_face(
         return Behind::Beyond;
     }
     let is_deep = heights[least] + plane.slack + error < 0.0;
-    // Of bodies that are apart, a point a little behind the foot on the face.
+    // For bodies that are apart, a point a little behind the foot on the face.
     let inner = if is_deep { 0.0 } else { 2.0 * (plane.slack + error) };
     let way = if is_deep { 0.0 } else { heights[least] + inner };
     let point = corners[least] - plane.normal * way;
@@ -92,7 +92,7 @@ fn gap_of_own_box(body: Placed, bounds: &Bounds) -> f64 {
     aside.max()
 }
 
-/// Of the faces at a vertex the one most parallel to a direction. `None` of a vertex without edges.
+/// The face at a vertex that is most parallel to a direction. `None` for a vertex without edges.
 fn most_parallel(polyhedron: &Polyhedron, vertex: u32, towards: &Vector) -> Option<u32> {
     let edges = polyhedron.neighbour_blocks(vertex).flat_map(|block| block.edge).filter(|edge| *edge != NONE);
     let mut best = (None, f64::NEG_INFINITY);

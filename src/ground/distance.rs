@@ -8,12 +8,12 @@ use crate::base::simd::environment::with_default;
 use crate::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed, Query};
 use crate::shape::TriangleShape;
 
-/// What is said of a body, which is object 1, and a ground.
+/// The answer for a body, which is object 1, and a ground.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct GroundDistance {
-    /// As of a body and the surface as a set of points. Features of object 2 are in the ground's numbering: vertices, edges by
-    /// their vertices, a face is a triangle. Of a pair beyond the tolerance nothing but `lower` is said.
+    /// Same as for a body and the surface as a set of points. Features of object 2 are in the ground's numbering: vertices, edges
+    /// by their vertices, a face is a triangle. For a pair beyond the tolerance only `lower` is reported.
     pub answer: PairAnswer,
     /// The triangle that the answer is about: the nearest, or the first that was found to intersect. It is the number of triangles
     /// where the answer is about none.
@@ -24,7 +24,7 @@ pub struct GroundDistance {
 /// answer is as certain as that of [`pair::distance`] or [`pair::intersection`].
 ///
 /// # Errors
-/// [`Error::Argument`] for another query; else as of these two, for both poses; [`Error::Memory`]: about 4 kB are asked for.
+/// [`Error::Argument`] for another query; else same as these two, for both poses; [`Error::Memory`]: about 4 kB are requested.
 pub fn ground_distance(
     query: Query,
     body: Placed,
@@ -64,7 +64,7 @@ pub fn ground_distance(
 
 type Ask = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
 
-/// The least distance of the triangles that a walk has come to.
+/// The least distance of the triangles that a walk has reached.
 struct Least<'a> {
     ask: Ask,
     body: Placed<'a>,
@@ -74,7 +74,7 @@ struct Least<'a> {
     nearest: GroundDistance,
     /// All that has been looked at or passed by is at least this far away.
     lower: f64,
-    /// What is farther away counts no more.
+    /// Anything farther away no longer counts.
     enough: f64,
     is_verdict: bool,
 }

@@ -8,12 +8,12 @@ use crate::base::math::Vector;
 use crate::base::memory::{extend, push};
 use crate::pair::{ManifoldPoint, Outcome, four_of_points};
 
-/// What the gap of a point may be off along a normal that is turned by [`TILT`], relative to itself: 1 − cos of the angle is at
-/// most half its square, and rounding is less than the rest.
+/// A bound of the error of a point's gap along a normal that is turned by [`TILT`], relative to the gap: 1 − cos of the angle is
+/// at most half its square, and rounding is less than the rest.
 const TURNED: f64 = TILT * TILT;
 
-/// Joins contacts whose normals are the same, up to [`TILT`], with the deepest of them, and adds what comes of that to the list, by
-/// their triangles. Of points with one id one stays. If `reduces`, four points stay of a contact; `size` is a length next to the
+/// Joins contacts whose normals are the same, up to [`TILT`], with the deepest of them. Adds the joined contacts to the list, by
+/// their triangles. One point stays for each id. If `reduces`, four points of a contact stay; `size` is a length next to the
 /// body.
 pub(super) fn group(found: &mut GroundContacts, reduces: bool, size: f64) -> Result<()> {
     let GroundContacts { contacts, points: listed, room } = found;
@@ -77,7 +77,7 @@ fn widened(point: &ManifoldPoint) -> ManifoldPoint {
     ManifoldPoint { gap_lower: gap_lower - by, gap_upper: gap_upper + by, ..*point }
 }
 
-/// Of points with one id the first.
+/// Keeps the first of the points with one id.
 fn leave_one_of_each(points: &mut Vec<ManifoldPoint>, ids: &mut Vec<(u64, usize)>) {
     ids.sort_unstable();
     ids.dedup_by_key(|(id, _)| *id);

@@ -11,7 +11,7 @@ use crate::solve::certificate::of_vertex;
 /// The vertex of the polyhedron that is lowest, up to an excess that counts in `lower`.
 pub(super) struct Lowest {
     pub vertex: u32,
-    /// Where it is.
+    /// Its position.
     world: Vector,
     /// The triangle's normal in the world.
     pub up: Vector,
@@ -23,7 +23,7 @@ pub(super) struct Lowest {
 }
 
 impl Lowest {
-    /// Of a body and a triangle of a ground, for poses that are accepted; the climb begins at `start`.
+    /// For a body and a triangle of a ground, with poses that are accepted; the climb begins at `start`.
     ///
     /// Whichever direction is taken for the normal, the difference of heights along it is a lower bound. A point that is placed is
     /// right to 6u of its translation and of twice its local length, the difference of two to u of both, the product with the

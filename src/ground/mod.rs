@@ -28,7 +28,7 @@ pub use surface::{Ground, HeightGrid};
 pub struct PlacedGround<'a> {
     /// Its triangles.
     pub ground: &'a Ground,
-    /// Where it is.
+    /// Its pose.
     pub pose: &'a Pose,
 }
 

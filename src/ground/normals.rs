@@ -1,9 +1,9 @@
 //! Which normals a contact with a ground may have.
 //!
-//! A body that slides over two triangles of a plane must not catch on the edge between them. So a contact keeps its own normal only
-//! if that is a normal of the surface at the feature that is touched: no point of the surface beside it is farther out along the
-//! normal, on any of the triangles around. That is the normal cone of the feature; of a flat or concave edge and of a vertex in a
-//! hollow only the triangles' normals are in it. Any other contact takes the normal of its triangle.
+//! A body that slides over two triangles of a plane must not catch on the edge between them. So a contact keeps its own normal
+//! only if that is a normal of the surface at the feature that is touched: no point of the surface beside it is farther out along
+//! the normal, on any of the triangles around. That is the normal cone of the feature; for a flat or concave edge and for a
+//! vertex in a hollow only the triangles' normals are in it. Any other contact takes the normal of its triangle.
 
 use super::surface::{Ground, NONE, next, previous};
 use crate::base::math::{Vector, is_unit};
@@ -13,7 +13,7 @@ use crate::base::math::{Vector, is_unit};
 pub(super) const TILT: f64 = 1.0 / (1 << 20) as f64;
 
 impl Ground {
-    /// Whether a contact may have a normal, a unit vector in the frame of the ground, of which it is told that no point of the
+    /// Whether a contact may have a normal, a unit vector in the frame of the ground. The caller knows that no point of the
     /// triangle is farther out along it than the point that is touched.
     pub(super) fn allows(&self, triangle: u32, normal: &Vector) -> bool {
         debug_assert!(is_unit(normal));

@@ -1,4 +1,4 @@
-//! Where a body is in the frame of a ground.
+//! The pose of a body in the frame of a ground.
 
 use super::PlacedGround;
 use super::tree::Bounds;
@@ -12,7 +12,8 @@ use crate::pair::Placed;
 /// [`ROTATION_LIMIT`]: crate::base::math::ROTATION_LIMIT
 pub(super) const LEAST_STRETCH: f64 = 0.98;
 
-/// Of an entry of R⁻¹, of products with it and of sums of a few of these, relative to the lengths that go in, with a margin of 4.
+/// A bound of the rounding of an entry of R⁻¹, of products with it and of sums of a few of these, relative to the lengths that go
+/// in, with a margin of 4.
 const ROUNDING: f64 = 256.0 * UNIT_ROUNDOFF;
 
 impl PlacedGround<'_> {

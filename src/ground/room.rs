@@ -1,4 +1,4 @@
-//! Room to find contacts in, kept from query to query. No answer depends on what it holds.
+//! Room to find contacts in, kept from query to query. No answer depends on its contents.
 
 use crate::pair::{Manifold, ManifoldPoint};
 use crate::shape::TriangleShape;
@@ -8,7 +8,7 @@ use crate::shape::TriangleShape;
 pub(super) struct Room {
     /// Made on first need.
     pub triangle: Option<TriangleShape>,
-    /// What a walk has found, triangle by triangle …
+    /// The touches that a walk has found, triangle by triangle …
     pub touches: Vec<Touch>,
     /// … and the points of it.
     pub points: Vec<ManifoldPoint>,

@@ -19,7 +19,7 @@ const MOST_TRIANGLES: usize = 1 << 30;
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Record {
     corners: [u32; 3],
-    /// Of the half-edges 3t + k, from corner k to the next, the one on the other side, or [`NONE`].
+    /// The twins of the half-edges 3t + k, from corner k to the next, or [`NONE`].
     twins: [u32; 3],
     /// Unit; 0 of triangles that are left out.
     normal: Vector,
@@ -77,9 +77,9 @@ impl Ground {
         in_integers(|| with_default(build))?
     }
 
-    /// From heights over a grid: of column j and row i the vertex i·columns + j is at (j·spacing₁, i·spacing₂, height). Each cell
-    /// is cut from its least corner to its greatest, into triangles that look up: 2c, which has the corner along x, and 2c + 1,
-    /// with c = i·(columns − 1) + j of the cell's least corner. A cell with a hole at a corner is a hole.
+    /// From heights over a grid: for column j and row i the vertex i·columns + j is at (j·spacing₁, i·spacing₂, height). Each
+    /// cell is cut from its least corner to its greatest, into triangles that look up: 2c, which has the corner along x, and 2c +
+    /// 1, with c = i·(columns − 1) + j of the cell's least corner. A cell with a hole at a corner is a hole.
     ///
     /// # Errors
     /// [`Error::Argument`]: fewer than two rows or columns, a spacing that is not positive and finite, not as many heights as
@@ -170,7 +170,7 @@ impl Ground {
         self.records[triangle as usize].normal
     }
 
-    /// Where a half-edge begins.
+    /// Start of a half-edge.
     pub(super) fn tail(&self, half_edge: u32) -> Vector {
         self.vertices[self.records[half_edge as usize / 3].corners[half_edge as usize % 3] as usize]
     }
@@ -191,8 +191,8 @@ pub(super) fn previous(half_edge: u32) -> u32 {
     if half_edge.is_multiple_of(3) { half_edge + 2 } else { half_edge - 1 }
 }
 
-/// Joins sides whose ends are at equal places. Of three triangles at a side, or two that go the same way, none is a neighbour of
-/// another.
+/// Joins sides whose ends are at equal places. If three triangles share a side, or two that go the same way, none is a neighbour
+/// of another.
 fn find_twins(vertices: &[Vector], records: &mut [Record]) -> Result<()> {
     let place_of = first_at_same_place(vertices)?;
     let mut sides = with_capacity(3 * records.len())?;
@@ -215,7 +215,7 @@ fn find_twins(vertices: &[Vector], records: &mut [Record]) -> Result<()> {
     Ok(())
 }
 
-/// Of each vertex the first one with equal coordinates.
+/// For each vertex, the first one with equal coordinates.
 fn first_at_same_place(vertices: &[Vector]) -> Result<Vec<u32>> {
     let mut order: Vec<u32> = collected(0..vertices.len() as u32)?;
     let key = |v: u32| <[f64; 3]>::from(vertices[v as usize]);

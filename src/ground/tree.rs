@@ -18,7 +18,7 @@ pub(super) struct Bounds {
 }
 
 impl Bounds {
-    /// Of a triangle.
+    /// The bounds of a triangle.
     pub fn of([a, b, c]: &[Vector; 3]) -> Bounds {
         let [lower, upper] = [f64::min, f64::max].map(|pick| a.zip_map(b, pick).zip_map(c, pick));
         Bounds { lower, upper }
@@ -41,7 +41,7 @@ impl Bounds {
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Node {
     bounds: Bounds,
-    /// Of an inner node its second child, of a leaf the place of its first triangle.
+    /// The second child of an inner node; the place of the first triangle of a leaf.
     at: u32,
     /// How many triangles a leaf has; 0 of an inner node.
     count: u32,
@@ -55,9 +55,9 @@ pub(super) struct Tree {
     triangles: Vec<u32>,
 }
 
-/// What a walk does with what it comes to.
+/// The actions of a walk at what it comes to.
 pub(super) trait Visit {
-    /// Whether to go to what is at least this far away.
+    /// Whether to go to a node or triangle that is at least this far away.
     fn goes_to(&mut self, gap: f64) -> bool;
     /// Comes to a triangle; `false` ends the walk.
     ///
@@ -67,7 +67,7 @@ pub(super) trait Visit {
 }
 
 impl Tree {
-    /// Of triangles with their boxes; those without are left out. `None` if all are.
+    /// From the boxes of triangles; those without one are left out. `None` if all are.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).

@@ -89,7 +89,7 @@ impl ContainmentSearch<'_> {
                     continue;
                 }
                 self.seen_in[head as usize] = self.round;
-                // The difference, the product and two sums are right to u each, the normal to what is said above.
+                // The difference, the product and two sums are right to u each, the normal to the bound above.
                 const GUARD: f64 = f64::from_bits((1023 - 1000) << 52); // for underflow, as in predicates.rs
                 let d = self.position(head) - origin;
                 let terms = normal.component_mul(&d).map(f64::abs);

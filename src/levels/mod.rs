@@ -1,7 +1,7 @@
 //! Levels of detail: simpler polyhedra around a body, each with a bound of how far it stands off.
 //!
 //! A level kind proposes points: [`quadric`], [`dobkin_kirkpatrick`] and [`outer_cuts`]. Another one stands beside them, and is
-//! named in [`hierarchy::HierarchyKind`]. What bounds, measures and links the levels of all kinds is in [`hierarchy`].
+//! named in [`hierarchy::HierarchyKind`]. The code that bounds, measures and links the levels of all kinds is in [`hierarchy`].
 
 #[doc(hidden)]
 pub mod quadric;

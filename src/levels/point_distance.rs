@@ -1,7 +1,7 @@
-//! How far a point lies from a polyhedron: a walk over its surface, and where that leads to the far side the pair machinery.
+//! Distance of a point from a polyhedron: a walk over its surface, and where that leads to the far side the pair machinery.
 //!
-//! What is found is a convex combination of vertices, so that its distance bounds that of the body from above, rounding included,
-//! wherever the search ends.
+//! The point found is a convex combination of vertices, so that its distance bounds that of the body from above, rounding
+//! included, wherever the search ends.
 
 use crate::base::error::Result;
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
@@ -11,7 +11,7 @@ use crate::polyhedron::surface_walk::{Candidate, Surface, SurfaceFeature, neares
 use crate::polyhedron::{LARGEST, NONE, Polyhedron, SMALLEST};
 use crate::solve::decide::{self, Decision, Wanted};
 
-/// A polyhedron to which points are asked for their distance. All is said in its centred coordinates.
+/// A polyhedron for which distances of points are queried. All values are in its centred coordinates.
 #[derive(Debug, Clone)]
 pub struct PointDistance<'a> {
     polyhedron: &'a Polyhedron,
@@ -21,14 +21,14 @@ pub struct PointDistance<'a> {
     probe: Polyhedron,
 }
 
-/// What is nearest to a point outside.
+/// The point of a polyhedron nearest to a point outside.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NearestPoint {
     /// The nearest point of the polyhedron, as rounded.
     pub point: Vector,
     /// An upper bound of the distance, rounding included; too much by about 3e-15 of the radius.
     pub upper: f64,
-    /// Of the corners of the vertex, edge or triangle that holds the nearest point, the one nearest to the asking point.
+    /// The corner nearest to the query point, among those of the vertex, edge or triangle that holds the nearest point.
     pub vertex: u32,
 }
 

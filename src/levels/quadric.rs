@@ -17,7 +17,7 @@ use crate::base::memory::{collected, copied, filled, push, push_to_heap};
 use crate::base::progress::Progress;
 use crate::polyhedron::triangulation::{Triangulation, next, previous};
 
-/// What is left of a surface.
+/// A simplified surface.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Simplified {
     /// Its vertices: each one of the given ones, or a point that replaces several. In order of the given ones.
@@ -29,15 +29,15 @@ pub struct Simplified {
 /// Edges flatter than 1e-5 of their length are ordered by length: their costs are equal up to rounding.
 const FLATNESS: f64 = 1e-10;
 
-/// An optimal place is asked for only where the quadric's matrix has no pivot below this fraction of its trace: then rounding moves
-/// the place by less than 1e-5 of the edge.
+/// An optimal place is computed only where the quadric's matrix has no pivot below this fraction of its trace: then rounding
+/// moves the place by less than 1e-5 of the edge.
 const LEAST_PIVOT: f64 = 1e-10;
 
 /// Neighbours looked at between two reports of progress.
 const REPORT_INTERVAL: usize = 1 << 14;
 
 /// Collapses edges until at most `target` triangles are left, four at least. More are left only where every further collapse
-/// would turn a triangle over or change the topology; of a flat body, which has two triangles over every edge, nothing is
+/// would turn a triangle over or change the topology; for a flat body, which has two triangles over every edge, nothing is
 /// collapsed. The result depends on the arguments alone.
 ///
 /// The triangles are a closed surface over all of `positions`, counter-clockwise from outside, as those of an exact hull.
@@ -138,7 +138,7 @@ impl Quadric {
 // Collapsing
 // ---------------------------------------------------------------------------------------------------------------------
 
-/// A half-edge waiting for its turn; the least key first, of equal ones the lowest index.
+/// A half-edge waiting for its turn; the least key first, among equal ones the lowest index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Waiting {
     /// The bits of a number ≥ 0, which are ordered as the numbers are.
@@ -153,7 +153,7 @@ struct Waiting {
 struct Queue {
     /// By the key's exponent and first bits of its mantissa: all keys in one are below those in the next.
     buckets: Vec<Vec<Reverse<Waiting>>>,
-    /// Where the next bucket is; all of those before are in the heap.
+    /// Index of the next bucket; all of those before are in the heap.
     next: usize,
     heap: BinaryHeap<Reverse<Waiting>>,
 }

@@ -1,5 +1,5 @@
-//! Polygons as the caller gave them: vertices and faces, nothing checked but what keeps indexing safe. A face may be
-//! degenerate here: whether that is an error depends on what is made of the mesh.
+//! Polygons as the caller gave them: vertices and faces, only the checks that keep indexing safe. A face may be degenerate here:
+//! whether that is an error depends on the use of the mesh.
 
 use crate::base::error::{Error, Result};
 use crate::base::locality::places_of;
@@ -20,14 +20,14 @@ pub struct PolygonMesh {
     pub single_precision: bool,
 }
 
-/// What the caller calls the vertices and the faces of a mesh in another order.
+/// The caller's numbers of the vertices and the faces of a mesh in another order.
 #[derive(Debug, Clone)]
 pub struct Numbers {
     /// The caller's index of each vertex.
     pub vertices: Vec<u32>,
     /// The caller's index of each face.
     pub faces: Vec<u32>,
-    /// What a face of the hull is called on which no face of the mesh lies; `None`: as a neighbour.
+    /// The number of a face of the hull on which no face of the mesh lies; `None`: same as a neighbour.
     pub bare_face: Option<u32>,
     /// How far off a face of the hull a face of the mesh may be that lies on it.
     pub near: f64,
@@ -103,8 +103,8 @@ impl PolygonMesh {
         ends == [Some(0), Some(self.indices.len())] && self.starts.is_sorted()
     }
 
-    /// The same with its vertices in the given order of all, and its faces in order of their lowest vertices: neighbours near each
-    /// other. With it what the numbers were before. `None` if the faces are no faces over the vertices.
+    /// The same with its vertices in the given order of all, and its faces in order of their lowest vertices: neighbours near
+    /// each other. With it the previous numbers. `None` if the faces are no faces over the vertices.
     ///
     /// # Errors
     /// [`Error::Cancelled`] when the caller does not want to go on.
@@ -181,7 +181,7 @@ impl PolygonMesh {
     }
 }
 
-/// A count as 32 bits, which is what indices are stored in.
+/// A count in 32 bits, the width of stored indices.
 fn count_u32(count: usize, of: &str) -> Result<u32> {
     u32::try_from(count).map_err(|_| Error::Limit(format!("{count} {of} do not fit 32 bits")))
 }

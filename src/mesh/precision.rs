@@ -4,7 +4,7 @@ use std::fmt::{LowerExp, Write};
 
 use crate::base::math::Vector;
 
-/// Doubles that went through text have fewer significant digits; what a program computes has nearly always as many.
+/// Doubles that went through text have fewer significant digits; computed doubles nearly always have as many.
 const FULL_DIGITS: usize = 15;
 
 /// … and floats.
@@ -14,12 +14,13 @@ const FULL_DIGITS_OF_FLOATS: usize = 8;
 /// been. A coordinate that was rounded is off by half of it at most. 0 where all are 0.
 ///
 /// Text of k decimals has its longest numbers in one decade only, since each decade less costs a digit. Longest numbers in two
-/// decades are significant digits, of which the largest coordinates have the coarsest place. Both count in shortest form: of floats
-/// the shortest that gives the float back. Few numbers may end in zeros that are not written: the place is then taken for coarser.
+/// decades are significant digits, of which the largest coordinates have the coarsest place. Both count in shortest form: for
+/// floats, the shortest that gives the float back. A few numbers may all end in zeros that are not written: the place is then
+/// taken for coarser.
 pub fn coordinate_unit(points: &[Vector]) -> f64 {
     let coordinates = || points.iter().flat_map(|point| point.iter().copied()).filter(|x| *x != 0.0);
     let largest = coordinates().fold(0.0, |largest: f64, x| largest.max(x.abs()));
-    // Of the binade that holds the largest.
+    // The power of two of the binade that holds the largest.
     let power = f64::from_bits(largest.to_bits() >> 52 << 52);
     if coordinates().all(|x| f64::from(x as f32) == x) {
         text_unit(coordinates().map(|x| x as f32), FULL_DIGITS_OF_FLOATS).max(power * f64::from(f32::EPSILON))

@@ -1,4 +1,4 @@
-//! What a cast says: plain data, laid out for C.
+//! The answer of a cast: plain data, laid out for C.
 
 use crate::pair::PairAnswer;
 

@@ -7,9 +7,9 @@ use crate::base::error::{Result, check_range};
 use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::environment::with_default;
 
-/// The motion about a centre, given in the object's frame, that starts at `first` at time 0 and by the shortest turn comes to
-/// `second` at time 1; and how far from there at most a point ends that is at most `reach` from the centre: rounding, and whatever
-/// one of the two rotations is more distorted than the other.
+/// The motion about a centre, given in the object's frame, that starts at `first` at time 0 and by the shortest turn reaches
+/// `second` at time 1; and how far from there at most a point ends that is at most `reach` from the centre: rounding, and
+/// whatever one of the two rotations is more distorted than the other.
 ///
 /// # Errors
 /// [`Error::Pose`] for a pose that is not accepted; [`Error::Argument`] for a centre that is not finite and a reach that is not

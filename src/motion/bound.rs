@@ -1,4 +1,4 @@
-//! What carries a proof from one moment to the next, and what rounding may make of a pose.
+//! The bounds that carry a proof from one moment to the next, and the rounding error of a pose.
 //!
 //! *Between two moments.* Along a fixed world direction n from object 2 to object 1 the gap of the bodies is the least n·x₁ over
 //! points of object 1 less the greatest n·x₂ over those of object 2. If n·ẍ₁ − n·ẍ₂ ≤ K for all of them, each n·(x₁ − x₂) stays
@@ -13,9 +13,9 @@
 //!
 //!   B = K·h²/2 + max d·(Δx₁ − Δx₂) + A·h²/2,
 //!
-//! of whatever motion: Δx, where a point is at one moment less where it was at the other, is known from both poses. Where features
-//! stay the nearest, d and Δx shrink with h: B does with h², the gap with h. (Swept radii take |n(s)|·r off the gap, which is no
-//! more than r.)
+//! for any motion: Δx, where a point is at one moment less where it was at the other, is known from both poses. If features stay
+//! the nearest, d and Δx shrink with h: B does with h², the gap with h. (Swept radii take |n(s)|·r off the gap, which is no more
+//! than r.)
 //!
 //! *Rounding.* A query is about the pose as computed. No point of the motion is farther than δ from where that pose has it; along a
 //! unit direction no gap is then off by more than the sum of both δ, and bodies deeper in each other than that sum intersect.
@@ -31,7 +31,7 @@ use crate::polyhedron::LARGEST;
 /// Times are of at most this, 2¹⁰⁰, so that products with them stay far inside the doubles.
 pub(super) const LARGEST_TIME: f64 = f64::from_bits((1023 + 100) << 52);
 
-/// What products of numbers in range may lose to underflow, several times over.
+/// The loss to underflow of products of numbers in range, several times over.
 pub(super) const UNDERFLOW: f64 = f64::from_bits((1023 - 800) << 52);
 
 /// The bounds of one object over a range of times.
@@ -55,7 +55,7 @@ enum Bend {
 
 impl Travel {
     /// # Errors
-    /// [`Error::Argument`] for what is so large that doubles do not bound it.
+    /// [`Error::Argument`] for values so large that doubles do not bound them.
     pub fn new(body: &Carried, turn: &Turn, range: [f64; 2]) -> Result<Travel> {
         let motion = body.motion;
         let longest = range[0].abs().max(range[1].abs());
@@ -76,8 +76,8 @@ impl Travel {
 
     /// No point accelerates by more along a vector of at most unit length, right to 8u, or against it: times that length.
     ///
-    /// A turning point accelerates towards the axis, by ω²·r. Of the direction only the part across the axis counts; what rounding
-    /// makes of that is below 32u.
+    /// A turning point accelerates towards the axis, by ω²·r. Only the part of the direction across the axis counts; its rounding
+    /// error is below 32u.
     pub fn acceleration(&self, direction: &Vector) -> f64 {
         match self.bend {
             Bend::None => 0.0,
@@ -89,7 +89,7 @@ impl Travel {
         }
     }
 
-    /// No point accelerates by more, along whatever vector.
+    /// No point accelerates by more, along any vector.
     pub fn most_acceleration(&self) -> f64 {
         match self.bend {
             Bend::None => 0.0,
@@ -109,7 +109,7 @@ fn reach(body: &Carried) -> f64 {
     }
 }
 
-/// No point of the body is farther from the axis: by its box or by its bounding sphere, whichever says less. Products and sums
+/// No point of the body is farther from the axis: by its box or by its bounding sphere, whichever gives less. Products and sums
 /// err by less than 64u of all lengths together.
 fn distance_from_axis(body: &Carried, screw: &Screw, turn: &Turn) -> f64 {
     let polyhedron = body.shape.polyhedron();
@@ -130,7 +130,7 @@ fn distance_from_axis(body: &Carried, screw: &Screw, turn: &Turn) -> f64 {
 }
 
 /// How far at most a point of a body is, at the body's pose as computed, from where the pose of the moving frame as computed has
-/// it: what the product of that pose and the place is rounded by.
+/// it: the rounding error of the product of that pose and the place.
 ///
 /// Each entry of the rotation errs by 3u of its three terms, and the Frobenius norms of the factors are at most 1.77: below 9.5u in
 /// the spectral norm. The product R·T of the place errs by 3u of its terms, below 5.4u|T|, the sum by u of the computed
@@ -142,7 +142,7 @@ pub(super) fn rounding_of_place(body: &Carried, pose: &Pose) -> f64 {
     })
 }
 
-/// What a turned rotation is off by, in u of the angle …
+/// The error of a turned rotation, in u of the angle …
 pub const OF_ANGLE: f64 = 8.0;
 
 /// … and in u beside that, see [`rounding_of_pose`].
@@ -153,9 +153,9 @@ pub const OF_TURN: f64 = 96.0;
 /// ([`is_exact`]).
 ///
 /// *Screw.* The turn errs by (6.5·angle + 70)u in the spectral norm (see [`Turn::by`]), its product with R (norm 1.015) by 9.2u
-/// more: below (7·angle + 82)u times the distance from the centre. The translation is computed with the rotation as it is, so that
-/// only its own rounding counts: t·v and T by 3u|t·v| + 2u|T|, the two products R·c by 5.3u|c| each, the two sums behind them by
-/// 2.1u|c| and once more u of all. Where nothing turns R and the terms of c are exact.
+/// more: below (7·angle + 82)u times the distance from the centre. The translation is computed with the rotation as it is, so
+/// that only its own rounding counts: t·v and T by 3u|t·v| + 2u|T|, the two products R·c by 5.3u|c| each, the two sums behind
+/// them by 2.1u|c| and once more u of all. If nothing turns, R and the terms of c are exact.
 ///
 /// *Affine.* Each entry errs by 3u of its two terms, the Frobenius norm of R is at most 1.77.
 pub(super) fn rounding_of_pose(motion: &Motion, turn: &Turn, longest: f64, reach: f64) -> f64 {
@@ -195,17 +195,17 @@ pub(super) fn is_exact(motion: &Motion, time: f64) -> bool {
 /// The least gap between two moments, rounded down, from the gaps at both and B, `sag`.
 ///
 /// (1 − s)g₀ + s·g₁ − B·s(1 − s) is least at s = (B − (g₁ − g₀))/2B, if that is between 0 and 1. Directions are of unit length up
-/// to 4u: with what is rounded here that is less than 32u.
+/// to 4u: with the rounding here that is less than 32u.
 pub(super) fn least_between(gaps: [f64; 2], sag: f64) -> f64 {
     let [first, last] = gaps;
     let rise = last - first;
     let least = if sag > rise.abs() { least_within(first, rise, sag) } else { first.min(last) };
     let rounded = least - LEAST_BETWEEN * (first.abs() + last.abs() + sag);
-    // What is infinite or none proves nothing.
+    // An infinite value or a NaN proves nothing.
     if rounded.is_finite() { rounded } else { f64::NEG_INFINITY }
 }
 
-/// What [`least_between`] is off by, over both gaps and B.
+/// The error of [`least_between`], over both gaps and B.
 pub const LEAST_BETWEEN: f64 = 32.0 * U;
 
 /// The least of a chord less B·s(1 − s), where that is within.

@@ -32,7 +32,7 @@ impl<'a> From<Moving<'a>> for Carried<'a> {
 }
 
 impl Carried<'_> {
-    /// What it turns by.
+    /// The turn of the object.
     pub(super) fn turn(&self) -> Turn {
         match self.motion {
             Motion::Screw(screw) => Turn::new(&screw.rotation),

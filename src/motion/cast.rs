@@ -78,7 +78,7 @@ fn said(outcome: CastOutcome, here: &Moment, sweep: &Sweep, rest: CastAnswer) ->
     CastAnswer { outcome, t_lo: here.time, queries: sweep.queries, ..rest }
 }
 
-/// Less than the sweep has proved, so that whoever proves it anew need not find the very axis.
+/// Less than the sweep has proved, so that another proof need not find the very axis.
 fn clearance_of(step: &FreeStep) -> f64 {
     const SHARE: f64 = 1.0 - 1e-9;
     (step.least - step.slack) * SHARE

@@ -11,15 +11,15 @@ use crate::pair::{Outcome, PairCache, check_accuracy};
 /// How a clearance is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClearanceConfig {
-    /// Where the range of times begins; by default 0.
+    /// The start of the range of times; by default 0.
     pub t_begin: f64,
-    /// Where it ends, not before it begins; by default 1.
+    /// The end of the range, not before it begins; by default 1.
     pub t_end: f64,
     /// `upper` − `lower` may be as large as this …
     pub absolute_error: f64,
     /// … or as this times `lower`; by default 0.01. Both 0: as narrow as can be proved.
     pub relative_error: f64,
-    /// Certified queries after which it stops with what is proved, 1 or more; by default 100,000.
+    /// Certified queries after which it stops with its proved result, 1 or more; by default 100,000.
     pub step_budget: u32,
 }
 
@@ -95,7 +95,7 @@ struct Search<'a> {
     /// The smallest distance that is known, and when.
     upper: f64,
     time: f64,
-    /// What is asked for less than what is known, at least.
+    /// The least amount by which the gap asked for is less than the known distance.
     error: f64,
 }
 
@@ -118,7 +118,7 @@ impl Search<'_> {
         self.narrow(low, high)
     }
 
-    /// Golden section. Only a guess of where the distance is least: what is asked at its times holds whatever they are.
+    /// Golden section. Only a guess of where the distance is least: results at its times hold wherever they are.
     fn narrow(&mut self, mut low: f64, mut high: f64) -> Result<()> {
         const GOLDEN: f64 = 0.381_966_011_250_105;
         let mut times = [low + GOLDEN * (high - low), high - GOLDEN * (high - low)];
@@ -160,7 +160,7 @@ impl Search<'_> {
         is_smaller
     }
 
-    /// What is to be proved, by what is known.
+    /// The gap that must be proved, given what is known.
     fn wanted(&self, moment: &Moment) -> f64 {
         let ClearanceConfig { absolute_error, relative_error, .. } = self.config;
         // Whichever error allows more.
@@ -168,7 +168,7 @@ impl Search<'_> {
         asked.min(self.upper - 2.0 * self.pair.slack(moment) - self.error)
     }
 
-    /// Sweeps over the range; what is proved of all of it.
+    /// Sweeps over the range; returns the bound proved for all of it.
     fn prove(&mut self, begin: f64, end: f64) -> Result<f64> {
         let mut here = self.pair.at(begin)?;
         let mut proved = f64::INFINITY;

@@ -1,22 +1,22 @@
-//! What a cast is asked for.
+//! The options of a cast.
 
 use super::bound::LARGEST_TIME;
 use crate::base::error::{Error, Result, check_range};
 use crate::base::math::UNIT_ROUNDOFF as U;
 
-/// What a cast is asked for.
+/// The options of a cast.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CastConfig {
-    /// Where the range of times begins; by default 0.
+    /// The start of the range of times; by default 0.
     pub t_begin: f64,
-    /// Where it ends, not before it begins; by default 1.
+    /// The end of the range, not before it begins; by default 1.
     pub t_end: f64,
     /// How wide the interval of a hit may be, and the shortest step; by default 1e-9. From 2⁻⁵⁰ of the larger end on.
     pub time_tolerance: f64,
     /// Objects are free where they are farther apart than this: from 0, the default, to the largest double.
     pub margin: f64,
-    /// Certified queries after which it stops with what is proved, 1 or more; by default 100,000. It makes at most six for each
-    /// time tolerance in the range and a dozen in the end.
+    /// Certified queries after which it stops with its proved result, 1 or more; by default 100,000. It makes at most six for
+    /// each time tolerance in the range and a dozen in the end.
     pub step_budget: u32,
 }
 
@@ -29,7 +29,7 @@ impl Default for CastConfig {
 /// The shortest step over the larger end of a range.
 const SHORTEST_STEP: f64 = 8.0 * U;
 
-/// The shortest step that times can tell in a range.
+/// The shortest step that times in a range can resolve.
 pub(super) fn shortest_step(range: [f64; 2]) -> f64 {
     (SHORTEST_STEP * range[0].abs().max(range[1].abs())).max(f64::MIN_POSITIVE)
 }
@@ -52,7 +52,7 @@ impl CastConfig {
         [self.t_begin, self.t_end]
     }
 
-    /// Refuses what is out of range.
+    /// Refuses values out of range.
     ///
     /// # Errors
     /// [`Error::Argument`], naming the first such member.

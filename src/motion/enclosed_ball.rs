@@ -65,7 +65,7 @@ fn inside_of_face(corners: &[Vector; 4], (face, opposite): &([usize; 3], usize),
 mod tests {
     use super::*;
 
-    /// Of a regular tetrahedron around the origin, and of others that do not hold it.
+    /// Tests a regular tetrahedron around the origin, and others that do not hold it.
     #[test]
     fn the_ball_touches_the_nearest_face() {
         let corners = |shift: f64| {

@@ -1,4 +1,4 @@
-//! A guess at the gap to come, and how long a step is likely to be proved by it. It proves nothing.
+//! A guess at the coming gap, and how long a step is likely to be proved by it. It proves nothing.
 
 use super::bound::least_between;
 
@@ -6,7 +6,7 @@ use super::bound::least_between;
 /// straight on it is right, and its gap closes to the time tolerance in one step.
 const SHARE_OF_ROOM: f64 = 1.0 / 16.0;
 
-/// The part of the room that a forecast keeps back is so many times what the one before was off by, as its error grows with the
+/// The part of the room that a forecast keeps back is this many times the error of the one before, as its error grows with the
 /// square of the time.
 const CAUTION: f64 = 8.0;
 
@@ -17,17 +17,17 @@ pub(super) struct Forecast {
     speed: f64,
     curve: f64,
     acceleration: f64,
-    /// By what part of the room for each unit of time the forecast before was off; infinite without one.
+    /// The error of the previous forecast, as a part of the room for each unit of time; infinite without one.
     off: f64,
 }
 
-/// What a step that was taken says of the next.
+/// The trend that a step that was taken gives for the next.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Trend {
     time: f64,
     speed: f64,
     room: f64,
-    /// What is expected at its end.
+    /// The expected value at its end.
     expected: f64,
 }
 
@@ -46,7 +46,7 @@ impl Forecast {
         forecast
     }
 
-    /// What a step from a time says of the one after it.
+    /// The trend that a step from a time gives for the one after it.
     pub fn trend(&self, time: f64, length: f64) -> Trend {
         Trend { time, speed: self.speed, room: self.room, expected: self.after(length) }
     }
@@ -66,7 +66,7 @@ impl Forecast {
                 (length, closes) = (before, true);
             }
         }
-        // What the bend may take away from the chord has to leave something.
+        // The bend's largest loss must leave some of the chord.
         while length > shortest {
             let sag = 0.5 * self.acceleration * length * length;
             if least_between([self.room, self.after(length)], sag) > 0.0 {
@@ -82,7 +82,7 @@ impl Forecast {
         (CAUTION * self.off * length).min(SHARE_OF_ROOM)
     }
 
-    /// Where it closes first.
+    /// The first time at which it closes.
     fn root(&self) -> Option<f64> {
         let Forecast { room, speed, curve, .. } = *self;
         let discriminant = speed * speed - 4.0 * curve * room;

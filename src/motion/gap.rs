@@ -16,7 +16,7 @@ pub(super) struct Along<'a> {
     pub poses: [&'a Pose; 2],
     /// From body 2 to body 1, about of unit length.
     pub direction: &'a Vector,
-    /// Where the climbs to the support vertices begin, and where they ended; `None`: where the look-up tables say.
+    /// The starting points of the climbs to the support vertices, and their ends; `None`: the start from the look-up tables.
     pub vertices: &'a mut Option<[u32; 2]>,
 }
 
@@ -39,7 +39,7 @@ impl Along<'_> {
         let lengths = self.poses.map(|pose| pose.translation().norm()).iter().sum::<f64>();
         let size = lengths + 2.0 * (body1.centre.norm() + body2.centre.norm()) + radii;
         let gap = self.direction.dot(&between) - radii - 64.0 * U * size - UNDERFLOW;
-        // Where lengths overflow nothing is proved.
+        // If lengths overflow, nothing is proved.
         if gap.is_finite() { gap } else { f64::NEG_INFINITY }
     }
 }

@@ -7,8 +7,8 @@ use crate::base::error::{Error, Result, check_range};
 use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use crate::base::simd::environment::with_callers;
 
-/// How an object moves. Every kind says exactly, in real arithmetic on its doubles, where a point is at a time; answers hold for
-/// that, the rounding of poses included.
+/// How an object moves. Every kind defines exactly, in real arithmetic on its doubles, where a point is at a time; answers hold
+/// for that, the rounding of poses included.
 #[derive(Debug, Clone, Copy)]
 pub enum Motion<'a> {
     /// It stays.
@@ -18,12 +18,12 @@ pub enum Motion<'a> {
     /// Each entry of the pose changes at a constant rate: (1 − t)·start + t·end. In between an object that turns is distorted, so
     /// this is for turns of up to 0.2 radians: beyond, poses are refused.
     Affine {
-        /// Where it is at time 0.
+        /// The pose at time 0.
         start: Pose,
-        /// Where it is at time 1.
+        /// The pose at time 1.
         end: Pose,
     },
-    /// Whatever a function of the caller's says.
+    /// The result of the caller's function.
     Callback(Callback<'a>),
 }
 
@@ -31,11 +31,11 @@ pub enum Motion<'a> {
 /// the centre c.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Screw {
-    /// Where it is at time 0.
+    /// The pose at time 0.
     pub start: Pose,
-    /// What it turns about, in its own frame.
+    /// The point it turns about, in its own frame.
     pub centre: Vector,
-    /// Of the centre, in the world.
+    /// The velocity of the centre, in the world.
     pub velocity: Vector,
     /// Along the axis in the world, as long as the angular velocity in radians per unit of time. All turned by may be 2²⁰ radians.
     pub rotation: Vector,
@@ -45,7 +45,7 @@ pub struct Screw {
 /// answers are as right as these.
 #[derive(Clone, Copy)]
 pub struct Callback<'a> {
-    /// Where the object is at a time. The same time gives the same pose.
+    /// The pose of the object at a time. The same time gives the same pose.
     pub pose: &'a dyn Fn(f64) -> Pose,
     /// No point's acceleration is larger.
     pub bend: f64,
@@ -60,7 +60,7 @@ impl fmt::Debug for Callback<'_> {
 }
 
 impl Motion<'_> {
-    /// Where the object is at a time, up to rounding; `turn` is that of a screw's rotation.
+    /// The pose of the object at a time, up to rounding; `turn` is that of a screw's rotation.
     ///
     /// # Errors
     /// [`Error::Pose`] for a pose that is not accepted.
@@ -108,7 +108,7 @@ impl Motion<'_> {
     }
 
     /// About how fast a point of the object is at a time, given in its own frame and where it is then. It only guides the search:
-    /// of a callback a difference quotient over `moment` says it.
+    /// for a callback, a difference quotient over `moment` gives it.
     pub(super) fn velocity(&self, turn: &Turn, time: f64, moment: f64, [point, is_at]: [&Vector; 2]) -> Result<Vector> {
         Ok(match self {
             Motion::Fixed(_) => Vector::zeros(),

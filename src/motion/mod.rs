@@ -1,8 +1,7 @@
 //! Motions: a pair that moves is proved free for all of a time, or its first contact is enclosed in an interval of time.
 //!
-//! A motion is many certified queries of [`crate::pair`]; there is no second solver. What carries a proof from one moment to the
-//! next is in `bound.rs`: how far the gap along a fixed direction can sag between two moments, and what rounding may make of a
-//! pose.
+//! A motion is many certified queries of [`crate::pair`]; there is no second solver. `bound.rs` carries a proof from one moment
+//! to the next: how far the gap along a fixed direction can sag between two moments, and the rounding error of a pose.
 
 #[doc(hidden)]
 pub mod turn;

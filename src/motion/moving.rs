@@ -1,4 +1,4 @@
-//! Two moving objects, prepared for one cast: where they are at a time, and what bounds them between times.
+//! Two moving objects, prepared for one cast: where they are at a time, and the bounds on them between times.
 
 use super::bound::{Travel, is_exact, rounding_of_place};
 use super::carried::Carried;
@@ -109,7 +109,7 @@ impl<'a> MovingPair<'a> {
 
     /// No point of body 1 gains more along a vector of at most unit length on any of body 2, from one moment to another.
     ///
-    /// Of a body a point p gains v·ΔT + (ΔRᵀv)·p, most at a corner of its box. ΔRᵀv errs by 13u|v|, its products and sums by
+    /// For a body, a point p gains v·ΔT + (ΔRᵀv)·p, most at a corner of its box. ΔRᵀv errs by 13u|v|, its products and sums by
     /// less than 30u of the sizes below, ΔT by u.
     fn advance(&self, ends: [&Moment; 2], along: &Vector) -> f64 {
         let (mut most, mut size) = (0.0, 0.0);
@@ -129,7 +129,7 @@ impl<'a> MovingPair<'a> {
         most + ends[0].rounding + ends[1].rounding + 64.0 * U * size
     }
 
-    /// Whether it takes a call of the caller's function to say how fast an object is.
+    /// Whether finding an object's speed takes a call of the caller's function.
     pub fn has_callback(&self) -> bool {
         self.bodies.iter().any(|body| matches!(body.motion, Motion::Callback(_)))
     }
@@ -161,8 +161,8 @@ impl<'a> MovingPair<'a> {
         Ok(if speed.is_finite() { speed } else { 0.0 })
     }
 
-    /// What a gap has to exceed what is asked for by, so that whoever asks again along another axis, or in other steps, finds it,
-    /// too: rounding of poses and of gaps.
+    /// The amount by which a gap must exceed the requested one, so that another query along another axis, or in other steps,
+    /// finds it, too: rounding of poses and of gaps.
     pub fn slack(&self, moment: &Moment) -> f64 {
         let [body1, body2] = self.bodies.map(|body| body.shape.polyhedron());
         let apart = moment.poses[0].translation() - moment.poses[1].translation();

@@ -7,21 +7,21 @@ use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::pair::{self, DepthAnswer, DepthCache, DepthConfig, Outcome, PairAnswer, PairCache, PairConfig};
 
-/// Lengths of a step that are tried by a forecast that takes the gap for smooth; those that follow are a quarter of each other, so
-/// that a few dozen come to the shortest step.
+/// Lengths of a step that are tried by a forecast that takes the gap for smooth; those that follow are a quarter of each other,
+/// so that a few dozen reach the shortest step.
 const SMOOTH_TRIALS: u32 = 3;
 
 /// Lengths of a step after which the distance there is asked for.
 const MOST_SIGHTS: u32 = 4;
 
-/// A ball proves contact where it is so many times as large as rounding: the check of an answer asks for a depth to within its
+/// A ball proves contact where it is this many times as large as rounding: the check of an answer asks for a depth to within its
 /// half.
 const BALL: f64 = 4.0;
 
 /// Contact is looked for after 1, 2, 4 … 2¹⁰ time tolerances.
 const MOST_DOUBLINGS: i32 = 10;
 
-/// What a sweep wants to know.
+/// The goal of a sweep.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wanted {
     /// Farther apart than this.
@@ -42,7 +42,7 @@ pub(super) struct FreeStep {
     pub gaps: [f64; 2],
     /// and at all times between, along one that turns from the first to the second, at least so much.
     pub least: f64,
-    /// What `least` exceeds the margin by at least.
+    /// The least amount by which `least` exceeds the margin.
     pub slack: f64,
 }
 
@@ -56,7 +56,7 @@ pub(super) enum Ahead {
     Open,
 }
 
-/// What one moment proves about contact.
+/// The result that one moment proves about contact.
 #[allow(clippy::large_enum_variant, reason = "made in the end of a cast, and not kept")]
 enum Look {
     /// No farther apart than the margin.
@@ -67,10 +67,10 @@ enum Look {
     Open,
 }
 
-/// What is carried along.
+/// The state carried along a sweep.
 pub(super) struct Sweep<'a> {
     pair: &'a MovingPair<'a>,
-    /// Of the pair's queries.
+    /// The cache of the pair's queries.
     pub cache: PairCache,
     /// Certified queries made, those of gaps apart.
     pub queries: u32,
@@ -82,7 +82,7 @@ pub(super) struct Sweep<'a> {
     sight: Option<Sight>,
 }
 
-/// What is known of a moment at which a step has ended, or might have.
+/// The facts known about a moment at which a step has ended, or might have.
 struct Sight {
     time: f64,
     near: PairAnswer,
@@ -151,7 +151,7 @@ impl<'a> Sweep<'a> {
         for trials in 1.. {
             let (length, closes) = forecast.step(limit, shortest);
             let there = self.pair.at(if length < longest { after(here.time, length) } else { end })?;
-            // Where the distance is about to close the gap along one direction has closed before, if bodies turn.
+            // If bodies turn, the gap along one direction has closed before the distance is about to.
             let turns = trial.acceleration > 0.0 && trials <= MOST_SIGHTS && length > shortest;
             let mut found = if turns && closes { self.turned(&trial, &there)? } else { None };
             let mut rise = 0.0;
@@ -182,7 +182,7 @@ impl<'a> Sweep<'a> {
         Ok(None)
     }
 
-    /// A step along a direction that turns to the normal at its end. What is asked there is kept: the next step begins with it.
+    /// A step along a direction that turns to the normal at its end. The results there are kept: the next step begins with them.
     fn turned(&mut self, trial: &Trial, there: &Moment) -> Result<Option<FreeStep>> {
         let near = self.ask(there)?;
         if near.outcome != Outcome::Separated {
@@ -222,8 +222,8 @@ impl<'a> Sweep<'a> {
         Ok(Ahead::Open)
     }
 
-    /// Whether the motion is in contact at a moment, for sure. Without a margin the poses have to be deeper in each other than they
-    /// are rounded; with one their distance has to be so much less.
+    /// Whether the motion is provably in contact at a moment. Without a margin the poses have to be deeper in each other than
+    /// they are rounded; with one their distance has to be so much less.
     fn look(&mut self, moment: &Moment, margin: f64) -> Result<Look> {
         self.queries += 1;
         let mut answer = PairAnswer::default();
@@ -249,7 +249,7 @@ impl<'a> Sweep<'a> {
         Ok(depth_at(self.pair, moment, &mut DepthCache::default())?.lower > moment.rounding)
     }
 
-    /// Whether the motion has its objects in contact at a moment, for sure.
+    /// Whether the motion provably has its objects in contact at a moment.
     pub fn is_contact(&mut self, moment: &Moment) -> Result<bool> {
         Ok(matches!(self.look(moment, 0.0)?, Look::Contact(_)))
     }
@@ -279,7 +279,7 @@ pub(super) fn depth_at(pair: &MovingPair, moment: &Moment, cache: &mut DepthCach
     Ok(depth)
 }
 
-/// Whether an answer about the poses of a moment says that the motion has its objects no farther apart than the margin, if those
+/// Whether an answer about the poses of a moment shows that the motion has its objects no farther apart than the margin, if those
 /// that intersect without a margin are deep enough in each other.
 pub(super) fn is_contact(answer: &PairAnswer, moment: &Moment, margin: f64) -> bool {
     match answer.outcome {
@@ -302,7 +302,7 @@ struct Trial<'a> {
     gap: f64,
     acceleration: f64,
     slack: f64,
-    /// What the least gap has to exceed.
+    /// The value that the least gap must exceed.
     needed: f64,
 }
 

@@ -1,4 +1,5 @@
-//! What one object sweeps over in a range of times: its places at some of them, and how far it may be from between these.
+//! The region that one object sweeps over in a range of times: its places at some of them, and how far it may be from these in
+//! between.
 
 use super::bound::{Travel, rounding_of_place};
 use super::carried::Carried;
@@ -10,7 +11,7 @@ use crate::base::math::{Pose, UNIT_ROUNDOFF as U};
 /// A range of times is cut into parts in which no point bends away from its chord by more than this part of the body's radius …
 const MOST_SAG: f64 = 0.25;
 
-/// … and its centre goes no farther than so many radii, as boxes around long ways are mostly empty …
+/// … and its centre goes no farther than this many radii, as boxes around long ways are mostly empty …
 const MOST_TRAVEL: f64 = 4.0;
 
 /// … but into no more parts.
@@ -26,7 +27,7 @@ pub(crate) struct Swept<'a> {
     sag: f64,
 }
 
-/// Where an object is at one end of a part.
+/// The place of an object at one end of a part.
 pub(crate) struct Place {
     pub time: f64,
     pub pose: Pose,
@@ -36,7 +37,8 @@ pub(crate) struct Place {
 
 impl<'a> Swept<'a> {
     /// # Errors
-    /// Of the motion, as of [`super::cast`]; [`Error::Argument`](crate::base::error::Error::Argument) for times out of range.
+    /// Those of the motion, same as for [`super::cast`]; [`Error::Argument`](crate::base::error::Error::Argument) for times out
+    /// of range.
     pub fn new(body: Carried<'a>, range: [f64; 2]) -> Result<Swept<'a>> {
         check_times(range)?;
         body.motion.check()?;

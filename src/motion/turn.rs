@@ -18,8 +18,8 @@ pub(super) struct Turn {
 impl Turn {
     /// From the vector along the axis whose length is the speed, all of it finite.
     ///
-    /// Scaled so that its largest component is 1, whatever its size. Quotients err by u, the sum of squares by 5u, its root by
-    /// 3.5u, speed and axis by two more roundings.
+    /// Scaled so that its largest component is 1, for any size. Quotients err by u, the sum of squares by 5u, its root by 3.5u,
+    /// speed and axis by two more roundings.
     pub fn new(rotation: &Vector) -> Turn {
         let scale = rotation.amax();
         if !(scale > 0.0) {
@@ -104,10 +104,10 @@ const COSINE: [f64; 8] = [
 
 /// Sine and cosine of an angle of up to 2²⁰ radians, each off by less than 4u.
 ///
-/// The angle loses a multiple k of π/2. Its first difference is exact (Sterbenz), the next two are rounded by u·0.8 each; what the
-/// parts of π/2 leave out is far below. What is left, at most 0.7854 + 2⁻³⁰, goes into Taylor's series, which break off below 2⁻⁶³.
-/// The sine's rounding is u of r, and 6u of the rest, which is less than 0.1; the cosine's u of 1, and twice u of r²/2 < 0.31. So
-/// both are off by less than 1.7u + 2u.
+/// The angle loses a multiple k of π/2. Its first difference is exact (Sterbenz), the next two are rounded by u·0.8 each; the
+/// remainder that the parts of π/2 leave out is far below. The rest, at most 0.7854 + 2⁻³⁰, goes into Taylor's series, which
+/// break off below 2⁻⁶³. The sine's rounding is u of r, and 6u of the rest, which is less than 0.1; the cosine's u of 1, and
+/// twice u of r²/2 < 0.31. So both are off by less than 1.7u + 2u.
 fn sin_cos(angle: f64) -> (f64, f64) {
     let multiple = (angle * std::f64::consts::FRAC_2_PI).round();
     let r = reduced(angle, multiple);

@@ -22,8 +22,8 @@ const MOST_STEPS: u32 = 1_000_000;
 /// | [`CastOutcome::Near`] | farther apart than the margin from the beginning to `t_lo`; no farther than `upper` there |
 /// | [`CastOutcome::Budget`] | farther apart than the margin from the beginning to `t_lo` |
 ///
-/// Where `t_lo` is the beginning nothing is said of it. `contact` is checked as an answer about the poses there. How many queries
-/// were made is not checked, nor how narrow the interval of a hit is.
+/// If `t_lo` is the beginning, nothing is proved about it. `contact` is checked as an answer about the poses there. How many
+/// queries were made is not checked, nor how narrow the interval of a hit is.
 ///
 /// A sweep of its own, from no cache, proposes steps and directions. Each is proved anew: the gaps at both ends over all vertices
 /// in double-double arithmetic, and contact by the check of a depth. So it takes time in proportion to the steps and to the
@@ -62,7 +62,7 @@ pub fn verify_cast(bodies: [Moving; 2], config: &CastConfig, answer: &CastAnswer
     })
 }
 
-/// Whether an answer says what its outcome may say, of times in the range.
+/// Whether an answer contains what its outcome allows, for times in the range.
 fn check_times(config: &CastConfig, answer: &CastAnswer) -> Result<()> {
     let CastAnswer { outcome, t_lo, t_hi, clearance, upper, .. } = *answer;
     let [begin, end] = config.range();
@@ -118,7 +118,7 @@ fn prove_free(pair: &MovingPair, end: f64, margin: f64) -> Result<()> {
     )))
 }
 
-/// Proves a step: that its gaps are what it says, at poses computed anew, and that they suffice.
+/// Proves a step: that its gaps are the claimed ones, at poses computed anew, and that they suffice.
 fn check_step(pair: &MovingPair, step: &FreeStep, margin: f64) -> Result<()> {
     let [start, end] = step.ends.map(|moment| moment.time);
     let moments = [pair.at(start)?, pair.at(end)?];
@@ -126,7 +126,7 @@ fn check_step(pair: &MovingPair, step: &FreeStep, margin: f64) -> Result<()> {
         let time = moment.time;
         let bodies = pair.placed(moment);
         let bounds = Bounds::new(bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
-        // What the poses have to show for the motion, which is as far from them as they are rounded.
+        // The gap that the poses must show for the motion, which is as far from them as they are rounded.
         let needed = sum_above((gap + moment.rounding).next_up(), pair.swept());
         if !bounds.is_some_and(|bounds| bounds.prove_lower(&bounds.gap(direction), direction, needed)) {
             return Err(unverified(format!("a gap of {needed:e} at time {time:?} is not proved")));

@@ -1,4 +1,4 @@
-//! Many pairs at once: each as for itself, with the memory of those that follow asked for ahead.
+//! Many pairs at once: each is treated as a single one, with the memory of those that follow requested ahead.
 
 use super::answer::PairAnswer;
 use super::cache::PairCache;
@@ -9,24 +9,24 @@ use crate::base::error::{Error, Result};
 use crate::base::simd::prefetch;
 use crate::base::workers::Workers;
 
-/// A pair to be asked, and what it remembers.
+/// A pair to query, and its cache.
 #[derive(Debug)]
 pub struct PairQuestion<'a> {
     /// The two bodies.
     pub bodies: [Placed<'a>; 2],
-    /// Of this pair alone.
+    /// This pair's own cache.
     pub cache: &'a mut PairCache,
 }
 
-/// So many pairs ahead memory is asked for: a warm query takes about as long as two lines on their way.
+/// Memory is requested this many pairs ahead: a warm query takes about as long as two lines on their way.
 const AHEAD: usize = 4;
 
-/// Asks each pair what `query` names, into the answer at the same place. Answers and caches are, bit for bit, those of single
-/// queries, whatever `workers` share the work.
+/// Asks each pair what `query` names, into the answer at the same place. Answers and caches are bit for bit those of single
+/// queries, no matter which `workers` share the work.
 ///
 /// # Errors
-/// [`Error::Argument`] unless there is one answer for each pair. Of pairs that are refused the first one's error, named by its
-/// number: their answers say nothing, and all others are answered. [`Error::Memory`] where workers share.
+/// [`Error::Argument`] unless there is one answer for each pair. For refused pairs it returns the first one's error, named by its
+/// number: their answers are empty, and all others are answered. [`Error::Memory`] where workers share.
 pub fn batch(
     query: Query,
     pairs: &mut [PairQuestion],
@@ -44,7 +44,7 @@ pub fn batch(
     }
 }
 
-/// Some of the pairs, of which number `first` is the first.
+/// Some of the pairs; number `first` is the first of them.
 struct Part<'a, 'b> {
     query: Query,
     config: &'a PairConfig,

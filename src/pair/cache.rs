@@ -1,5 +1,5 @@
-//! What a pair remembers from one query to the next, and what of it is still good for the bodies at hand. Here alone it is packed
-//! and unpacked.
+//! The pair's cache from one query to the next, and which of its content still holds for the bodies at hand. Only this module
+//! packs and unpacks it.
 //!
 //! | it holds | first word | indices | vertex pairs |
 //! |---|---|---|---|
@@ -10,7 +10,7 @@
 //! | features of levels | 16 and the kind of state | of the features | the levels, and the steps spent |
 //! | a direction | 40 | | a separating axis |
 //!
-//! Beside all but an enclosure the last vertex pair says how the axis lay, and by which way approximate queries answer.
+//! Beside all but an enclosure, the last vertex pair records how the axis lay, and by which way approximate queries answer.
 
 use crate::base::math::Vector;
 use crate::pair::habit::Habit;
@@ -35,7 +35,7 @@ pub struct PairCache {
     pub(super) marker: Marker,
 }
 
-/// What the first word says that a cache holds.
+/// The content of a cache, as its first word gives it.
 enum Content {
     Nothing,
     /// The kind of the state.
@@ -50,7 +50,7 @@ enum Content {
     Pyramid(usize, usize),
 }
 
-/// What the first word of an enclosure and of features of levels have more than the number in [`Content`].
+/// The first word of an enclosure, and of features of levels, exceeds the number in [`Content`] by this.
 const ENCLOSURE: u32 = 8;
 const LEVELS: u32 = 16;
 const PYRAMID: u32 = 24;
@@ -60,7 +60,7 @@ const DIRECTION: u32 = 40;
 /// Corners of a pyramid's base that there is room for.
 const MOST_CORNERS: usize = 4;
 
-/// Marks a separating axis beside features. Where other bytes happen to look like one no harm is done.
+/// Marks a separating axis beside features. If other bytes happen to look like one, no harm is done.
 const AXIS: u32 = u32::from_ne_bytes(*b"axis");
 
 impl PairCache {
@@ -149,13 +149,13 @@ impl PairCache {
         !self.holds_enclosure() && Habit::of(self.pairs[3][1]).looks_up()
     }
 
-    /// Notes that look-ups have answered, of a pair that has hardly moved since the last time or has.
+    /// Notes that look-ups have answered; `is_still`: the pair has hardly moved since the last time.
     #[inline(always)]
     pub(super) fn note_look_ups(&mut self, is_still: bool) {
         self.pairs[3][1] = Habit::of(self.pairs[3][1]).looked_up(is_still).word();
     }
 
-    /// Notes how many steps marching took where look-ups might have answered, and whether they were tried in vain.
+    /// Notes how many steps marching took where look-ups might have answered, and whether they were tried without success.
     #[inline(always)]
     pub(super) fn note_marching(&mut self, steps: u32, in_vain: bool) {
         if !self.holds_enclosure() {
@@ -184,14 +184,14 @@ impl PairCache {
         pairs.iter().all(known).then(|| Pairs::new(pairs))
     }
 
-    /// The pyramid that proved the last depth, be it of vertices that the bodies have or not.
+    /// The pyramid that proved the last depth, whether or not the bodies have its vertices.
     #[inline(always)]
     pub(super) fn pyramid(&self) -> Option<Pyramid> {
         let Content::Pyramid(count, _) = self.content() else { return None };
         Some(Pyramid::new(&self.pairs[..count], self.indices))
     }
 
-    /// A pyramid, and which triangle of its base makes an enclosure with its apex; of one of many corners nothing is kept.
+    /// A pyramid, and which triangle of its base makes an enclosure with its apex; for one of many corners nothing is kept.
     pub(super) fn remember_pyramid(&mut self, pyramid: &Pyramid, triangle: u8) {
         let Some((base, apex)) = pyramid.plain() else { return };
         if base.len() <= MOST_CORNERS && usize::from(triangle) + 2 < base.len() {
@@ -201,7 +201,7 @@ impl PairCache {
         }
     }
 
-    /// Whether it holds an enclosure, be it of vertices that the bodies have or not.
+    /// Whether it holds an enclosure, whether or not the bodies have its vertices.
     #[inline(always)]
     pub(super) fn holds_enclosure(&self) -> bool {
         matches!(self.content(), Content::Enclosure(_) | Content::Pyramid(..))

@@ -1,4 +1,4 @@
-//! What a pair query is asked for.
+//! The options of a pair query.
 
 use crate::base::error::{Error, Result, check_range};
 use crate::base::math::ROTATION_LIMIT;
@@ -78,7 +78,7 @@ pub struct Accuracy {
 
 impl Accuracy {
     /// Whether an interval proves that the bodies are disjoint and is narrow enough, or beyond what has to be known. A narrow one
-    /// is to be wholly on this side of that: another start would not say otherwise.
+    /// must be wholly on this side of that: another start would not change the answer.
     #[inline(always)]
     pub fn is_met_by(&self, lower: f64, upper: f64) -> bool {
         let width = upper - lower;
@@ -87,24 +87,25 @@ impl Accuracy {
     }
 }
 
-/// What a pair query is asked for.
+/// The options of a pair query.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairConfig {
     /// Pairs farther apart than this are [`Outcome::Beyond`](super::Outcome::Beyond); from 0 to +∞ (the default: none is).
     pub distance_tolerance: f64,
     /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
-    /// Where marching starts.
+    /// The starting point of marching.
     pub start: Start,
-    /// Of an approximate query: `upper − lower` may be as large as this … Other queries do not look at this and the two that
-    /// follow, not even whether they are in range: from 0 to +∞, and 1 or more for the budget.
+    /// For an approximate query, `upper − lower` may be as large as this … Other queries ignore this field and the two that
+    /// follow, even when they are out of range: from 0 to +∞, and 1 or more for the budget.
     pub absolute_error: f64,
     /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
-    /// Of an approximate query: steps of marching after which it stops with what it has, 1 or more; UINT32_MAX (the default):
-    /// no limit. What marching leaves open is decided all the same, however long it takes; of bodies that intersect it may leave it
-    /// open only after as many steps as a query without a budget may make. The next query with the same cache goes on where this
-    /// one stopped, unless `start` says that it begin anew, at the tables or afresh: it may then stop there for ever.
+    /// For an approximate query: steps of marching after which it stops with what it has, 1 or more; UINT32_MAX (the default): no
+    /// limit. Cases that marching leaves open are still decided, however long it takes. For intersecting bodies marching may
+    /// leave a case open only after as many steps as a query without a budget may make. The next query with the same cache goes
+    /// on where this one stopped, unless `start` requires a new beginning, at the tables or afresh: it may then stop there every
+    /// time.
     pub step_budget: u32,
     /// Which levels of detail a query goes through.
     pub levels: Levels,
@@ -128,7 +129,7 @@ impl Default for PairConfig {
 }
 
 impl PairConfig {
-    /// Refuses a configuration with a member out of its range, of those that the query looks at.
+    /// Refuses a configuration with a member out of its range, among those that the query looks at.
     ///
     /// # Errors
     /// [`Error::Argument`], naming the first such member.

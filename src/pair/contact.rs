@@ -10,7 +10,8 @@ use crate::solve::frame::Frame;
 use crate::solve::state::FeatureId;
 use crate::solve::voronoi::edge_direction;
 
-/// Neighbours of a vertex beyond which all faces in the order of memory are looked through sooner than those around it.
+/// Neighbours of a vertex above which a look through all faces in the order of memory takes less time than one at those around
+/// it.
 const MOST_NEIGHBOURS: usize = 64;
 
 /// Rounds of refinement of the weights of a contact. Each gains the digits that the inverse has, two where the tetrahedron is 10¹⁴
@@ -19,14 +20,14 @@ const MOST_REFINEMENTS: usize = 12;
 
 const NOTHING: [f64; 3] = [f64::NAN; 3];
 
-/// An answer that says no points and features, only a normal.
+/// An answer without points and features, only with a normal.
 #[inline(always)]
 pub fn fill_normal<L: Lanes>(answer: &mut PairAnswer, normal: L) {
     fill_nothing(answer);
     normal.store_vector(&mut answer.normal);
 }
 
-/// An answer that says no points, normal and features.
+/// An answer without points, normal and features.
 #[inline(always)]
 pub fn fill_nothing(answer: &mut PairAnswer) {
     answer.local1 = NOTHING;
@@ -156,8 +157,8 @@ pub fn features_of_pairs(
     })
 }
 
-/// Whether a feature, which the body need not have, is one that [`features_of_pairs`] may say of three vertices: it is made of
-/// them all.
+/// Whether a feature, which the body need not have, is one that [`features_of_pairs`] may report for three vertices: it is made
+/// of them all.
 #[inline(always)]
 pub fn is_feature_of(polyhedron: &Polyhedron, feature: FeatureId, vertices: [u32; 3]) -> bool {
     match feature {
@@ -232,15 +233,15 @@ fn is_inside(polyhedron: &Polyhedron, face: u32, point: &Vector) -> bool {
         && side_values(polyhedron, record, point).all(|value| value > 2.0 * rounding(polyhedron))
 }
 
-/// A point that is farther inside than so many times the rounding is not on the boundary.
+/// A point that is farther inside than this many times the rounding is not on the boundary.
 const WELL_INSIDE: f64 = 64.0;
 
 /// Faces walked over before all are looked at.
 const LONGEST_WALK: usize = 64;
 
 /// The face through which a point inside the body, rounding apart, leaves it along a direction, if that is no farther than
-/// `within`: a walk from the faces at a vertex over neighbours whose planes the ray meets sooner. As the least of linear functions
-/// the way to the boundary has no other minima than the least.
+/// `within`: a walk from the faces at a vertex over neighbours whose planes the ray meets earlier. As the least of linear
+/// functions the way to the boundary has no other minima than the least.
 fn face_ahead(polyhedron: &Polyhedron, vertex: u32, point: &Vector, towards: &Vector, within: f64) -> Option<u32> {
     // A point on the boundary, rounding included, is left to the planes and sides.
     if within <= WELL_INSIDE * rounding(polyhedron) {
@@ -269,7 +270,7 @@ fn face_ahead(polyhedron: &Polyhedron, vertex: u32, point: &Vector, towards: &Ve
     None
 }
 
-/// Of the faces that hold a point, rounding included, the one that looks most towards the other body.
+/// The face that looks most towards the other body, among the faces that hold a point, rounding included.
 fn face_holding(
     polyhedron: &Polyhedron,
     faces: impl Iterator<Item = u32>,
@@ -279,7 +280,7 @@ fn face_holding(
     let (mut best, mut steepest) = (None, f64::NEG_INFINITY);
     for face in faces {
         let slope = polyhedron.faces[face as usize].normal.dot(towards);
-        // The plane tells first of most that do not hold it.
+        // The plane first excludes most that do not hold it.
         let is_on_plane = polyhedron.faces[face as usize].planes.value(0, point).abs() <= rounding(polyhedron);
         if is_on_plane && slope > steepest && misses_face(polyhedron, face, point) == 0.0 {
             (best, steepest) = (Some(face), slope);
@@ -288,8 +289,8 @@ fn face_holding(
     best
 }
 
-/// The face nearest to a point in the body, of several the one that looks most towards the other body. It is the face whose
-/// plane is nearest: the foot on it lies in the body, so in the face. Where rounding leaves several planes, the distances tell.
+/// The face nearest to a point in the body, of several the one that looks most towards the other body. It is the face whose plane
+/// is nearest: the foot on it lies in the body, so in the face. If rounding leaves several planes, the distances decide.
 fn nearest_face(polyhedron: &Polyhedron, point: &Vector, towards: &Vector) -> Option<u32> {
     let height = |face: &Face| face.planes.value(0, point);
     let highest = polyhedron.faces.iter().map(height).fold(f64::NEG_INFINITY, f64::max);
@@ -305,7 +306,7 @@ fn nearest_face(polyhedron: &Polyhedron, point: &Vector, towards: &Vector) -> Op
     best
 }
 
-/// What a point of a face may miss its plane and its sides' planes by.
+/// The rounding error by which a point of a face may miss its plane and its sides' planes.
 fn rounding(polyhedron: &Polyhedron) -> f64 {
     64.0 * UNIT_ROUNDOFF * polyhedron.radius
 }
@@ -351,8 +352,8 @@ fn distance_to_edge(polyhedron: &Polyhedron, edge: &Edge, point: &Vector) -> f64
     (from_tail - direction * t).norm()
 }
 
-/// Convex weights of an enclosing tetrahedron made better by iterative refinement: those from its determinants lose digits where it
-/// is thin, and the two witness points of a contact are to be one.
+/// Convex weights of an enclosing tetrahedron, improved by iterative refinement: those from its determinants lose digits where it
+/// is thin, and the two witness points of a contact must coincide.
 pub fn refined_weights(
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],

@@ -1,23 +1,23 @@
-//! Which way a pair answers approximate queries: by look-ups of support functions, or by marching. Where it moves little, marching
+//! Which way a pair answers approximate queries: by look-ups of support functions, or by marching. If it moves little, marching
 //! from its last features costs less.
 
 /// A habit. Any bits make one.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Habit {
     marches: bool,
-    /// Marching has not yet begun: its first search starts anew, and says nothing of the next.
+    /// Marching has not yet begun: its first search starts anew, and predicts nothing for the next.
     is_new: bool,
-    /// Queries in a row that speak for the other way: of a pair that looks up those that hardly moved, of one that marches those
-    /// that took many steps.
+    /// Consecutive queries that favour the other way: for a pair that looks up, those that hardly moved; for one that marches,
+    /// those that took many steps.
     against: u8,
-    /// Look-ups in vain in a row.
+    /// Consecutive failed look-ups.
     failed: u8,
-    /// Queries that are still to do without look-ups.
+    /// Queries that still have to run without look-ups.
     pause: u8,
 }
 
 impl Habit {
-    /// So many queries in a row change the habit.
+    /// This many consecutive queries change the habit.
     const ENOUGH: u8 = 2;
     /// Steps of marching that are many.
     const MANY_STEPS: u32 = 4;
@@ -42,7 +42,7 @@ impl Habit {
         !self.marches & (self.pause == 0)
     }
 
-    /// After look-ups that answered, of a pair that has hardly moved since the last time or has.
+    /// After look-ups that answered; `is_still`: the pair has hardly moved since the last time.
     #[inline(always)]
     pub(super) fn looked_up(self, is_still: bool) -> Habit {
         let against = if is_still { self.against.saturating_add(1) } else { 0 };
@@ -50,7 +50,7 @@ impl Habit {
         Habit { marches, is_new: marches, against: if marches { 0 } else { against }, failed: 0, pause: 0 }
     }
 
-    /// After look-ups in vain: the second time in a row brings a short pause, the sixth and all after it a long one.
+    /// After failed look-ups: the second consecutive failure brings a short pause, the sixth and all after it a long one.
     #[inline(always)]
     pub(super) fn failed(self) -> Habit {
         let failed = self.failed.saturating_add(1);
@@ -62,7 +62,7 @@ impl Habit {
         Habit { failed, pause, ..self }
     }
 
-    /// After marching of so many steps.
+    /// After marching of this many steps.
     #[inline(always)]
     pub(super) fn marched(self, steps: u32) -> Habit {
         let against = if (steps >= Self::MANY_STEPS) & !self.is_new { self.against.saturating_add(1) } else { 0 };

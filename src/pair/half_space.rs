@@ -46,8 +46,8 @@ impl HalfSpace {
 const TINY: f64 = 1e-150;
 
 impl HalfSpace {
-    /// What is in a box is at least so far above the plane; 0 or less says nothing, and neither does a NaN. Along the normal in
-    /// the unit of its largest component the least of the box is off by 8u of the size of all terms.
+    /// A lower bound on the height of a box's content above the plane; 0 or less proves nothing, and neither does a NaN. Along
+    /// the normal, in the unit of its largest component, the least of the box is off by 8u of the size of all terms.
     pub(crate) fn gap_of_box(&self, lower: [f64; 3], upper: [f64; 3]) -> f64 {
         let scale = self.normal.iter().fold(0.0_f64, |largest, x| largest.max(x.abs()));
         let (normal, offset) = (self.normal.map(|x| x / scale), self.offset / scale);
@@ -79,7 +79,7 @@ pub fn half_space_distance(body: Placed, half_space: &HalfSpace) -> Result<Signe
 /// The same of what is sound, in the default floating-point environment.
 ///
 /// # Panics
-/// Where integers get no memory, as of [`in_integers`].
+/// Fails where integers get no memory, same as [`in_integers`].
 pub(super) fn of_lowest(body: Placed, half_space: &HalfSpace) -> SignedDistance {
     let (polyhedron, pose) = (body.shape.polyhedron(), body.pose);
     let &HalfSpace { normal, offset } = half_space;

@@ -3,17 +3,17 @@
 use crate::base::math::Pose;
 use crate::shape::Shape;
 
-/// A body where it is: what a query takes two of, see [`Shape::at`].
+/// A body at a pose: a query takes two of them, see [`Shape::at`].
 #[derive(Debug, Clone, Copy)]
 pub struct Placed<'a> {
     /// Its geometry.
     pub shape: &'a Shape,
-    /// Where it is.
+    /// The pose of the body.
     pub pose: &'a Pose,
 }
 
 impl Shape {
-    /// The shape where `pose` says.
+    /// The shape, placed by `pose`.
     #[inline(always)]
     pub fn at<'a>(&'a self, pose: &'a Pose) -> Placed<'a> {
         Placed { shape: self, pose }

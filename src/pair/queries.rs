@@ -15,14 +15,14 @@ use crate::base::error::Result;
 
 /// Exact distance with its interval, witness points, normal and features.
 ///
-/// Of an intersecting pair the distance and its interval are 0, `proof` holds the vertex pairs; points, normal and features stay
-/// unset (see [`contact()`]). Of a pair beyond `config.distance_tolerance` only `lower` is set.
+/// For an intersecting pair the distance and its interval are 0, and `proof` holds the vertex pairs. Points, normal and features
+/// stay unset (see [`contact()`]). For a pair beyond `config.distance_tolerance` only `lower` is set.
 ///
 /// # Errors
-/// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted (not finite, a reflection, an entry of RᵀR − I
-/// above `config.rotation_limit`), [`Error::Argument`](crate::base::error::Error::Argument) for a tolerance that is NaN or negative
-/// and for a rotation limit that is not from 0 to [`ROTATION_LIMIT`](crate::base::math::ROTATION_LIMIT). Then `answer` and `cache`
-/// are as they were. What of `config` is for [`approximate`] alone is not looked at.
+/// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted (not finite, a reflection, an entry of RᵀR −
+/// I above `config.rotation_limit`), [`Error::Argument`](crate::base::error::Error::Argument) for a tolerance that is NaN or
+/// negative and for a rotation limit that is not from 0 to [`ROTATION_LIMIT`](crate::base::math::ROTATION_LIMIT). Then `answer`
+/// and `cache` are as they were. The fields of `config` that only [`approximate`] uses are ignored.
 pub fn distance(
     bodies: [Placed; 2],
     cache: &mut PairCache,
@@ -47,7 +47,7 @@ pub fn intersection(
 }
 
 /// As [`distance`], and for an intersecting pair a common point (as witness points of both objects), the unit normal along which
-/// the objects overlap least and the features that meet there: those of [`depth()`], which says how deep, and where.
+/// the objects overlap least and the features that meet there: those of [`depth()`], which reports how deep, and where.
 ///
 /// # Errors
 /// As [`distance`].
@@ -59,8 +59,8 @@ pub fn contact(bodies: [Placed; 2], cache: &mut PairCache, config: &PairConfig, 
 /// soon as `upper − lower` ≤ max(`config.absolute_error`, `config.relative_error` · `lower`). Both 0 ask for the exact
 /// distance.
 ///
-/// The verdict is as certain as that of [`distance`], unless the step budget ran out ([`DecidedBy::Budget`]). Points and
-/// features stay unset in an answer that comes from maps of support functions or from levels of detail. Of a pair beyond
+/// The verdict is as certain as that of [`distance`], unless the step budget ran out ([`DecidedBy::Budget`]). Points and features
+/// stay unset in an answer that comes from maps of support functions or from levels of detail. For a pair beyond
 /// `config.distance_tolerance` only `lower` is set.
 ///
 /// # Errors
@@ -105,8 +105,8 @@ fn query_with(
     ladder::ask(query, glances, bodies, cache, config, answer)
 }
 
-/// How deep two objects are in each other, see [`DepthAnswer`]. Separated objects are found out, and nothing more is said of them
-/// than a normal that separates them: [`distance`] tells how far apart they are.
+/// How deep two objects are in each other, see [`DepthAnswer`]. Separated objects are detected, but only a normal that separates
+/// them is reported: [`distance`] tells how far apart they are.
 ///
 /// # Errors
 /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted, as in [`distance`], and
@@ -124,10 +124,10 @@ pub fn depth(
     of_polyhedra(&bodies, cache, config, answer)
 }
 
-/// The distance of objects that are apart, minus the depth of those that intersect; each is as certain and as narrow as
-/// [`distance`] and [`depth()`] say. Of a pair beyond `config.distance_tolerance` only `lower` is said.
+/// The distance of objects that are apart, minus the depth of those that intersect; each is as certain and as narrow as those of
+/// [`distance`] and [`depth()`]. For a pair beyond `config.distance_tolerance` only `lower` is reported.
 ///
-/// Of `config` the tolerance, the rotation limit, the start and the levels count.
+/// The query uses the tolerance, the rotation limit, the start and the levels of `config`.
 ///
 /// # Errors
 /// As of [`distance`]; then `answer` is as it was.

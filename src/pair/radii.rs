@@ -9,7 +9,7 @@ use crate::base::math::{Pose, Vector};
 /// The swept radii of a pair.
 #[derive(Debug, Clone, Copy)]
 pub struct Radii {
-    /// Of body 1 and body 2.
+    /// The radii of body 1 and body 2.
     pub each: [f64; 2],
     /// Their sum, rounded down.
     pub lower: f64,
@@ -18,7 +18,7 @@ pub struct Radii {
 }
 
 impl Radii {
-    /// Of bodies without.
+    /// The radii of bodies without any.
     pub const NONE: Radii = Radii { each: [0.0; 2], lower: 0.0, upper: 0.0 };
 
     /// `None` of two bodies without.
@@ -32,7 +32,7 @@ impl Radii {
         })
     }
 
-    /// Of a body and what has none.
+    /// The radii of a body and a partner without one.
     pub fn of_one(radius: f64) -> Radii {
         Radii { each: [radius, 0.0], lower: radius, upper: radius }
     }
@@ -43,7 +43,7 @@ impl Radii {
         [sum_below(lower, -self.upper), sum_above(upper, -self.lower)]
     }
 
-    /// The least interval of the polyhedra that contains what [`Radii::off`] makes this of.
+    /// The least interval of the polyhedra that contains the result of [`Radii::off`] for this.
     pub fn back_on(&self, [lower, upper]: [f64; 2]) -> [f64; 2] {
         [sum_below(lower, self.lower), sum_above(upper, self.upper)]
     }
@@ -64,7 +64,7 @@ impl Radii {
     }
 }
 
-/// Points moved by so much along a direction of the world. A pose does not stretch the ball: the local point is where the pose
+/// Points moved by this much along a direction of the world. A pose does not stretch the ball: the local point is where the pose
 /// takes to the moved one.
 pub fn moved(points: &PlacedPoints, poses: [&Pose; 2], normal: &[f64; 3], by: [f64; 2]) -> PlacedPoints {
     let normal = Vector::from(*normal);

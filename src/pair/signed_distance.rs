@@ -19,7 +19,7 @@ pub struct SignedDistanceCache {
 }
 
 impl SignedDistanceCache {
-    /// What it remembers of the depth.
+    /// The cached depth.
     pub(super) fn depth(&self) -> &DepthCache {
         &self.depth
     }
@@ -60,7 +60,7 @@ impl Default for SignedDistance {
     }
 }
 
-/// Of objects that are apart.
+/// The signed distance of objects that are apart.
 impl From<&PairAnswer> for SignedDistance {
     fn from(answer: &PairAnswer) -> Self {
         let &PairAnswer { outcome, distance, lower, upper, local1, local2, world1, world2, normal, .. } = answer;
@@ -69,7 +69,7 @@ impl From<&PairAnswer> for SignedDistance {
     }
 }
 
-/// Of objects that intersect.
+/// The signed distance of objects that intersect.
 impl From<&DepthAnswer> for SignedDistance {
     fn from(answer: &DepthAnswer) -> Self {
         let &DepthAnswer { outcome, depth, lower, upper, local1, local2, world1, world2, normal, .. } = answer;
@@ -100,7 +100,7 @@ pub(super) fn of_polyhedra(
     config: &PairConfig,
     answer: &mut SignedDistance,
 ) -> Result<()> {
-    // What the objects were the last time is asked first.
+    // The query that matches the last outcome runs first.
     if cache.depth.expects_overlap() {
         if overlaps(bodies, cache, config, answer)? {
             return Ok(());

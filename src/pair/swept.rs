@@ -1,5 +1,5 @@
-//! Queries of bodies over which balls are swept (`ShapeOptions::swept_radius`): those of the polyhedra, and the radii off what they
-//! answer. Where the interval does not tell on which side of 0 or of the tolerance the rest is, integers do.
+//! Queries of bodies over which balls are swept (`ShapeOptions::swept_radius`): those of the polyhedra, and the radii off what
+//! they answer. If the interval does not tell on which side of 0 or of the tolerance the rest is, integers do.
 
 use super::answer::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer};
 use super::cache::PairCache;
@@ -35,7 +35,7 @@ pub(super) fn query(
     let is_verdict = query == Query::Intersection && config.distance_tolerance == f64::INFINITY;
     let enough = if is_verdict { 0.0 } else { config.distance_tolerance };
     let of_polyhedra = PairConfig { distance_tolerance: radii.with(enough), ..*config };
-    // Whether polyhedra are nearer than the radii no verdict tells.
+    // No verdict tells whether polyhedra are nearer than the radii.
     let asked = if query == Query::Intersection { Query::Distance } else { query };
     ladder::ask(asked, Glances::Asked, &bodies, cache, &of_polyhedra, &mut found)?;
     if query == Query::Approximate && is_too_wide(&found, radii, config) {
@@ -48,13 +48,13 @@ pub(super) fn query(
     Ok(())
 }
 
-/// Whether an interval was narrow enough for the polyhedra, and is not for what is left of it: of that `lower` is less.
+/// Whether an interval was narrow enough for the polyhedra, and is not for the remaining distance, whose `lower` is less.
 fn is_too_wide(found: &PairAnswer, radii: &Radii, config: &PairConfig) -> bool {
     let [lower, upper] = radii.off([found.lower, found.upper]);
     let width = upper - lower;
     let may_be_wide = config.absolute_error > 0.0 || config.relative_error > 0.0;
     let is_narrow = width <= config.absolute_error || (lower > 0.0 && width <= config.relative_error * lower);
-    // Of what is in each other as polyhedra all is said.
+    // For polyhedra that intersect, the answer is already complete.
     let is_apart = found.outcome == Outcome::Separated && upper > 0.0;
     may_be_wide && is_apart && !is_narrow && found.decided_by != DecidedBy::Budget
 }
@@ -87,7 +87,7 @@ fn less(query: Query, bodies: [Placed; 2], radii: &Radii, tolerance: f64, found:
     PairAnswer { distance, lower, upper, local1, local2, world1, world2, normal, feature1, feature2, ..answer }
 }
 
-/// What a budget left open.
+/// The answer for a pair that a budget left undecided.
 fn undecided(radii: &Radii, found: &PairAnswer) -> PairAnswer {
     let [_, upper] = radii.off([found.lower, found.upper]);
     let said = PairAnswer { decided_by: found.decided_by, statistics: found.statistics, ..PairAnswer::UNSAID };
@@ -98,8 +98,9 @@ fn undecided(radii: &Radii, found: &PairAnswer) -> PairAnswer {
     PairAnswer { outcome: Outcome::Undecided, distance, lower: 0.0, upper, ..said }
 }
 
-/// Of polyhedra that are apart and bodies that are not: the middle of what both have of the shortest connection. It is one point on
-/// the line between the witness points, beside which the normal may lead: of thin bodies that are parallel by 1e-8 of the way.
+/// For polyhedra that are apart and bodies that are not: the middle of the part of the shortest connection that both bodies
+/// cover. It is one point on the line between the witness points. The normal may lead beside that line: for thin parallel bodies
+/// by 1e-8 of the way.
 fn fill_common_point(answer: &mut PairAnswer, bodies: [Placed; 2], radii: &Radii, found: &PairAnswer) {
     let [radius1, radius2] = radii.each;
     let from2 = 0.5 * ((found.distance - radius1).max(0.0) + found.distance.min(radius2));

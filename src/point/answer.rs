@@ -1,29 +1,29 @@
-//! Where a point is, and which vertex is farthest: plain data, laid out for C.
+//! Answers on points and support vertices: plain data, laid out for C.
 
 use crate::pair::{Feature, SignedDistance};
 
-/// Where a point is relative to a closed body.
+/// Position of a point relative to a closed body.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
 pub enum PointLocation {
-    /// Nothing is said yet: the value of a fresh answer.
+    /// No answer yet: the value of a fresh answer.
     #[default]
     None = 0,
     /// In the body's interior. A body without interior has no such point.
     Inside = 1,
-    /// On its surface; of a body without interior any point of it.
+    /// On its surface; for a body without interior, any point of it.
     On = 2,
     /// Not in the body.
     Outside = 3,
 }
 
-/// Where a point is relative to a body, and what of the surface is nearest. Numbers that it does not say are NaN.
+/// Position of a point relative to a body, and the nearest feature of the surface. Numbers that it does not say are NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct PointAnswer {
-    /// Certain, whatever the magnitudes.
+    /// Guaranteed, whatever the magnitudes.
     pub location: PointLocation,
-    /// What of the body's surface holds the nearest point of it, in the caller's numbering.
+    /// The feature of the body's surface that holds its nearest point, in the caller's numbering.
     pub feature: Feature,
     /// The best estimate of how far the point is from the surface, `lower ≤ distance ≤ upper`: negative inside, 0 on it.
     pub distance: f64,
@@ -46,7 +46,7 @@ impl Default for PointAnswer {
 }
 
 impl PointAnswer {
-    /// Of the signed distance of a point, which is object 1, and the body.
+    /// From the signed distance of a point, which is object 1, and the body.
     pub(super) fn new(location: PointLocation, signed: &SignedDistance) -> PointAnswer {
         let &SignedDistance { distance, lower, upper, local2, world2, normal, feature2, .. } = signed;
         PointAnswer { location, feature: feature2, distance, lower, upper, local: local2, world: world2, normal }
@@ -57,11 +57,11 @@ impl PointAnswer {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct SupportVertex {
-    /// The vertex's index in the caller's array: for certain no other is farther. Of several that are as far it is any.
+    /// The vertex's index in the caller's array: no other is farther, provably. If several are as far, it is any of them.
     pub vertex: u32,
     /// Whether integers decided what rounding hides: 1 or 0. They allocate.
     pub exact: i32,
-    /// Where the body reaches farthest, in its local frame: the vertex, or a point of the ball about it.
+    /// The body's support point in its local frame: the vertex, or a point of the ball about it.
     pub local: [f64; 3],
     /// The same in the world, rounded.
     pub world: [f64; 3],

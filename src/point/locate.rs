@@ -1,4 +1,4 @@
-//! Where a point is relative to a body: the signed distance of the two.
+//! Location of a point relative to a body: the signed distance of the two.
 
 use super::answer::{PointAnswer, PointLocation};
 use super::check_finite;
@@ -8,8 +8,8 @@ use crate::base::simd::environment::with_default;
 use crate::pair::{Outcome, PairConfig, Placed, SignedDistance, SignedDistanceCache, signed_distance};
 use crate::shape::{InputPolicy, Shape, ShapeOptions};
 
-/// Where a point of the world is relative to a body: inside, on it or outside, with the distance from its surface and what of that
-/// is nearest. Certain, whatever the magnitudes: integers decide where doubles cannot tell. It allocates.
+/// Locates a point of the world relative to a body: inside, on it or outside, with the distance from its surface and the nearest
+/// feature. Guaranteed, whatever the magnitudes: integers decide where doubles cannot tell. It allocates.
 ///
 /// # Errors
 /// [`Error::Argument`](crate::base::error::Error::Argument) for a point that is not finite,
@@ -28,8 +28,8 @@ pub fn locate_point(body: Placed, point: [f64; 3]) -> Result<PointAnswer> {
     })
 }
 
-/// Of a common point that is all of one body the depth is 0 just where it is on the surface of the other; a depth that is more is
-/// never said to be 0 at both ends.
+/// If a common point is all of one body, the depth is 0 just where it is on the surface of the other. A greater depth is never
+/// reported as 0 at both ends.
 fn location(signed: &SignedDistance) -> PointLocation {
     match signed.outcome {
         Outcome::Intersecting if signed.lower == 0.0 => PointLocation::On,

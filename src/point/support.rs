@@ -13,8 +13,8 @@ use crate::solve::exact::body::Body;
 use crate::solve::exact::dyadic::DyadicVector;
 use crate::solve::polytope::farthest;
 
-/// The vertex of a body that is farthest along a direction of the world, of any length but 0: certain, whatever the magnitudes. Of
-/// a body with a swept radius place and height are those of the ball about the vertex.
+/// The support vertex of a body along a direction of the world, of any length but 0: guaranteed, whatever the magnitudes. For a
+/// body with a swept radius, place and height are those of the ball about the vertex.
 ///
 /// # Errors
 /// [`Error::Argument`] for a direction that is 0 or not finite, [`Error::Pose`] for a pose that is not accepted, as in
@@ -70,11 +70,11 @@ fn climb_exactly(polyhedron: &Polyhedron, pose: &Pose, direction: [f64; 3], from
     body.support(from, &towards)
 }
 
-/// Between which doubles the height along a direction is of the ball about a vertex.
+/// Two doubles that enclose the height of the ball about a vertex along a direction.
 ///
 /// Each of its terms d·R·c, d·R·p, d·T and r·|d|, summed, goes through at most nine roundings: 9u of their absolute values, which
-/// are themselves rounded as often. What underflows is below the smallest normal number; |d| is in units of its largest component,
-/// of which the radius makes a length first, so that no square does.
+/// are themselves rounded as often. Values that underflow are below the smallest normal number; |d| is in units of its largest
+/// component, of which the radius makes a length first, so that no square does.
 fn height(polyhedron: &Polyhedron, pose: &Pose, radius: f64, direction: &Vector, vertex: u32) -> [f64; 2] {
     let (centre, position) = (polyhedron.centre, polyhedron.vertices[vertex as usize].position);
     let (local, parts) = (centre + position, centre.abs() + position.abs());
@@ -87,7 +87,7 @@ fn height(polyhedron: &Polyhedron, pose: &Pose, radius: f64, direction: &Vector,
     let ball = radius * largest * (direction / largest).norm();
     (value, terms) = (value + ball, terms + ball);
     let error = 12.0 * U * terms + f64::MIN_POSITIVE;
-    // What overflows says nothing.
+    // A value that overflows says nothing.
     match value.is_finite() && error.is_finite() {
         true => [(value - error).next_down(), (value + error).next_up()],
         false => [f64::NEG_INFINITY, f64::INFINITY],

@@ -1,21 +1,22 @@
-//! Faces as manifolds take them: what is one face up to the noise of the input's coordinates. Exact queries do not look here.
+//! Faces for manifolds: faces that are one up to the noise of the input's coordinates count as one. Exact queries do not look
+//! here.
 
 use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::copied;
 
-/// What merged faces become where coordinates are off by up to a noise; empty where all merged faces stay as they are.
+/// The faces that merged ones become where coordinates are off by up to a noise; empty where all merged faces stay as they are.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct ContactFaces {
-    /// By how much a coordinate may be off.
+    /// A bound of a coordinate's error.
     pub noise: f64,
     /// Those that differ from merged faces.
     pub faces: Vec<ContactFace>,
-    /// Corners of all: of each counter-clockwise seen from outside, no three on a line up to the noise.
+    /// Corners of all: for each, counter-clockwise seen from outside, no three on a line up to the noise.
     pub corners: Vec<u32>,
     /// A vertex and a contact face whose slab holds it, ascending.
     pub at_vertices: Vec<[u32; 2]>,
-    /// What has become of each merged face; empty if `faces` is.
+    /// The fate of each merged face; empty if `faces` is.
     pub parts: Vec<FacePart>,
 }
 
@@ -31,7 +32,7 @@ pub struct ContactFace {
     pub middle: f64,
     /// At least half the slab's thickness.
     pub slack: f64,
-    /// Where its corners begin.
+    /// Start of its corners.
     pub first_corner: u32,
     /// How many there are.
     pub corner_count: u32,
@@ -39,7 +40,7 @@ pub struct ContactFace {
     pub label: u32,
 }
 
-/// What has become of a merged face.
+/// The fate of a merged face.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FacePart {
     /// It is a face of its own.
@@ -79,7 +80,7 @@ impl ContactFaces {
         self.at_vertices[first..].iter().take_while(move |[v, _]| *v == vertex).map(|[_, face]| *face)
     }
 
-    /// What has become of a merged face.
+    /// The fate of a merged face.
     pub fn part(&self, merged: u32) -> FacePart {
         self.parts.get(merged as usize).copied().unwrap_or(FacePart::Whole)
     }

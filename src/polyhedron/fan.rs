@@ -1,5 +1,5 @@
-//! What the depth of a small body reads, in arrays: its faces' normals as a closed fan around the sphere of directions, and the
-//! corners that face them.
+//! The arrays that the depth of a small body is read from: its faces' normals as a closed fan around the sphere of directions,
+//! and the corners that face them.
 //!
 //! The **fan** of a body is a net on the sphere of directions. Its nodes are the faces' normals, just as the doubles give them; an
 //! arc joins two nodes across each edge; the arcs around a corner go round its cell. Merged and rounded as the normals are, the fan
@@ -64,7 +64,7 @@ pub struct FanEdge {
 pub struct Fan {
     /// The vertices that are corners of merged faces, ascending.
     pub corners: Vec<u32>,
-    /// Where they are, in centred coordinates; the last block repeats the last corner.
+    /// Positions of the corners, in centred coordinates; the last block repeats the last corner.
     pub points: Vec<PointBlock>,
     /// The faces, in the order of the body's; the last block repeats the last one.
     pub planes: Vec<FaceBlock>,

@@ -67,7 +67,7 @@ pub struct NeighbourBlock {
 pub struct Vertex {
     /// Exact centred coordinates.
     pub position: Vector,
-    /// Where its neighbour blocks beyond the first begin in `more_neighbours`.
+    /// Start of its neighbour blocks beyond the first in `more_neighbours`.
     pub first_more: u32,
     /// How many blocks beyond the first.
     pub more: u32,
@@ -75,8 +75,8 @@ pub struct Vertex {
     pub neighbours: NeighbourBlock,
 }
 
-/// An edge between two merged faces, from `tail` to `head`, the face `left` of it seen from outside. Once per edge. What every
-/// query looks at is in the first three cache lines.
+/// An edge between two merged faces, from `tail` to `head`, the face `left` of it seen from outside. Once per edge. The members
+/// that every query looks at are in the first three cache lines.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C, align(64))]
 pub struct Edge {
@@ -85,15 +85,15 @@ pub struct Edge {
     /// that of the right face. Lane 0's normal is the unit direction of the edge; minus lane 2's and 3's normals are the
     /// unit inward side directions `n_left × direction` and `direction × n_right`.
     pub planes: PlaneBlock,
-    /// Where the tail is.
+    /// Position of the tail.
     pub tail_position: Vector,
     /// Length of the edge.
     pub length: f64,
-    /// The largest of the slacks of both faces and of the bevel, and what comes of an edge that leans out of their planes; +∞,
+    /// The largest of the slacks of both faces and of the bevel, and the effect of an edge that leans out of their planes; +∞,
     /// which asks for a closer look, where rounding hides the dihedral angle.
     pub slack: f64,
-    /// What lies across each of `planes`: tail, head, left face, right face. An array, since marching looks up one of them without
-    /// knowing which.
+    /// The vertex or face across each of `planes`: tail, head, left face, right face. An array, since marching looks up one of
+    /// them without knowing which.
     pub across: [u32; 4],
     /// The caller's indices of the two vertices.
     pub labels: [u32; 2],
@@ -149,7 +149,7 @@ pub struct Face {
     pub planes: PlaneBlock,
     /// σ: an upper bound of max over the exact hull of n·x minus min over this face's own vertices, flat ones included, of n·x.
     pub slack: f64,
-    /// Where the face's sides begin in `sides`; side i lies in lane 1 + i of `planes` for i < 3, else in lane (i − 3) % 4 of
+    /// Start of the face's sides in `sides`; side i lies in lane 1 + i of `planes` for i < 3, else in lane (i − 3) % 4 of
     /// `more_sides[first_more + (i − 3) / 4]`.
     pub first_side: u32,
     /// Number of sides.
@@ -166,7 +166,7 @@ pub struct Face {
     pub normal: Vector,
 }
 
-/// Volume, centre of mass and the like; of a flat body the area-weighted, of a segment the length-weighted ones.
+/// Volume, centre of mass and the like; for a flat body the area-weighted, for a segment the length-weighted ones.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct MassProperties {
     /// Volume; 0 without interior.
@@ -195,7 +195,7 @@ impl MassProperties {
 
 /// A convex polyhedron, immutable once built, apart from its look-up table and its search for polygons.
 ///
-/// What every query reads comes first, together.
+/// The members that every query reads come first, together.
 #[derive(Debug, Clone, PartialEq)]
 #[repr(C, align(64))]
 pub struct Polyhedron {
@@ -211,11 +211,11 @@ pub struct Polyhedron {
     pub simple: bool,
     /// Merged faces.
     pub faces: Vec<Face>,
-    /// What was subtracted from the stored vertices, exactly.
+    /// The centre, subtracted exactly from the stored vertices.
     pub centre: Vector,
     /// Volume, centre of mass, radius, box.
     pub mass: MassProperties,
-    /// Where marching starts from when the last query tells nothing.
+    /// The table that marching starts from when the last query tells nothing.
     pub lookup: Lookup,
     /// Blocks of vertices with more than eight neighbours.
     pub more_neighbours: Vec<NeighbourBlock>,
@@ -245,10 +245,10 @@ pub struct Polyhedron {
     pub polygon_starts: Vec<u32>,
     /// Finds the polygon that holds a point of a face of many.
     pub polygon_search: PolygonSearch,
-    /// The vertices in fours, of a body of at most [`MOST_IN_BLOCKS`]: all are looked at sooner than a climb has ended. The last
+    /// The vertices in fours, for a body of at most [`MOST_IN_BLOCKS`]: to look at all of them is faster than a climb. The last
     /// block repeats the last vertex.
     pub vertex_blocks: Vec<PointBlock>,
-    /// Of a body of few corners, what its depth in another is read from; see [`Fan`].
+    /// For a body of few corners, the data that its depth in another is read from; see [`Fan`].
     pub fan: Option<Fan>,
     /// Faces as manifolds take them. Levels of detail have none.
     pub contact_faces: ContactFaces,
@@ -346,7 +346,7 @@ impl Polyhedron {
         if self.faces.is_empty() { self.vertices.len() } else { 2 + self.edges.len() - self.faces.len() }
     }
 
-    /// The edge that a flat vertex lies in, or a side of the face that it lies in. Of a corner none.
+    /// The edge that a flat vertex lies in, or a side of the face that it lies in. None for a corner.
     #[cold]
     pub fn edge_by_flat_vertex(&self, vertex: u32) -> Option<u32> {
         let [first, ..] = self.vertices[vertex as usize].neighbours.edge;
@@ -410,7 +410,7 @@ impl Polyhedron {
                     }
                 }
             }
-            // A computed slope, of a unit vector right to 4u per component, is off by less than 8u·|direction|₁.
+            // A slope computed with a unit vector that is right to 4u per component is off by less than 8u·|direction|₁.
             if next == vertex
                 && is_any_open
                 && let Some(closely) = self.steepest_closely(vertex, &direction, length)
@@ -426,8 +426,8 @@ impl Polyhedron {
         }
     }
 
-    /// The steepest, in double precision, of a vertex's neighbours that are not [clearly](clear_slope) behind in a direction g
-    /// of at most this length.
+    /// The steepest neighbour of a vertex, in double precision, among those that are not [clearly](clear_slope) behind in a
+    /// direction g of at most this length.
     #[cold]
     pub fn steepest_closely(&self, vertex: u32, g: &Vector, length: f64) -> Option<Steepest> {
         let (rough, clear) = (g.map(|d| d as f32).into(), clear_slope(length));
@@ -524,8 +524,8 @@ pub struct Steepest {
 /// A slope g·ê of a neighbour, computed in single precision, has the right sign if it is greater in magnitude than this;
 /// `length` is at least |g|.
 ///
-/// With u₁ = 2⁻²⁴ the components of ê and of g err by u₁ relatively, each, the product and its sums by at most 5u₁·|g||ê|:
-/// 7u₁|g| in all, of 16u₁ that are allowed. What leaves the range of single precision is never clear: where g may, this is
+/// With u₁ = 2⁻²⁴ the components of ê and of g err by u₁ relatively, each, the product and its sums by at most 5u₁·|g||ê|: 7u₁|g|
+/// in all, of 16u₁ that are allowed. A value that leaves the range of single precision is never clear: where g may, this is
 /// infinite, and far above all that underflows.
 #[inline(always)]
 pub fn clear_slope(length: f64) -> f32 {

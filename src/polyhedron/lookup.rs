@@ -18,9 +18,9 @@ use crate::base::memory::{OnNeed, collected, copied};
 /// A vertex for each cell, as narrow as the number of vertices allows.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Cells {
-    /// Of bodies of up to 65,536 vertices.
+    /// For bodies of up to 65,536 vertices.
     Narrow(Vec<u16>),
-    /// Of larger bodies.
+    /// For larger bodies.
     Wide(Vec<u32>),
 }
 
@@ -99,17 +99,17 @@ pub struct Shells {
     /// it is.
     pub rounds: u32,
     grid: Grid,
-    /// Where the cells begin that serve points of a squared distance whose exponent and leading bits are the index.
+    /// Start of the cells that serve points of a squared distance whose exponent and leading bits are the index.
     first_cells: [u32; DISTANCES],
 }
 
-/// What [`Shells`] are made from; see its members.
+/// The input that [`Shells`] are made from; see its members.
 pub struct ShellSamples {
-    /// As of the shells.
+    /// Same as the shells'.
     pub resolution: usize,
-    /// As of the shells.
+    /// Same as the shells'.
     pub radii: Vec<f64>,
-    /// As of the shells.
+    /// Same as the shells'.
     pub positions: Vec<[f32; 4]>,
     /// The vertex of each cell.
     pub cells: Vec<u32>,
@@ -143,7 +143,7 @@ impl Shells {
         Ok(Shells { resolution, radii, cells, positions, core, outward, rounds, grid, first_cells })
     }
 
-    /// Where a vertex is.
+    /// The position of a vertex.
     #[inline(always)]
     pub fn position(&self, vertex: u32) -> [f32; 4] {
         self.positions[vertex as usize]
@@ -179,7 +179,8 @@ impl Shells {
 /// The square grid of a shell.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Grid {
-    /// What takes a coordinate from −1 to 1 to its row or column, in the eighths that [`MAGIC`] leaves in the lower bits.
+    /// The factor that takes a coordinate from −1 to 1 to its row or column, in the eighths that [`MAGIC`] leaves in the lower
+    /// bits.
     scale: f32,
     shift: f32,
     mask: u32,
@@ -320,7 +321,7 @@ pub struct Lookup {
     pub made: OnNeed<Table>,
 }
 
-/// Which table a body has.
+/// The table of a body.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Plan {
     /// None.
@@ -344,7 +345,7 @@ pub enum Plan {
     },
 }
 
-/// Of one body equal plans make equal tables, whether they are made yet or not.
+/// For one body, equal plans make equal tables, whether they are made yet or not.
 impl PartialEq for Lookup {
     fn eq(&self, other: &Lookup) -> bool {
         (self.plan, self.jump) == (other.plan, other.jump)

@@ -1,4 +1,4 @@
-//! Which of the caller's polygons on a face holds a point: of few a look at all tells, of many a search.
+//! Which of the caller's polygons on a face holds a point: if they are few, all are looked at, if many, a search tells.
 
 use crate::base::error::Result;
 use crate::base::math::{Vector, clamp};
@@ -39,7 +39,7 @@ impl Polyhedron {
         best.1
     }
 
-    /// By a search, which the first who searches makes; none where memory is lacking for it.
+    /// By a search, made on first need; none where memory is lacking for it.
     fn polygon_around(&self, face: u32, point: &Vector) -> Option<u32> {
         let made = &self.polygon_search.made;
         let partitions = match made.get() {
@@ -49,7 +49,7 @@ impl Polyhedron {
         partitions.find(self.polygons(), face, &self.faces[face as usize].normal, point)
     }
 
-    /// Makes what polygons of faces of many are found by, if it is not made.
+    /// Makes the search that finds polygons on faces of many, if it is not made.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).

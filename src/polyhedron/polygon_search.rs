@@ -33,7 +33,7 @@ pub struct PolygonSearch {
     pub made: OnNeed<Partitions>,
 }
 
-/// Of one body they are the same, whether they are made yet or not.
+/// For one body they are the same, whether they are made yet or not.
 impl PartialEq for PolygonSearch {
     fn eq(&self, _: &PolygonSearch) -> bool {
         true
@@ -54,7 +54,7 @@ impl PolygonSearch {
     }
 }
 
-/// Polygons by their corners: of polygon k `corners[starts[k]..starts[k + 1]]`.
+/// Polygons by their corners: polygon k has `corners[starts[k]..starts[k + 1]]`.
 #[derive(Clone, Copy)]
 pub struct Polygons<'a> {
     /// See there.
@@ -80,12 +80,12 @@ impl<'a> Polygons<'a> {
 /// A partition of each face of many polygons.
 #[derive(Debug, Clone)]
 pub struct Partitions {
-    /// Of each face, or [`NONE`] where its polygons are few.
+    /// The root for each face, or [`NONE`] where its polygons are few.
     roots: Vec<u32>,
     nodes: Vec<Node>,
     /// The numbers k of `face_labels`, leaf by leaf.
     order: Vec<u32>,
-    /// What rounding may make of a height.
+    /// A bound of the rounding error of a height.
     margin: f64,
 }
 
@@ -166,7 +166,7 @@ impl Partitions {
     /// The leaves whose polygons may hold a point of a divided face.
     #[inline(always)]
     pub fn for_each_leaf(&self, face: u32, point: &Vector, mut visit: impl FnMut(&[u32])) {
-        // Of each node at most one side waits while the other is looked at.
+        // At each node at most one side waits while the other is looked at.
         let mut waiting = [0; DEPTH];
         waiting[0] = self.roots[face as usize];
         let mut count = 1;
@@ -241,8 +241,8 @@ impl<'a> FaceToDivide<'a> {
         line.normal.dot(self.middle(k)) < line.offset
     }
 
-    /// Of lines along edges of three of the polygons the one that leaves the fewest to look at. Where all leave too many on one
-    /// side, the polygons are halved across the direction in which they spread most.
+    /// The line that leaves the fewest polygons to look at, among lines along edges of three of them. Where all leave too many on
+    /// one side, the polygons are halved across the direction in which they spread most.
     fn best_line(&self, range: &mut [u32]) -> Line {
         debug_assert!(range.len() > LEAF);
         let mut best = (range.len() - range.len() / LEAST_SHARE + 1, None);

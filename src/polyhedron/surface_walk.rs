@@ -13,7 +13,7 @@ use crate::base::memory::{collected, copied};
 use crate::polyhedron::Polyhedron;
 use crate::polyhedron::triangulation::{Triangulation, next};
 
-/// The surface of a polyhedron with an area. All is said in its centred coordinates.
+/// The surface of a polyhedron with an area. All values are in its centred coordinates.
 #[derive(Debug, Clone)]
 pub struct Surface<'a> {
     polyhedron: &'a Polyhedron,
@@ -23,15 +23,15 @@ pub struct Surface<'a> {
 /// A candidate for the nearest point.
 #[derive(Debug, Clone, Copy)]
 pub struct Candidate {
-    /// Where it is.
+    /// Its position.
     pub point: Vector,
     /// The square of its distance.
     pub square: f64,
-    /// What holds it.
+    /// The feature that holds it.
     pub feature: SurfaceFeature,
 }
 
-/// What holds a point of the surface.
+/// A feature that holds a point of the surface.
 #[derive(Debug, Clone, Copy)]
 pub enum SurfaceFeature {
     /// A vertex.

@@ -41,10 +41,10 @@ impl Triangulation {
         Triangulation::new_in_steps(triangles, normals, vertex_count, &mut Progress::new(&mut |_| true))
     }
 
-    /// As [`Triangulation::new`], saying how far it is.
+    /// Same as [`Triangulation::new`], with progress reports.
     ///
     /// # Errors
-    /// As [`Triangulation::new`]; [`Error::Cancelled`] when the caller does not want to go on.
+    /// Same as [`Triangulation::new`]; [`Error::Cancelled`] when the caller does not want to go on.
     pub fn new_in_steps(
         triangles: Vec<[u32; 3]>,
         normals: &[Vector],
@@ -92,13 +92,13 @@ impl Triangulation {
         &self.outgoing[self.outgoing_starts[v] as usize..self.outgoing_starts[v + 1] as usize]
     }
 
-    /// Where a half-edge begins.
+    /// Start of a half-edge.
     #[inline]
     pub fn tail(&self, half_edge: u32) -> u32 {
         self.triangles[half_edge as usize / 3][half_edge as usize % 3]
     }
 
-    /// Where a half-edge ends.
+    /// End of a half-edge.
     #[inline]
     pub fn head(&self, half_edge: u32) -> u32 {
         self.tail(next(half_edge))

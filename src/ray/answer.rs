@@ -1,4 +1,4 @@
-//! What a ray cast says: plain data, laid out for C.
+//! The answer of a ray cast: plain data, laid out for C.
 
 use crate::pair::Feature;
 
@@ -6,7 +6,7 @@ use crate::pair::Feature;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
 pub enum RayOutcome {
-    /// Nothing is said yet: the value of a fresh answer.
+    /// No answer yet: the value of a fresh answer.
     #[default]
     None = 0,
     /// No point of the ray is in the body.
@@ -29,13 +29,13 @@ pub struct RayAnswer {
     pub entry: [f64; 2],
     /// `exit[0]` ≤ where it ends ≤ `exit[1]`: where the ray leaves the body, or `t_max` if that comes first.
     pub exit: [f64; 2],
-    /// Of a hit the outward unit normal there, in the world frame, rounded: of the feature's face. A segment or a point has no
-    /// face, and the normal is against the ray. Of a flat body met edge-on it is that of its plane. With a swept radius it is
-    /// that of the round surface.
+    /// For a hit, the outward unit normal of the feature's face there, in the world frame, rounded. A segment or a point has no
+    /// face, and the normal is against the ray. For a flat body met edge-on it is the normal of its plane. With a swept radius it
+    /// is that of the round surface.
     pub normal: [f64; 3],
-    /// Of a hit the face that the ray enters through; one of those that meet where it enters. A segment has an edge, a point a
-    /// vertex. With a swept radius it is the vertex, the edge or the face that is nearest to where the ray enters, of the body
-    /// without the ball.
+    /// For a hit, the face that the ray enters through; one of those that meet where it enters. A segment has an edge, a point a
+    /// vertex. With a swept radius it is the vertex, edge or face of the body without the ball that is nearest to where the ray
+    /// enters.
     pub feature: Feature,
     /// Faces that the search visited; with a swept radius vertices.
     pub steps: u32,

@@ -1,9 +1,9 @@
 //! A ray cast in integers, for a body of any dimension and any magnitudes.
 //!
 //! The hull's surface is made of closed triangles. Three volumes tell whether the line meets one: those of its direction with the
-//! triangle's sides. One of those that the line meets from outside is where it comes in, wherever on the triangle that is, corners
-//! and sides included: of all planes through a point at which a line comes into a convex body, one faces the line. Doubles tell
-//! most signs. What has no interior and holds the line in its plane is met along its edges.
+//! triangle's sides. The line enters through one of those that it meets from outside, wherever on the triangle that is, corners
+//! and sides included: of all planes through a point at which a line enters a convex body, one faces the line. Doubles decide
+//! most signs. A body without interior that holds the line in its plane is met along its edges.
 
 use std::cmp::Ordering;
 
@@ -28,11 +28,11 @@ struct Place {
     exponent: i32,
 }
 
-/// Where the line is in the body.
+/// The part of the line in the body.
 struct Part {
     entry: Place,
     exit: Place,
-    /// What it comes in through.
+    /// The feature that it enters through.
     feature: FeatureId,
 }
 
@@ -71,7 +71,7 @@ struct Cast<'a> {
     line: Option<&'a Line<'a>>,
 }
 
-/// Where a triangle is relative to the line.
+/// Position of a triangle relative to the line.
 #[derive(PartialEq, Eq)]
 enum Met {
     /// From outside.
@@ -164,14 +164,14 @@ impl Cast<'_> {
         }
     }
 
-    /// Where the line crosses the plane of a triangle that is not along it.
+    /// The line's crossing with the plane of a triangle that is not along it.
     fn on_plane(&self, triangle: u32) -> Place {
         let ([a, b, c], exponent) = self.vertices(self.polyhedron.triangles[triangle as usize]);
         let normal = cross(&minus(&b, &a), &minus(&c, &a));
         self.place(dot(&normal, &a), dot(&normal, &self.direction.components), exponent)
     }
 
-    /// Where a line that may be in the plane of a flat body meets its triangles' sides.
+    /// The part of a line that may be in the plane of a flat body, from where it meets the sides of the body's triangles.
     fn in_plane(&self) -> Option<Part> {
         if self.polyhedron.dimension != 2 {
             return None;
@@ -192,7 +192,7 @@ impl Cast<'_> {
         part
     }
 
-    /// Where the line meets a segment: nowhere, in a point, or from one end to the other.
+    /// The line's meeting with a segment: nowhere, in a point, or from one end to the other.
     fn on_segment(&self, ends: [u32; 2]) -> [Option<Place>; 2] {
         // Far from most segments.
         if self.line.is_some_and(|line| line.side(ends).is_some()) {
@@ -244,7 +244,7 @@ impl Cast<'_> {
     fn normal(&self, feature: FeatureId) -> [f64; 3] {
         let against = -leading_bits(&self.direction.components);
         let FeatureId::Face(face) = feature else { return normalised(&against) };
-        // Of the widest triangle, so that of a merged face it is about the face's.
+        // The normal of the widest triangle, so that for a merged face it is about the face's.
         let of_face =
             self.polyhedron.face_of_triangle.iter().zip(&self.polyhedron.triangles).filter(|(f, _)| **f == face);
         let normals = of_face.map(|(_, corners)| {
@@ -312,7 +312,7 @@ fn is_zero(v: &IntVector) -> bool {
     v.iter().all(IBig::is_zero)
 }
 
-/// Where the ray is at a time, in centred coordinates, about.
+/// The ray's point at a time, in centred coordinates, about.
 fn point(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray, t: f64) -> Vector {
     let at = pose.rotate_back(&(ray.origin() + ray.direction() * t - pose.translation()));
     at - polyhedron.centre

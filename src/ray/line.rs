@@ -1,5 +1,5 @@
-//! A line and a placed body in one frame, and what doubles prove of them: bounds by planes and by balls, and passing through a
-//! polygon.
+//! A line and a placed body in one frame, and the proofs of doubles about them: bounds by planes and by balls, and passing
+//! through a polygon.
 
 use super::Ray;
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector};
@@ -9,36 +9,36 @@ use crate::polyhedron::{Face, LARGEST, Polyhedron, SMALLEST};
 /// No rotation that is accepted lengthens a vector by more: |RᵀR − I| ≤ 3·10⁻² as a norm.
 const LARGEST_STRETCH: f64 = 1.02;
 
-/// Covers what underflows in a product of three lengths of [`SMALLEST`] or more: each error below 2⁻¹⁰⁷⁴ times at most 2²⁰². 2⁻⁸⁰⁰.
+/// Covers underflow in a product of three lengths of [`SMALLEST`] or more: each error below 2⁻¹⁰⁷⁴ times at most 2²⁰². 2⁻⁸⁰⁰.
 const UNDERFLOW_GUARD: f64 = f64::from_bits((1023 - 800) << 52);
 
 /// The line of a ray, relative to a placed body. World points are relative to the ray's origin: vertex v is at R·v + `centre`.
 pub(super) struct Line<'a> {
     pub polyhedron: &'a Polyhedron,
     pose: &'a Pose,
-    /// Of the ball that is swept over the polyhedron; 0 without.
+    /// The radius of the ball that is swept over the polyhedron; 0 without.
     pub swept_radius: f64,
-    /// Of the ray.
+    /// The ray's direction.
     pub direction: Vector,
-    /// Where the centre of the body's coordinates is.
+    /// The centre of the body's coordinates.
     centre: Vector,
     /// R⁻¹, rounded.
     inverse: Matrix,
-    /// No point of the body is farther from the ray's origin than 1.03 times this: of lengths that rounding errors are in
+    /// No point of the body is farther from the ray's origin than 1.03 times this: a length that rounding errors are in
     /// proportion to.
     pub reach: f64,
     /// The 1-norm of the direction.
     length: f64,
 }
 
-/// Where a line passes by a directed one.
+/// Position of a line relative to a directed one that it passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Side {
     Left,
     Right,
 }
 
-/// Where the line is on a plane: between these.
+/// The line's stretch on a plane: between these.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Crossing {
     /// Nothing of the body is on the line before the lower end if the plane faces it, or after the upper end if not. The points of
@@ -55,7 +55,7 @@ impl<'a> Line<'a> {
     pub fn new(polyhedron: &'a Polyhedron, pose: &'a Pose, ray: &Ray, swept_radius: f64) -> Option<Line<'a>> {
         let (origin, direction) = (ray.origin(), ray.direction());
         let translation = pose.translation();
-        // What underflows of a polyhedron that is smaller than its ball is nothing beside that.
+        // For a polyhedron smaller than its ball, what underflows is negligible beside the ball.
         let is_in_range = (SMALLEST..=LARGEST).contains(&polyhedron.radius.max(swept_radius))
             && (SMALLEST..=LARGEST).contains(&direction.amax())
             && origin.amax().max(translation.amax()).max(polyhedron.centre.amax()) <= LARGEST;
@@ -76,7 +76,7 @@ impl<'a> Line<'a> {
         Some(Line { polyhedron, pose, swept_radius, direction, centre, inverse, reach, length: norm1(&direction) })
     }
 
-    /// Where a vertex is.
+    /// The position of a vertex.
     ///
     /// Off by at most 8u·`reach`: u for the difference of translation and origin, 3u for each component of the two rotated vectors,
     /// 5.3u of their length, and u for each of the two sums.
@@ -118,16 +118,16 @@ impl<'a> Line<'a> {
         LARGEST_STRETCH * self.polyhedron.radius + self.swept_radius + 24.0 * U * self.reach
     }
 
-    /// Where it crosses the plane of a face, see [`Line::crossing`]; none where rounding hides which way.
+    /// The crossing with the plane of a face, see [`Line::crossing`]; none where rounding hides which way.
     pub fn crossing_of(&self, face: &Face) -> Option<Crossing> {
         self.crossing(&face.normal, face.slack, face.vertex)
     }
 
-    /// Where it crosses the plane through a vertex whose unit outward normal n is given in the body's axes, and behind which, up to
-    /// its slack, the body lies.
+    /// The crossing with the plane through a vertex whose unit outward normal n is given in the body's axes. The body lies behind
+    /// that plane, up to its slack.
     pub fn crossing(&self, normal: &Vector, slack: f64, vertex: u32) -> Option<Crossing> {
         debug_assert!(slack >= 0.0);
-        // For any U, and g = RᵀU = n + r: of U·(R·p + T) over the body the largest is less than that of the vertex plus the slack
+        // For any U, and g = RᵀU = n + r: the largest U·(R·p + T) over the body is less than that of the vertex plus the slack
         // plus 2ρ|r|. The computed r is off by 8u.
         let world = self.inverse.tr_mul(normal);
         let missed = norm1(&(self.pose.rotate_back(&world) - normal)) + 8.0 * U;
@@ -136,8 +136,8 @@ impl<'a> Line<'a> {
         self.crossing_at(world, height, slack + 2.0 * self.polyhedron.radius * missed + 16.0 * U * self.reach)
     }
 
-    /// Where it crosses the plane that supports the body with its ball along a unit vector, rounded, of the world: of the
-    /// polyhedron a vertex is the farthest, up to an excess.
+    /// The crossing with the plane that supports the body with its ball along a unit vector, rounded, of the world. `vertex` is
+    /// the polyhedron's support vertex, up to an excess.
     pub fn crossing_of_support(&self, normal: &Vector, vertex: u32, excess: f64) -> Option<Crossing> {
         let [height, error] = self.support(normal, vertex, excess);
         self.crossing_at(*normal, height, error)
@@ -154,14 +154,14 @@ impl<'a> Line<'a> {
         [from, to].iter().all(|t| t * along - height > error + 16.0 * U * self.reach)
     }
 
-    /// How far the body with its ball reaches along a unit vector, and the rounding error: as of a face, with 4u of the radius for
-    /// the length of the vector and its product.
+    /// How far the body with its ball reaches along a unit vector, and the rounding error: same as for a face, with 4u of the
+    /// radius for the length of the vector and its product.
     fn support(&self, normal: &Vector, vertex: u32, excess: f64) -> [f64; 2] {
         let height = normal.dot(&self.vertex(vertex)) + self.swept_radius * normal.norm();
         [height, excess * (1.0 + 64.0 * U) + 24.0 * U * self.reach]
     }
 
-    /// Where it crosses a plane of a normal of about unit length, the height of which is off by at most an error.
+    /// The crossing with a plane of a normal of about unit length, the height of which is off by at most an error.
     fn crossing_at(&self, normal: Vector, height: f64, error: f64) -> Option<Crossing> {
         let along = normal.dot(&self.direction);
         let along_error = 4.0 * U * self.length;
@@ -172,8 +172,8 @@ impl<'a> Line<'a> {
         Some(Crossing { at, faces: along < 0.0, normal })
     }
 
-    /// Where it surely comes into the ball around a point of the polyhedron and where it goes out; none where rounding hides that
-    /// it does. The point is computed from vertices with convex weights.
+    /// The places where it provably enters the ball around a point of the polyhedron and leaves it; none where rounding hides
+    /// that it does. The point is computed from vertices with convex weights.
     ///
     /// Vertices are off by 8u of the reach, such a point by less than 24u. With c the point and d the direction, |c × d|/|d| is the
     /// distance of the line from it, off by 8u more, c·d/|d| the middle of the chord, off by 4u, half the chord by 4u of the
@@ -188,11 +188,12 @@ impl<'a> Line<'a> {
         let at = |along: f64| along / length;
         let entry = [at(middle - halves[1] - error), at(middle - halves[0] + error)];
         let exit = [at(middle + halves[0] - error), at(middle + halves[1] + error)];
-        // Of what is negative the root is a NaN.
+        // The root of a negative number is a NaN.
         (halves[0] >= 0.0).then_some([entry, exit])
     }
 
-    /// Whether it surely passes through the hull of corners, given counter-clockwise as seen from where it comes (`faces`) or goes.
+    /// Whether it provably passes through the hull of corners, given counter-clockwise as seen from where it comes (`faces`) or
+    /// goes.
     ///
     /// Seen along the line, they are the corners of a closed polygon. If the line is on the inner side of each of its sides, it
     /// winds around the line, which is then in the hull of the corners, whether these are in one plane or not.

@@ -29,13 +29,12 @@ use crate::base::memory::in_integers;
 use crate::base::simd::environment::with_default;
 use crate::pair::Placed;
 
-/// Where a ray meets a body, see [`RayAnswer`]: certain, whatever the magnitudes. A ray that only touches hits.
+/// Casts a ray at a body, see [`RayAnswer`]: guaranteed, whatever the magnitudes. A ray that only touches hits.
 ///
 /// # Errors
 /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted, as in [`crate::pair::distance`].
-/// [`Error::Argument`](crate::base::error::Error::Argument) for an origin or a direction that is not finite, a direction of 0, and
-/// a
-/// `t_max` that is negative or NaN. [`Error::Memory`](crate::base::error::Error::Memory) where there is none for integers.
+/// [`Error::Argument`](crate::base::error::Error::Argument) for an origin or a direction that is not finite, a direction of 0,
+/// and a `t_max` that is negative or NaN. [`Error::Memory`](crate::base::error::Error::Memory) where there is none for integers.
 pub fn cast_ray(body: Placed, ray: &Ray) -> Result<RayAnswer> {
     with_default(|| {
         ray.check()?;

@@ -1,4 +1,4 @@
-//! What a ray cast is asked: a ray.
+//! The query of a ray cast: a ray.
 
 use crate::base::error::{Error, Result};
 use crate::base::math::Vector;
@@ -7,16 +7,16 @@ use crate::base::math::Vector;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct Ray {
-    /// Where it begins, in the world.
+    /// Start of the ray, in the world.
     pub origin: [f64; 3],
-    /// Where it leads, of any length but 0.
+    /// Direction of the ray, of any length but 0.
     pub direction: [f64; 3],
-    /// Where it ends, from 0 to infinity.
+    /// End of the ray, from 0 to infinity.
     pub t_max: f64,
 }
 
 impl Ray {
-    /// Refuses what is out of range.
+    /// Refuses a ray that is out of range.
     ///
     /// # Errors
     /// [`Error::Argument`], naming the member.
@@ -35,12 +35,12 @@ impl Ray {
         Ok(())
     }
 
-    /// Where it begins.
+    /// Start of the ray.
     pub(crate) fn origin(&self) -> Vector {
         self.origin.into()
     }
 
-    /// Where it leads.
+    /// Direction of the ray.
     pub(crate) fn direction(&self) -> Vector {
         self.direction.into()
     }

@@ -1,8 +1,8 @@
-//! Where a line first meets a point, a segment or a triangle with a ball swept over it, by closed forms in plain doubles. They
+//! First touch of a line with a point, a segment or a triangle with a ball swept over it, by closed forms in plain doubles. They
 //! propose.
 //!
-//! Of a hull of up to four corners with a ball that is the first of what its points, sides and triangles say. The line goes from
-//! the origin along a unit vector.
+//! For a hull of up to four corners with a ball, it is the first of the touches with its points, sides and triangles. The line
+//! goes from the origin along a unit vector.
 
 use crate::base::math::{Vector, is_unit};
 
@@ -13,12 +13,12 @@ pub(super) struct Corner {
     pub place: Vector,
 }
 
-/// Where a line first meets a hull of corners with a ball.
+/// The first touch of a line with a hull of corners with a ball.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Touch {
     /// How far along the line.
     pub at: f64,
-    /// What holds the nearest point of the hull: as many as count, the first repeated.
+    /// The corners that hold the nearest point of the hull: as many as count, the first repeated.
     pub corners: [Corner; 3],
     pub count: usize,
     /// Their convex weights in that point.
@@ -29,7 +29,7 @@ pub(super) struct Touch {
     pub normal: Vector,
 }
 
-/// Of corners that have none that `new` has no part in, the first touch, if the line meets any.
+/// The first touch, if the line meets any, for corners without a touch that `new` has no part in.
 pub(super) fn first_touch(along: &Vector, radius: f64, kept: &[Corner], new: Corner) -> Option<Touch> {
     debug_assert!(is_unit(along) && radius > 0.0 && kept.len() <= 3);
     let mut first = of_point(along, radius, new);
@@ -47,7 +47,7 @@ pub(super) fn first_touch(along: &Vector, radius: f64, kept: &[Corner], new: Cor
     first
 }
 
-/// What of corners is nearest to the line, seen along it.
+/// The feature of some corners that is nearest to the line, seen along it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Beside {
     /// One or two.
@@ -57,7 +57,7 @@ pub(super) struct Beside {
     pub across: Vector,
 }
 
-/// Of corners that have none nearer that `new` has no part in, the nearest to a line that does not pass between them.
+/// The nearest to a line that does not pass between the corners, for corners with none nearer that `new` has no part in.
 pub(super) fn nearest_beside(along: &Vector, kept: &[Corner], new: Corner) -> Beside {
     let seen = |corner: Corner| corner.place - along * corner.place.dot(along);
     let from = seen(new);

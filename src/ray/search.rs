@@ -1,4 +1,4 @@
-//! A ray cast: a walk to both ends, what doubles prove of them, and integers where they do not.
+//! A ray cast: a walk to both ends, the proofs of them by doubles, and integers where they do not.
 
 use super::line::{Crossing, Line};
 use super::walk::{End, Ended, LocalLine};
@@ -10,10 +10,10 @@ use crate::pair::{label, normalised};
 use crate::polyhedron::{NONE, Polyhedron};
 use crate::solve::state::FeatureId;
 
-/// Corners of a face that a proof takes; of a face with more, some around the place.
+/// Corners of a face that a proof takes; for a face with more, some around the place.
 const MOST_CORNERS: usize = 8;
 
-/// What doubles prove.
+/// The result that doubles prove.
 enum Proved {
     Miss,
     /// The line passes through the body: through this face, between these, and goes out between those.
@@ -25,7 +25,7 @@ enum Proved {
     Nothing,
 }
 
-/// Where a ray meets a polyhedron at a pose; both are checked.
+/// Casts a ray at a polyhedron at a pose; both are checked.
 pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray) -> Result<RayAnswer> {
     let mut answer = RayAnswer::default();
     let line = Line::new(polyhedron, pose, ray, 0.0);
@@ -96,7 +96,7 @@ fn prove(line: &Line, ray: &Ray, steps: &mut u32) -> Proved {
     Proved::Nothing
 }
 
-/// Whether the line, or all of the ray on it, surely misses the body by the planes at an edge.
+/// Whether the line, or all of the ray on it, provably misses the body by the planes at an edge.
 fn passes_edge(line: &Line, ray: &Ray, edge: u32) -> bool {
     let edge = &line.polyhedron.edges[edge as usize];
     let mut part = [0.0, ray.t_max];
@@ -116,7 +116,7 @@ fn passes_edge(line: &Line, ray: &Ray, edge: u32) -> bool {
     part[0] > part[1]
 }
 
-/// Corners of a face, counter-clockwise from outside; of many a few around where the line comes to its plane.
+/// Corners of a face, counter-clockwise from outside; if there are many, a few around where the line meets its plane.
 fn corners(polyhedron: &Polyhedron, face: u32, local: &LocalLine) -> ([u32; MOST_CORNERS], usize) {
     let count = polyhedron.faces[face as usize].side_count;
     let mut corners = [NONE; MOST_CORNERS];
@@ -124,7 +124,7 @@ fn corners(polyhedron: &Polyhedron, face: u32, local: &LocalLine) -> ([u32; MOST
         (0..count).zip(&mut corners).for_each(|(side, at)| *at = corner(polyhedron, face, side));
         return (corners, count as usize);
     }
-    // Of the fan around the first corner, the triangle that holds the place, with one more on either side.
+    // The triangle of the fan around the first corner that holds the place, with one more on either side.
     let point = local.point_on(face);
     let normal = &polyhedron.faces[face as usize].normal;
     let position = |side: u32| polyhedron.vertices[corner(polyhedron, face, side) as usize].position;
@@ -144,7 +144,8 @@ fn corners(polyhedron: &Polyhedron, face: u32, local: &LocalLine) -> ([u32; MOST
     (corners, used)
 }
 
-/// What the part of a line in the body says of the ray, but for the surface; false where rounding hides an end of either.
+/// Fills in what the line's part in the body tells about the ray, but for the surface; false where rounding hides an end of
+/// either.
 pub(super) fn fill(answer: &mut RayAnswer, line: &Line, ray: &Ray, entry: [f64; 2], exit: [f64; 2]) -> bool {
     let begins_inside = entry[1] < 0.0;
     let is_certain = (begins_inside || entry[0] >= 0.0)

@@ -1,12 +1,13 @@
 //! A ray cast at a body with a swept radius, in doubles: closed forms propose, planes and balls prove.
 //!
-//! The body is its hull with a ball of the radius. It is behind each plane that supports it, and has the ball around each point of
-//! the hull. So a ray comes in no sooner than through such a plane, and no later than into such a ball. Both meet where it comes
-//! in.
+//! The body is its hull with a ball of the radius. It is behind each plane that supports it, and has the ball around each point
+//! of the hull. So a ray enters no sooner than through such a plane, and no later than into such a ball. Both meet where it
+//! enters.
 //!
-//! What is looked for is a point, a side or a triangle of the hull's vertices that the line meets first with the ball. From any
-//! vertex on it is replaced by one that is met sooner, with the vertex that is farthest along its normal, until none is farther. A
-//! line that misses what is there goes to the nearest of it first, seen along the line (Gilbert, Johnson & Keerthi 1988).
+//! The search is for a point, a side or a triangle of the hull's vertices that the line meets first with the ball. It starts from
+//! any vertex. It replaces the feature by one that is met sooner, with the support vertex along its normal, until none is
+//! farther. A line that misses the feature goes to the nearest of it first, seen along the line (Gilbert, Johnson & Keerthi
+//! 1988).
 
 use super::line::Line;
 use super::rounded::{Beside, Corner, Touch, first_touch, nearest_beside};
@@ -21,7 +22,7 @@ use crate::solve::polytope::farthest;
 /// Most vertices that are looked at for one end; mostly there are a few.
 const MOST_STEPS: u32 = 64;
 
-/// Where a ray meets a polyhedron with a ball of a radius, which is not 0, at a pose; all are checked.
+/// Casts a ray at a polyhedron with a ball of a radius, which is not 0, at a pose; all are checked.
 pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray, radius: f64) -> RayAnswer {
     debug_assert!(radius > 0.0);
     let (mut answer, mut guess) = (RayAnswer::default(), [f64::NAN; 2]);
@@ -57,7 +58,7 @@ pub(super) fn cast_in_integers(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray, 
     answer
 }
 
-/// What doubles prove.
+/// The result that doubles prove.
 #[expect(clippy::large_enum_variant, reason = "on the stack, of one call")]
 enum Proved {
     Miss,
@@ -108,7 +109,7 @@ fn prove(line: &Line, ray: &Ray, steps: &mut u32, guess: &mut [f64; 2]) -> Prove
 
 /// How a search ended. The vertex is the farthest along the normal, up to an excess.
 enum Ended {
-    /// Where the line meets the body first.
+    /// The place where the line meets the body first.
     At { touch: Touch, vertex: u32, excess: f64 },
     /// Next to the body, which the normal leads out of.
     Beside { normal: Vector, vertex: u32, excess: f64 },
@@ -118,7 +119,7 @@ enum Ended {
 
 /// Looks for where the line along a unit vector first meets the body.
 ///
-/// Each touch is sooner than the one before, and what is beside the line is nearer to it: nothing comes twice.
+/// Each touch is sooner than the one before, and a feature beside the line is nearer to it: nothing comes twice.
 fn first(line: &Line, along: Vector, steps: &mut u32) -> Ended {
     debug_assert!(is_unit(&along));
     let tolerance = 64.0 * U * line.reach;

@@ -1,8 +1,8 @@
 //! A ray cast at a body with a swept radius in integers, for any magnitudes.
 //!
-//! One question is asked: whether a stretch of the line is within the radius of the hull. Of stretches from the ray's origin on the
-//! longer ones are; where it changes the ray comes in. Of those to its end the earlier ones are, up to where it goes out. Both
-//! places are found between neighbouring doubles by bisection, from where doubles have them.
+//! There is one query: whether a stretch of the line is within the radius of the hull. Among stretches from the ray's origin the
+//! longer ones are; the ray enters where the answer changes. Among stretches to its end the earlier ones are, up to where it
+//! leaves. Both places are found between neighbouring doubles by bisection, from where doubles have them.
 
 use std::cmp::Ordering;
 
@@ -80,7 +80,7 @@ impl Cast<'_> {
         self.line.nearest([place; 2]).compare(self.radius).is_le()
     }
 
-    /// Where a ray comes in that begins outside: the last place before that is known, and an interval.
+    /// The entry of a ray that begins outside: the last place before that is known, and an interval.
     fn entry(&self, end: Step, guess: f64) -> (Step, [f64; 2]) {
         let [outside, inside] = change([Step::FIRST, end], guess, |at| self.compare(Step::FIRST, at).is_le());
         // At the radius all along, and nearer right afterwards: it is there, as distances along a line are convex.
@@ -89,7 +89,7 @@ impl Cast<'_> {
         (from, [from.bounds()[0], inside.bounds()[1]])
     }
 
-    /// Where a ray goes out that ends outside.
+    /// The exit of a ray that ends outside.
     fn exit(&self, end: Step, guess: f64) -> [f64; 2] {
         let [inside, outside] = change([Step::FIRST, end], guess, |at| self.compare(at, end).is_gt());
         let is_there =
@@ -98,7 +98,7 @@ impl Cast<'_> {
     }
 }
 
-/// Between which neighbouring steps a test becomes true, of two of which the second passes it: looked for around a guess first.
+/// The neighbouring steps between which a test becomes true, given two of which the second passes it. A guess is tried first.
 fn change([mut before, mut after]: [Step; 2], guess: f64, test: impl Fn(Step) -> bool) -> [Step; 2] {
     debug_assert!(before < after);
     let mut stride = 1;
@@ -139,7 +139,7 @@ const BEFORE: Place = Place { mantissa: -1, exponent: -65_536 };
 impl Step {
     const FIRST: Step = Step(0);
 
-    /// Of a double from 0 on.
+    /// The step of a double from 0 on.
     fn of(t: f64) -> Step {
         debug_assert!(t >= 0.0 && t.is_finite());
         let (mantissa, exponent) = mantissa_and_exponent(t);

@@ -1,4 +1,4 @@
-//! From face to face to the one through which a line comes or goes, as far as plain doubles tell: it proposes.
+//! Walks from face to face to the one through which a line enters or leaves, as far as plain doubles tell: it proposes.
 
 use super::line::Line;
 use crate::base::math::Vector;
@@ -9,13 +9,13 @@ use crate::tables::table;
 /// Which of the two places is looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum End {
-    /// Where the line comes into the body.
+    /// The line's entry into the body.
     Entry,
-    /// Where it goes out.
+    /// The line's exit from the body.
     Exit,
 }
 
-/// Where a walk ended.
+/// The end of a walk.
 #[derive(Debug, Clone, Copy)]
 pub(super) enum Ended {
     /// At a face whose sides the line passes inside of.
@@ -37,7 +37,7 @@ impl<'a> LocalLine<'a> {
     pub fn new(line: &Line<'a>) -> LocalLine<'a> {
         let polyhedron = line.polyhedron;
         let direction = line.local_direction();
-        // Of any length that squares of numbers in range have.
+        // It may have any length that squares of numbers in range have.
         let direction = direction / direction.amax();
         let from = line.local_origin();
         let to_centre = centre_of_mass(polyhedron) - from;
@@ -45,7 +45,7 @@ impl<'a> LocalLine<'a> {
         LocalLine { polyhedron, nearest, direction }
     }
 
-    /// The point where it comes to the plane of a face.
+    /// The point where it meets the plane of a face.
     pub fn point_on(&self, face: u32) -> Vector {
         self.on_plane(&self.polyhedron.faces[face as usize]).1
     }
@@ -112,7 +112,7 @@ impl<'a> LocalLine<'a> {
         })
     }
 
-    /// Of the faces beside a vertex the one that is turned most against the line.
+    /// The face at a vertex that is turned most against the line.
     fn face_against(&self, vertex: u32, sign: f64) -> Option<u32> {
         let mut best = (0.0, None);
         let edges = self.polyhedron.neighbour_blocks(vertex).flat_map(|block| block.edge);

@@ -16,8 +16,8 @@ impl Scene {
     /// many. Either all are added or none.
     ///
     /// # Errors
-    /// [`Error::Argument`] unless there are as many options as shapes; [`Error::Pose`], [`Error::Limit`], [`Error::Memory`] as of
-    /// [`Scene::add_object`], naming the first that is refused. Nothing is added then.
+    /// [`Error::Argument`] unless there are as many options as shapes; [`Error::Pose`], [`Error::Limit`], [`Error::Memory`] same
+    /// as for [`Scene::add_object`], naming the first that is refused. Nothing is added then.
     pub fn add_shapes(&mut self, shapes: &[Arc<Shape>], options: &[ObjectOptions]) -> Result<Vec<ObjectId>> {
         self.world.check_additions(shapes.len(), options)?;
         let mut ids = with_capacity(shapes.len())?;

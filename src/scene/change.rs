@@ -12,7 +12,7 @@ use crate::scene::world::object::{ObjectId, ObjectOptions};
 use crate::scene::world::testing::PairFilter;
 use crate::shape::Shape;
 
-/// What stands for objects, shapes and filters.
+/// The names that stand for objects, shapes and filters.
 pub(crate) trait Names {
     type Object: Copy + Debug;
     type Shape: Clone + Debug;
@@ -39,7 +39,7 @@ impl Names for Numbers {
     type Filter = ();
 }
 
-/// One change. The methods of [`Scene`](crate::scene::Scene) say what each does.
+/// One change. The methods of [`Scene`](crate::scene::Scene) describe what each does.
 #[derive(Debug)]
 pub(crate) enum Change<'a, N: Names> {
     /// Adds an object, the next in order of creation.
@@ -80,10 +80,10 @@ pub(crate) enum Change<'a, N: Names> {
     Shrink,
 }
 
-/// What finds the other names of things.
+/// A translation of things to their other names.
 pub(crate) trait Rename<From: Names, To: Names> {
     /// # Errors
-    /// Where it has no other name.
+    /// If it has no other name.
     fn object(&mut self, object: From::Object) -> Result<To::Object>;
     /// # Errors
     /// As above.

@@ -1,4 +1,4 @@
-//! The one door of a scene: whatever changes it or asks it comes through here, is done once, and is written down if it is recorded.
+//! The one door of a scene: every change or question comes through here, is done once, and is written down if it is recorded.
 
 use std::sync::Arc;
 
@@ -33,16 +33,16 @@ impl Default for SceneOptions {
 
 /// Objects, poses and the pairs that are tested.
 ///
-/// A new pair is active, a pair of two fixed objects never exists. What is said of a pair, an object or all holds for
-/// the pairs there are until something later is said that covers them; objects added later begin with all their pairs
-/// active. Deactivated pairs are not tested, and keep what they remember while they are near.
+/// A new pair is active, a pair of two fixed objects never exists. A setting for a pair, an object or all holds for the pairs
+/// there are until a later setting covers them; objects added later begin with all their pairs active. Deactivated pairs are not
+/// tested, and keep their caches while they are near.
 #[derive(Debug)]
 pub struct Scene {
     pub(super) world: World,
     pub(super) near: BroadPhase,
     pub(super) search: Search,
     pub(super) recording: Recording,
-    /// Who shares in the work on poses and queries.
+    /// The workers that share the work on poses and queries.
     pub(super) workers: Workers,
 }
 

@@ -1,4 +1,4 @@
-//! What a program can do to a scene and ask of it: each method makes a change or a question.
+//! The changes and questions that a scene accepts: each method makes one of them.
 
 use std::borrow::Cow;
 use std::io::Write;
@@ -35,8 +35,8 @@ impl Scene {
         self.adding(Change::Object { pieces: pieces.into(), options: *options })
     }
 
-    /// Adds an object with the pieces (shared), the poses, the fixedness, the filter bits and the user data of another one. All its
-    /// pairs are active, whatever those of its original are.
+    /// Adds an object with the pieces (shared), the poses, the fixedness, the filter bits and the user data of another one. All
+    /// its pairs are active, regardless of those of its original.
     ///
     /// # Errors
     /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Limit`] when there are no ids left,
@@ -80,7 +80,7 @@ impl Scene {
         self.world.objects.len()
     }
 
-    /// Fixes an object or lets it move: two fixed ones are never tested. What its pairs remember stays.
+    /// Fixes an object or lets it move: two fixed ones are never tested. The caches of its pairs stay.
     ///
     /// # Errors
     /// [`Error::Handle`] for an id that is null, stale or another scene's.
@@ -125,7 +125,7 @@ impl Scene {
         self.doing(Change::Pose(id, Cow::Borrowed(pose)))
     }
 
-    /// Moves the objects of these ids, each to its pose. Of an object that is given twice the later pose counts. Several threads
+    /// Moves the objects of these ids, each to its pose. If an object is given twice, the later pose counts. Several threads
     /// share the work if ids are in order of creation.
     ///
     /// # Errors
@@ -181,7 +181,7 @@ impl Scene {
         self.surely(Change::AllActive(active));
     }
 
-    /// What refuses nothing.
+    /// Makes a change that cannot be refused.
     fn surely(&mut self, change: Change<Themselves>) {
         let done = self.change(change);
         debug_assert!(done.is_ok(), "{done:?}");
@@ -195,22 +195,22 @@ impl Scene {
         self.world.is_pair_active([id1, id2])
     }
 
-    /// Asks `filter` of each pair of objects whether it is to be tested, once for each of its pairs of pieces when that becomes
-    /// near, and in queries without a tolerance of many objects each time. `None`: none is asked. All pairs that are near are asked
-    /// anew. The filter is called with the earlier created object first, and should always say the same of a pair; it cannot use
-    /// the scene.
+    /// Asks `filter` for each pair of objects whether it should be tested, once for each of its pairs of pieces when that becomes
+    /// near, and in queries without a tolerance of many objects each time. `None`: none is asked. All pairs that are near are
+    /// asked anew. The filter is called with the earlier created object first, and should always decide the same for a pair; it
+    /// cannot use the scene.
     pub fn set_pair_filter(&mut self, filter: Option<PairFilter>) {
         self.surely(Change::Filter(filter));
     }
 
-    /// Asks the filter anew of all pairs that are near.
+    /// Asks the filter anew about all pairs that are near.
     pub fn filter_again(&mut self) {
         self.surely(Change::FilterAgain);
     }
 
-    /// From now on queries test these pairs of objects and no others, however near: for a program with a broad phase of its own. An
-    /// order is not needed, and what is there twice is tested once. Activation, filters and fixed objects are heeded as ever; ids
-    /// of objects removed later name no pair. Pairs that stay keep what they remember. `None`: the scene finds the pairs again.
+    /// From now on queries test these pairs of objects and no others, however near: for a program with a broad phase of its own.
+    /// Any order will do, and a pair given twice is tested once. Activation, filters and fixed objects are heeded as ever; ids of
+    /// objects removed later name no pair. Pairs that stay keep their caches. `None`: the scene finds the pairs again.
     ///
     /// # Errors
     /// [`Error::Handle`] for an id that is null, stale or another scene's, [`Error::Argument`] for one object twice in a pair,
@@ -225,7 +225,8 @@ impl Scene {
     ///
     /// # Errors
     /// [`Error::Argument`] for a tolerance, an error or a budget that is negative or NaN and a step budget of 0, also where the
-    /// query does without them; [`Error::Memory`] when that for a changed list of pairs is not there: the next query tries again.
+    /// query needs none of them; [`Error::Memory`] when that for a changed list of pairs is not there: the next query tries
+    /// again.
     pub fn query_intersection(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
         self.ask(&Subject::AllPairs, Query::Intersection, query)
     }
@@ -242,9 +243,8 @@ impl Scene {
     /// As [`Scene::query_distance`], and intersecting pairs have finite witness points and a unit normal as well
     /// ([`pair::contact`]).
     ///
-    /// With a [`SceneQuery::detail`] the answers say what those of [`Scene::query_distance`] do, and
-    /// [`SceneAnswer::contacts`] how deep each pair is, and where its objects meet: what [`pair::depth()`] and [`pair::manifold()`]
-    /// say.
+    /// With a [`SceneQuery::detail`] the answers are those of [`Scene::query_distance`], and [`SceneAnswer::contacts`] reports
+    /// how deep each pair is, and where its objects meet: the results of [`pair::depth()`] and [`pair::manifold()`].
     ///
     /// # Errors
     /// As [`Scene::query_intersection`], for a margin as well; and [`Error::Memory`] when that for depths and points is not there.
@@ -262,7 +262,8 @@ impl Scene {
         self.ask(&Subject::AllPairs, Query::Approximate, query)
     }
 
-    /// As the query of this kind, of the pairs of one object alone: what it touches or comes near. An error budget is not heeded.
+    /// As the query of this kind, for the pairs of one object alone: what it touches or comes near. An error budget is not
+    /// heeded.
     ///
     /// # Errors
     /// [`Error::Handle`](crate::base::error::Error::Handle) for an id that is null, stale or another scene's, and as
@@ -272,8 +273,8 @@ impl Scene {
         self.ask(&Subject::Object(id), kind, query)
     }
 
-    /// As [`Scene::query_object`], of a shape that is in no scene, put at `pose` for this question: each object of the scene is
-    /// object 1, object 2 has the null id. All objects are asked, whatever activation and filters say.
+    /// As [`Scene::query_object`], for a shape that is in no scene, put at `pose` for this question: each object of the scene is
+    /// object 1, object 2 has the null id. All objects are asked, regardless of activation and filters.
     ///
     /// # Errors
     /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted, and as [`Scene::query_intersection`].
@@ -288,9 +289,9 @@ impl Scene {
         self.ask(&Subject::Placed(PlacedBody { pieces: pieces[..].into(), mask: None }), kind, query)
     }
 
-    /// As [`Scene::query_placed`], of a body of several convex pieces, each with its pose in the world: `piece2` of a result says
-    /// which. Objects are asked whose groups ([`ObjectOptions::groups`]) have a bit of `mask`, whatever their own masks, activation
-    /// and filters say.
+    /// As [`Scene::query_placed`], for a body of several convex pieces, each with its pose in the world: `piece2` of a result
+    /// tells which. Objects are asked whose groups ([`ObjectOptions::groups`]) have a bit of `mask`, regardless of their own
+    /// masks, activation and filters.
     ///
     /// # Errors
     /// [`Error::Argument`] without pieces, and as [`Scene::query_placed`].
@@ -311,7 +312,7 @@ impl Scene {
     /// [`SceneAnswer::pairs`]: crate::scene::SceneAnswer::pairs
     ///
     /// # Errors
-    /// As [`Scene::query_intersection`], for a distance that is negative or NaN; what was near stays remembered.
+    /// As [`Scene::query_intersection`], for a distance that is negative or NaN; the near pairs stay remembered.
     pub fn query_events(&mut self, distance: f64) -> Result<SceneEvents<'_>> {
         let query = SceneQuery { distance_tolerance: distance, ..SceneQuery::default() };
         let kind = if distance == 0.0 { Query::Intersection } else { Query::Distance };
@@ -320,12 +321,12 @@ impl Scene {
     }
 
     /// As the query of this kind, and which of the pairs and contact points that it lists were not listed when the listener last
-    /// asked, which were, and which are no more. Every listener remembers for itself: queries of others change nothing of that. A
+    /// asked, which were, and which are no more. Every listener has its own memory: queries of others change nothing of that. A
     /// recording notes the query.
     ///
     /// # Errors
     /// As [`Scene::query_intersection`]; [`Error::Argument`] if the query is to stop early, [`Error::Memory`]. The listener still
-    /// remembers what was listed when it last asked.
+    /// remembers the listing of its last query.
     pub fn listen<'a>(
         &'a mut self,
         listener: &'a mut Listener,
@@ -339,7 +340,7 @@ impl Scene {
         Ok((answer, listener.events()))
     }
 
-    /// What the last query said beside its answers: [`SceneAnswer::contacts`].
+    /// The last query's details beside its answers: [`SceneAnswer::contacts`].
     pub fn contacts(&self) -> SceneContacts<'_> {
         self.search.answer().contacts
     }
@@ -352,7 +353,7 @@ impl Scene {
         self.search.answer().signed_distance(number)
     }
 
-    /// What the queries did.
+    /// The statistics of the queries.
     pub fn statistics(&self) -> &SceneStatistics {
         &self.search.statistics
     }
@@ -371,16 +372,16 @@ impl Scene {
         self.workers = workers.unwrap_or_else(Workers::none);
     }
 
-    /// Queries without a tolerance are about all pairs of pieces. While these are no more than `limit`, each remembers its last
-    /// answer, which makes the next one several times faster and takes about 150 bytes, if there is memory for that. Of more than
-    /// `limit` only near pairs remember theirs. Results and their order are the same. Default: 2²⁰ pairs, about 150 MB, which
+    /// Queries without a tolerance are about all pairs of pieces. While these are no more than `limit`, each keeps its last
+    /// answer, which makes the next one several times faster and takes about 150 bytes, if there is memory for that. Above
+    /// `limit`, only near pairs keep their caches. Results and their order are the same. Default: 2²⁰ pairs, about 150 MB, which
     /// 1,448 single pieces make.
     pub fn set_kept_pair_limit(&mut self, limit: u64) {
         self.surely(Change::KeptPairLimit(limit));
     }
 
-    /// Gives back the memory that is kept for later: that of the results, and room for pairs that are no more. What the others
-    /// remember stays.
+    /// Gives back the memory that is kept for later: that of the results, and room for pairs that are no more. The caches of the
+    /// others stay.
     ///
     /// # Errors
     /// [`Error::Memory`] if there is none to bring the near pairs up to date; no result is lost then.
@@ -397,29 +398,29 @@ impl Scene {
     // --- Recordings --------------------------------------------------------------------------------------------------------------
 
     /// Writes down what is done to the scene from now on, in a file, replacing what was there, until [`Scene::end_recording`] or
-    /// the scene's end. First comes what the scene holds. A [`Replay`](crate::scene::Replay) does it all again.
+    /// the scene's end. First comes the content of the scene. A [`Replay`](crate::scene::Replay) does it all again.
     ///
     /// All that changes what queries answer is written down, and each query with a digest of its answer; [workers](Workers) and
-    /// statistics are not. Of a [pair filter](PairFilter) its decisions are. Shapes are written down once each. The file is
-    /// brought up to date before each query. Where it cannot be written the recording ends; the scene goes on, and
-    /// [`Scene::end_recording`] says why.
+    /// statistics are not. For a [pair filter](PairFilter), its decisions are written down. Shapes are written down once each.
+    /// The file is brought up to date before each query. If it cannot be written, the recording ends; the scene goes on, and
+    /// [`Scene::end_recording`] reports why.
     ///
-    /// What pairs remember from before is not written down. So the answers of a replay are bit for bit those of the scene only if
-    /// it was recorded from its beginning, before its first object.
+    /// Caches of pairs from before are not written down. So the answers of a replay are bit for bit those of the scene only if it
+    /// was recorded from its beginning, before its first object.
     ///
     /// [Workers]: crate::scene::Workers
     /// [PairFilter]: crate::scene::PairFilter
     ///
     /// # Errors
-    /// [`Error::File`] if the file cannot be written or is no regular file, [`Error::Memory`]; what [`Scene::end_recording`] says
-    /// of a recording that is going on, which ends. The scene is not recorded then.
+    /// [`Error::File`] if the file cannot be written or is no regular file, [`Error::Memory`]; the errors that
+    /// [`Scene::end_recording`] reports for a recording that is going on, which ends. The scene is not recorded then.
     pub fn record(&mut self, path: &Path) -> Result<()> {
         self.end_recording()?;
         let file = files::create(path)?;
         self.begin_recording(Box::new(file), path.display().to_string())
     }
 
-    /// As [`Scene::record`], to whatever takes bytes.
+    /// As [`Scene::record`], to any sink of bytes.
     ///
     /// # Errors
     /// As [`Scene::record`].

@@ -5,11 +5,11 @@
 //!     └────► recording/ ─► bytes ─► replay
 //! ```
 //!
-//! Queries list their results by object 1, object 2, piece 1, piece 2, objects in order of creation; object 1 is always
-//! the earlier created of the two. What a query answers depends on the objects, their poses and the activation alone:
-//! not on earlier queries, on other objects or on how the objects came to where they are. (Where nearest points are not
-//! unique, any of them may be given, and of an approximate distance any interval that is narrow enough, or as the step budget
-//! leaves it. Status and statistics of an answer tell how it was found, and that depends on what the pair remembers.)
+//! Queries list their results by object 1, object 2, piece 1, piece 2, objects in order of creation; object 1 is always the
+//! earlier created of the two. The answer of a query depends on the objects, their poses and the activation alone: not on earlier
+//! queries, on other objects or on how the objects came to where they are. (Where nearest points are not unique, any of them may
+//! be given, and for an approximate distance any interval that is narrow enough, or as the step budget leaves it. Status and
+//! statistics of an answer tell how it was found, and that depends on the pair's cache.)
 
 pub(crate) mod world;
 pub(crate) mod near;

@@ -20,11 +20,11 @@ use crate::scene::world::object::ObjectId;
 use crate::scene::world::testing::PairFilter;
 use crate::shape::Shape;
 
-/// Does again what was [recorded](Scene::record) of a scene.
+/// Repeats a [recording](Scene::record) of a scene.
 ///
-/// A step is what was done up to a query, and the query. [`Replay::read`] reads one, [`Replay::change`] does what was done in it,
-/// [`Replay::ask`] makes its query; a program may make others instead, of the scene itself. A file of any content is safe: it is an
-/// error, or does to the scene what a program could.
+/// A step is the changes up to a query, and the query. [`Replay::read`] reads one, [`Replay::change`] makes its changes,
+/// [`Replay::ask`] makes its query; a program may make others instead, of the scene itself. A file of any content is safe: it is
+/// an error, or does to the scene what a program could.
 ///
 /// ```no_run
 /// use swiftprox::scene::{Replay, Scene};
@@ -50,7 +50,7 @@ pub struct Replay {
     /// All objects that there ever were, by number.
     ids: Vec<ObjectId>,
     decisions: Arc<Mutex<Decisions>>,
-    /// What is done in the step that was read, until it is done.
+    /// The changes of the step that was read, until it is done.
     changes: Vec<Record<'static>>,
     decided: Vec<Decision>,
     question: Option<Question>,
@@ -79,7 +79,7 @@ struct Question {
     outcome: Recorded,
 }
 
-/// What came of a question.
+/// The outcome of a question.
 #[derive(Debug, Clone, Copy)]
 enum Recorded {
     /// It ended the program, or the recording.
@@ -88,7 +88,7 @@ enum Recorded {
     Answer(Digest),
 }
 
-/// What the recorded filter has said since it was set or asked anew.
+/// The recorded filter's decisions since it was set or asked anew.
 #[derive(Debug, Default)]
 struct Decisions {
     known: HashMap<[ObjectId; 2], bool>,
@@ -108,11 +108,12 @@ pub struct ReplayStep {
 /// The answer to a recorded query.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ReplayAnswer<'a> {
-    /// As of the query itself; of one about events the pairs of pieces that are near.
+    /// As of the query itself; for one about events, the pairs of pieces that are near.
     pub answer: SceneAnswer<'a>,
-    /// Whether it says what the recorded one does: the same pairs are listed, with the same outcomes, and the sums of lower ends
-    /// and upper ends are those of intervals that have a number in common. That holds wherever a recording is replayed, except for
-    /// queries with a step budget, whose answers are not checked. Else [`Error::Unverified`] says what is not the same.
+    /// Whether it gives the same result as the recorded one: the same pairs are listed, with the same outcomes, and the sums of
+    /// lower ends and upper ends are those of intervals that have a number in common. That holds wherever a recording is
+    /// replayed, except for queries with a step budget, whose answers are not checked. Else [`Error::Unverified`] reports the
+    /// difference.
     pub check: Result<()>,
     /// Whether its distances, intervals, points, normals and depths are bit for bit the recorded ones. They need not be with
     /// another version of the library, on another processor, or where the recording began in the middle of the scene's life.
@@ -130,7 +131,7 @@ impl Replay {
         Replay::begin(Box::new(std::io::BufReader::new(file)), name, length)
     }
 
-    /// From whatever gives the bytes of a recording.
+    /// From any source of the bytes of a recording.
     ///
     /// # Errors
     /// As [`Replay::open`].
@@ -162,7 +163,7 @@ impl Replay {
         })
     }
 
-    /// How the recorded scene was made. All steps are to be done to one new scene made like this.
+    /// How the recorded scene was made. All steps must be done to one new scene made like this.
     pub fn scene_options(&self) -> SceneOptions {
         self.options
     }
@@ -172,7 +173,7 @@ impl Replay {
         self.is_whole
     }
 
-    /// Whether what was read ends before the recording was ended, as when the program that was recorded was.
+    /// Whether the data ends before the recording was ended, for instance because the recorded program was.
     pub fn is_cut_off(&self) -> bool {
         self.state == State::CutOff
     }
@@ -261,11 +262,11 @@ impl Replay {
 
     // --- Doing -------------------------------------------------------------------------------------------------------------------
 
-    /// Does what was done in the step that was read, except its query.
+    /// Makes the changes of the step that was read, except its query.
     ///
     /// # Errors
-    /// [`Error::File`] for a recording that the scene refuses: it is another scene, or a damaged recording. It cannot be gone on
-    /// with. [`Error::Memory`].
+    /// [`Error::File`] for a recording that the scene refuses: it is another scene, or a damaged recording. It cannot be
+    /// continued. [`Error::Memory`].
     pub fn change(&mut self, scene: &mut Scene) -> Result<()> {
         let (changes, decided) = (std::mem::take(&mut self.changes), std::mem::take(&mut self.decided));
         let done = changes.into_iter().try_for_each(|record| self.change_one(scene, record));
@@ -298,7 +299,7 @@ impl Replay {
         }
     }
 
-    /// Takes what the recorded filter has decided.
+    /// Takes the decisions of the recorded filter.
     fn learn(&self, scene: &mut Scene, decisions: &[Decision]) -> Result<()> {
         let mut all = locked(&self.decisions);
         for Decision { pair: [object1, object2], is_tested } in decisions {
@@ -363,7 +364,7 @@ impl Decisions {
     }
 }
 
-/// What a replay has for the numbers of a recording.
+/// The values that a replay has for the numbers of a recording.
 struct Known<'a> {
     shapes: &'a [Arc<Shape>],
     ids: &'a [ObjectId],

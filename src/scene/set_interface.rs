@@ -1,4 +1,5 @@
-//! What several threads can ask a scene at once: each question takes the scene by a shared reference, and changes nothing in it.
+//! The questions that several threads can ask a scene at once: each takes the scene by a shared reference, and changes nothing in
+//! it.
 
 use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
@@ -36,10 +37,10 @@ impl Scene {
     }
 
     /// The least distance between two sets of objects, or between a set and all other objects (`against` is `None`), with its
-    /// interval and a pair that has it; of sets farther apart than `cut_off` no more than that is said.
+    /// interval and a pair that has it; for sets farther apart than `cut_off` no more than that is reported.
     ///
-    /// Pairs are those that queries test: activation, groups and the filter are heeded. Two fixed objects are left out, unless the
-    /// question says where those of a set are. Pairs of two objects of the first set are asked about if that says so.
+    /// Pairs are those that queries test: activation, groups and the filter are heeded. Two fixed objects are left out, unless
+    /// the question gives the poses of those of a set. Pairs of two objects of the first set are asked about if it requests that.
     ///
     /// # Errors
     /// [`Error::Handle`](crate::base::error::Error::Handle) for an id that is null, stale or another scene's;
@@ -93,9 +94,9 @@ impl Scene {
         })
     }
 
-    /// What a ray meets of the objects whose groups have a bit of `mask`: the first piece, all in order, or any. Places are
-    /// intervals that hold, as of [`cast_ray`](crate::ray::cast_ray). Pieces that are met at one place, as far as doubles tell, are
-    /// in order of creation.
+    /// The pieces that a ray meets, of objects whose groups have a bit of `mask`: the first piece, all in order, or any. Places
+    /// are intervals that hold, same as for [`cast_ray`](crate::ray::cast_ray). Pieces that are met at one place, as far as
+    /// doubles tell, are in order of creation.
     ///
     /// # Errors
     /// As [`cast_ray`](crate::ray::cast_ray), and [`Error::Memory`](crate::base::error::Error::Memory).
@@ -114,15 +115,15 @@ impl Scene {
         })
     }
 
-    /// Whether moving objects stay farther than `config.margin` from all others, which rest, or when they first do not: certain, as
-    /// of [`motion::cast`](crate::motion::cast()). One motion moves all objects of the set as one body, else each has its own;
-    /// pieces with poses of their own move with their object.
-    /// Pairs of two of them are asked about if the set says so; its poses are not looked at. Pairs are those that queries test;
-    /// both may be fixed. `config.step_budget` is that of each pair.
+    /// Whether moving objects stay farther than `config.margin` from all others, which rest, or when they first do not: certain,
+    /// same as for [`motion::cast`](crate::motion::cast()). One motion moves all objects of the set as one body, else each has
+    /// its own; pieces with poses of their own move with their object. Pairs of two of them are asked about if the set requests
+    /// that; its poses are not looked at. Pairs are those that queries test; both may be fixed. `config.step_budget` is that of
+    /// each pair.
     ///
     /// # Errors
     /// [`Error::Handle`](crate::base::error::Error::Handle) for an id that is null, stale or another scene's;
-    /// [`Error::Argument`](crate::base::error::Error::Argument) unless there is one motion or one for each object; as of
+    /// [`Error::Argument`](crate::base::error::Error::Argument) unless there is one motion or one for each object; same as for
     /// [`motion::cast`](crate::motion::cast()), and [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn cast(
         &self,
@@ -166,17 +167,17 @@ impl Scene {
         Ok(())
     }
 
-    /// Where objects, all or those of a set, meet a ground that is in no scene, or are up to `config.margin` apart from it: piece
-    /// by piece what [`ground_contacts`](crate::ground::ground_contacts) says, with the default rotation limit for objects; that
-    /// of `config` is for the ground.
+    /// The contacts of objects, all or those of a set, with a ground that is in no scene, or up to `config.margin` apart from it.
+    /// Each piece gets the result of [`ground_contacts`](crate::ground::ground_contacts), with the default rotation limit for
+    /// objects; that of `config` is for the ground.
     ///
-    /// Objects are asked whose groups and mask go with the filter's; activation and the scene's filter are about pairs, and do not
-    /// count. Fixed objects are left out, unless the set says where they are. The set's `among` is not looked at.
+    /// Objects are asked whose groups and mask go with the filter's; activation and the scene's filter are about pairs, and do
+    /// not count. Fixed objects are left out, unless the set gives their poses. The set's `among` is not looked at.
     ///
     /// # Errors
     /// [`Error::Handle`](crate::base::error::Error::Handle) for an id that is null, stale or another scene's;
     /// [`Error::Argument`](crate::base::error::Error::Argument) unless a set with poses has one for each object;
-    /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted; as of
+    /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted; same as for
     /// [`ground_contacts`](crate::ground::ground_contacts), and [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn ground_contacts<'a>(
         &self,
@@ -189,8 +190,8 @@ impl Scene {
         self.floor_contacts(set, Floor::Ground(ground), config, filter, scratch)
     }
 
-    /// The same of a half-space: a contact for each piece that is within the margin, as
-    /// [`half_space_manifold`](crate::pair::half_space_manifold) says.
+    /// The same for a half-space: a contact for each piece that is within the margin, as
+    /// [`half_space_manifold`](crate::pair::half_space_manifold) gives it.
     ///
     /// # Errors
     /// As [`Scene::ground_contacts`] and [`half_space_manifold`](crate::pair::half_space_manifold).

@@ -1,4 +1,4 @@
-//! How far a body reaches, wherever it is placed: what the boxes and spheres of a scene are made of. All of it errs outwards, or
+//! How far a body reaches, wherever it is placed: the data for the boxes and spheres of a scene. All of it errs outwards, or
 //! inwards where that is the safe side.
 
 use crate::base::error::Result;
@@ -17,7 +17,7 @@ const MOST_POINTS: usize = 512;
 const LARGEST: f64 = f64::from_bits((1023 + 80) << 52);
 const SMALLEST: f64 = f64::from_bits((1023 - 80) << 52);
 
-/// Radii about the centred origin, and what boxes are computed from.
+/// Radii about the centred origin, and the data that boxes are computed from.
 #[derive(Debug, Clone)]
 pub(crate) struct Extent {
     /// A ball of this radius about the centred origin is in the body; −∞ where no ball is or rounding hides it.
@@ -46,7 +46,7 @@ impl Extent {
         let corner = |pick: fn(f64, f64) -> f64| positions().reduce(|a, b| a.zip_map(&b, pick)).unwrap_or_default();
         let (lower, upper) = (corner(f64::min), corner(f64::max));
         let middle = 0.5 * lower + 0.5 * upper;
-        // Of each axis rounded up: the two halves and their difference are off by at most 4u of the larger end.
+        // For each axis, rounded up: the two halves and their difference are off by at most 4u of the larger end.
         let half =
             Vector::from_fn(|i, _| (0.5 * upper[i] - 0.5 * lower[i]) + 4.0 * U * lower[i].abs().max(upper[i].abs()));
         let radius = polyhedron.radius;

@@ -1,4 +1,4 @@
-//! The faces of a shape, for reading: what the id of a face in an answer stands for.
+//! The faces of a shape, for reading: the meaning of a face's id in an answer.
 
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
@@ -22,8 +22,8 @@ impl Shape {
         Some(Face { polyhedron: &self.polyhedron, index })
     }
 
-    /// The place of a face that the caller's polygon `label`, the id of a face in an answer, is a part of; of several the first.
-    /// It takes time in proportion to the faces.
+    /// The place of a face that the caller's polygon `label`, the id of a face in an answer, is a part of; if there are several,
+    /// the first. It takes time in proportion to the faces.
     pub fn find_face(&self, label: u32) -> Option<usize> {
         (0..self.face_count()).find(|&face| self.polyhedron.labels_of_face(face as u32).contains(&label))
     }
@@ -49,7 +49,7 @@ impl<'a> Face<'a> {
         (0..polyhedron.faces[index as usize].side_count).map(move |side| polyhedron.corner(index, side))
     }
 
-    /// The caller's polygons that are merged in it, ascending; of a hull made without polygons its own number.
+    /// The caller's polygons that are merged in it, ascending; for a hull made without polygons, its own number.
     pub fn labels(&self) -> &'a [u32] {
         self.polyhedron.labels_of_face(self.index)
     }

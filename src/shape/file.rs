@@ -1,10 +1,11 @@
-//! Shapes in files: saved once, loaded as they were, levels of detail included; what is made on first need is made again.
+//! Shapes in files: saved once, loaded as they were, levels of detail included; data made on first need are made again.
 //!
-//! A file begins with eight bytes that say what it is and a version; it ends with a checksum of all before. In between are numbers,
-//! little-endian: what is not the same on every run (the hull's triangulation, labels, links between levels), takes long to find
-//! (the levels' vertices) or is asked for (the noise of coordinates). A checksum finds damage, not intent, so nothing that an
-//! answer's certainty rests on is believed: the hulls are proved anew with exact predicates, planes and their slack computed, each
-//! level shown to contain the body and measured. A file of any content gives a sound shape or an error.
+//! A file begins with eight bytes that say what it is and a version; it ends with a checksum of all before. In between are
+//! numbers, little-endian: data that are not the same on every run (the hull's triangulation, labels, links between levels), take
+//! long to find (the levels' vertices) or are the caller's choice (the noise of coordinates). A checksum finds damage, not
+//! intent, so nothing that an answer's certainty rests on is believed: the hulls are proved anew with exact predicates, planes
+//! and their slack computed, each level shown to contain the body and measured. A file of any content gives a sound shape or an
+//! error.
 
 use std::path::Path;
 
@@ -27,10 +28,10 @@ use crate::shape::{LARGEST_SWEPT_RADIUS, Shape};
 use crate::solve::state::FeatureId;
 use crate::tables::{LookupKind, LookupOptions, plan_lookup};
 
-/// What a shape file begins with. The last byte keeps it from passing for text.
+/// The first bytes of a shape file. The last one keeps it from passing for text.
 const MAGIC: [u8; 8] = *b"SWFTPRX\x1a";
 
-/// What a shape file is, in messages.
+/// The name of a shape file in messages.
 const WHAT: &str = "the shape file";
 
 /// The version that is written.
@@ -39,7 +40,7 @@ const VERSION: u32 = 3;
 /// A version that is read, too: it has no swept radius.
 const VERSION_WITHOUT_RADIUS: u32 = 2;
 
-/// Saves a shape in a file, replacing what was there.
+/// Saves a shape in a file, replacing any file there.
 ///
 /// # Errors
 /// [`Error::File`] if the file cannot be written or is no regular one; the message names it and says why. [`Error::Memory`]: the
@@ -58,10 +59,10 @@ pub fn load(path: &Path) -> Result<Shape> {
     load_in_steps(path, &mut Progress::new(&mut |_| true))
 }
 
-/// As [`load`], saying how far it is.
+/// Same as [`load`], with progress reports.
 ///
 /// # Errors
-/// As [`load`]; [`Error::Cancelled`] when the caller does not want to go on.
+/// Same as [`load`]; [`Error::Cancelled`] when the caller does not want to go on.
 pub fn load_in_steps(path: &Path, progress: &mut Progress) -> Result<Shape> {
     let bytes = read_whole(path, &path.display().to_string())?;
     from_bytes_in_steps(&bytes, progress).map_err(|error| match error {
@@ -70,7 +71,7 @@ pub fn load_in_steps(path: &Path, progress: &mut Progress) -> Result<Shape> {
     })
 }
 
-/// What [`save`] writes.
+/// The bytes that [`save`] writes.
 ///
 /// # Errors
 /// [`Error::Memory`].
@@ -79,11 +80,11 @@ pub fn to_bytes(shape: &Shape) -> Result<Vec<u8>> {
     write(shape, 1.0, shape.hierarchy().kind != HierarchyKind::Automatic)
 }
 
-/// A shape with every length multiplied by a power of two, as if it had been saved and loaded: proved and measured anew, levels,
-/// too, those that are automatic if they are made.
+/// A shape with every length multiplied by a power of two, as if it had been saved and loaded: proved and measured anew, and its
+/// levels, too, the automatic ones if they are made.
 ///
 /// # Errors
-/// What is wrong with what came of it; [`Error::Memory`], [`Error::Cancelled`].
+/// The faults of the scaled shape; [`Error::Memory`], [`Error::Cancelled`].
 pub(super) fn scaled(shape: &Shape, power_of_two: f64, progress: &mut Progress) -> Result<Shape> {
     read(&write(shape, power_of_two, true)?, true, progress)
 }
@@ -118,7 +119,7 @@ fn write(shape: &Shape, scale: f64, with_levels: bool) -> Result<Vec<u8>> {
     Ok(writer.bytes)
 }
 
-/// What [`load`] makes of a file's bytes.
+/// The shape that [`load`] reads from a file's bytes.
 ///
 /// # Errors
 /// [`Error::File`] if they are no shape, of another version or damaged; [`Error::Memory`].
@@ -126,16 +127,16 @@ pub fn from_bytes(bytes: &[u8]) -> Result<Shape> {
     from_bytes_in_steps(bytes, &mut Progress::new(&mut |_| true))
 }
 
-/// As [`from_bytes`], saying how far it is.
+/// Same as [`from_bytes`], with progress reports.
 ///
 /// # Errors
-/// As [`from_bytes`]; [`Error::Cancelled`] when the caller does not want to go on.
+/// Same as [`from_bytes`]; [`Error::Cancelled`] when the caller does not want to go on.
 pub fn from_bytes_in_steps(bytes: &[u8], progress: &mut Progress) -> Result<Shape> {
     in_integers(|| with_default(|| read(bytes, false, progress)))?
 }
 
 fn read(bytes: &[u8], admits_automatic_levels: bool, progress: &mut Progress) -> Result<Shape> {
-    /// What reading and proving the bodies takes of the time: 0.95 without levels, 0.65 with 32, and this with five.
+    /// The share of the time that reading and proving the bodies takes: 0.95 without levels, 0.65 with 32, and this with five.
     const SHARE_OF_BODIES: f64 = 0.8;
     progress.report(0.0)?;
     let mut bodies = progress.part(0.0, SHARE_OF_BODIES);
@@ -205,7 +206,7 @@ fn damaged<T>(what: &str) -> Result<T> {
     Err(Error::File(format!("{WHAT} is damaged: {what}")))
 }
 
-/// Whatever is wrong with what was read is damage; a load that is cancelled is not, nor memory that is not there.
+/// Any fault of the data read is damage; a cancelled load is not, nor is a lack of memory.
 fn sound<T>(result: Result<T>) -> Result<T> {
     result.or_else(|error| match error {
         Error::Cancelled(_) | Error::Memory(_) => Err(error),
@@ -268,7 +269,7 @@ impl<'a> Reader<'a> {
     /// A polyhedron in a frame of its own, or a level in the centred coordinates of a body whose centre is given. It takes the part
     /// of `progress` that its bytes are of the file.
     fn polyhedron(&mut self, body: Option<Vector>, progress: &mut Progress) -> Result<Polyhedron> {
-        /// Of the time that a body takes, what proving its hull does, about; laying it out takes the rest.
+        /// The share of a body's time that proving its hull takes, about; laying it out takes the rest.
         const SHARE_OF_PROOF: f64 = 0.15;
         let start = self.done();
         let dimension = self.number()?;
@@ -287,7 +288,8 @@ impl<'a> Reader<'a> {
         };
         let mut progress = progress.part(start, self.done());
         progress.report(0.0)?;
-        // What a body is stored as are exact sums; those of a level are not, and its hull is that of its centred coordinates.
+        // The stored vertices of a body are exact sums; those of a level are not, and its hull is that of its centred
+        // coordinates.
         let points = match body {
             None => collected(positions.iter().map(|p| p + centre))?,
             Some(_) => copied(&positions)?,
@@ -299,7 +301,7 @@ impl<'a> Reader<'a> {
                 sound(check_hull_in_steps(&points, &hull, &mut progress.part(0.0, SHARE_OF_PROOF)))?;
                 hull
             }
-            // Of a flat hull the triangulation is known.
+            // The triangulation of a flat hull is known.
             _ => sound(convex_hull_in_steps(&points, &mut progress.part(0.0, SHARE_OF_PROOF)))?,
         };
         if u32::from(hull.dimension) != dimension || hull.vertices.len() != positions.len() {

@@ -37,13 +37,13 @@ use patch::hull_of_patch;
 use transform::{InputTransform, transformed};
 pub(crate) use triangle::{Triangle, TriangleShape};
 
-/// What takes every mesh of finite vertices.
+/// The input policy that takes every mesh of finite vertices.
 const CURE: &str = "the input policy Hull (SWIFTPROX_INPUT_HULL) takes the hull of the vertices";
 
-/// What takes a mesh without its vertices of no face, if each face has three corners.
+/// The input policy that takes a mesh without its vertices of no face, if each face has three corners.
 const CURE_BY_FACES: &str = "the input policy Patch (SWIFTPROX_INPUT_PATCH) takes the hull of the faces";
 
-/// A refusal of a mesh with what would take it, where it does not say that itself.
+/// A refusal of a mesh with the policy that would take it, where it does not name one itself.
 fn with_cure(error: Error, mesh: &PolygonMesh) -> Error {
     let Error::Mesh(message) = &error else {
         return error;
@@ -73,7 +73,7 @@ const SINGLE_PRECISION_CONVEXITY_TOLERANCE: f64 = 1e-6;
 /// is two roundings along each axis, and another one the other way ([`coordinate_unit`]).
 const UNITS_ALLOWED: f64 = 4.0;
 
-/// The most that coarse coordinates excuse: what is farther from convex looks dented.
+/// The most that coarse coordinates excuse: a mesh farther from convex looks dented.
 const MOST_EXCUSED: f64 = 5e-3;
 
 /// How far from convex a mesh may be because of the precision of its coordinates, relative to its bounding box's diagonal: four
@@ -86,7 +86,7 @@ pub fn precision_tolerance(vertices: &[Vector]) -> f64 {
     found.clamp(CONVEXITY_TOLERANCE, MOST_EXCUSED)
 }
 
-/// What to do with input that is not a closed convex mesh with interior.
+/// The policy for input that is not a closed convex mesh with interior.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
 pub enum InputPolicy {
@@ -98,11 +98,12 @@ pub enum InputPolicy {
     /// Take the convex hull of the vertices, of any dimension, also of those that belong to no face. Faces label the hull if one of
     /// the other two would admit the mesh; otherwise they are ignored, and a face's label is its own index.
     Hull = 2,
-    /// As flat, for a mesh that is convex up to the precision of its coordinates: the convex hull counts. A mesh whose faces all
-    /// run clockwise seen from outside is turned. Vertices and faces keep the caller's indices. What the hull swallows is never
-    /// the feature of an answer where it is a vertex; a face shares the hull's face over it, and is named where it is the nearest
-    /// of those that share. Without a convexity tolerance the coordinates say it, before the input transform: four units of the
-    /// last place in which they are written (decimals, significant digits, floats), at most 0.005 of the bounding box's diagonal.
+    /// Same as flat, for a mesh that is convex up to the precision of its coordinates: the convex hull counts. A mesh whose faces
+    /// all run clockwise seen from outside is turned. Vertices and faces keep the caller's indices. A vertex that the hull
+    /// swallows is never the feature of an answer; a face that it swallows shares the hull's face over it, and is named where it
+    /// is the nearest of those that share. Without a convexity tolerance the coordinates tell it, before the input transform:
+    /// four units of the last place in which they are written (decimals, significant digits, floats), at most 0.005 of the
+    /// bounding box's diagonal.
     NearlyConvex = 3,
     /// The faces are a part of the surface of their vertices' hull, or all of it: that hull counts, of any dimension. Vertices of
     /// no face, which some mesh files have, are left out. A face of the hull on which no face of the mesh lies is called
@@ -113,7 +114,7 @@ pub enum InputPolicy {
 /// How a shape is made.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ShapeOptions {
-    /// What to do with input that is not a closed convex mesh with interior.
+    /// The policy for input that is not a closed convex mesh with interior.
     pub input: InputPolicy,
     /// Stored vertex = scale·(rotation·v) + translation, rounded once to doubles; the local frame of all answers. Accepted like
     /// the rotation of a pose ([`ROTATION_LIMIT`](crate::base::math::ROTATION_LIMIT)).
@@ -130,8 +131,8 @@ pub struct ShapeOptions {
     /// The table of vertices from which marching starts when the last query tells nothing. It is made by the first query that
     /// looks into it.
     pub lookup: LookupOptions,
-    /// By how much a coordinate may be off, in the units of the input, before `scale`: vertices that could lie in one plane up to
-    /// this are one face to manifolds. Distance and depth do not change; the intervals of gaps contain what is joined. `None`:
+    /// A bound of a coordinate's error, in the units of the input, before `scale`: vertices that could lie in one plane up to
+    /// this are one face to manifolds. Distance and depth do not change; the intervals of gaps contain the joined faces. `None`:
     /// found from the coordinates and polygons ([`default_noise`]). 0: rounding of doubles only.
     pub face_noise: Option<f64>,
     /// The radius of a ball that is swept over the body, in the units of the input, before `scale`: a point with one is a sphere, a
@@ -172,7 +173,7 @@ impl ShapeOptions {
         Ok(radius)
     }
 
-    /// By how much coordinates may be off in the local frame; `polygons` are over the points, all before the input transform.
+    /// A bound of the coordinates' errors in the local frame; `polygons` are over the points, all before the input transform.
     fn noise(&self, points: &[Vector], polygons: Option<&PolygonMesh>) -> Result<f64> {
         let noise = match self.face_noise {
             Some(noise) => {
@@ -194,8 +195,8 @@ impl ShapeOptions {
     }
 }
 
-/// Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it is all that is ever
-/// added: look-up tables of the body and of its levels, maps of its support function, automatic levels.
+/// Geometry for queries: immutable, shared by any number of owners. Only data made when a query first needs them are ever added:
+/// look-up tables of the body and of its levels, maps of its support function, automatic levels.
 #[derive(Debug, Clone)]
 pub struct Shape {
     polyhedron: Polyhedron,
@@ -203,7 +204,7 @@ pub struct Shape {
     extent: Extent,
     /// Empty while automatic levels are not made.
     hierarchy: OnNeed<Hierarchy>,
-    /// Of the ball that is swept over the polyhedron.
+    /// Radius of the ball that is swept over the polyhedron.
     swept_radius: f64,
     /// Its support function for approximate distances, as far as it is made.
     pub(crate) support_map: SupportMap,
@@ -229,10 +230,10 @@ impl Shape {
         Shape::from_mesh_in_steps(mesh, options, &mut Progress::new(&mut |_| true))
     }
 
-    /// As [`Shape::from_mesh`], saying how far it is.
+    /// Same as [`Shape::from_mesh`], with progress reports.
     ///
     /// # Errors
-    /// As [`Shape::from_mesh`]; [`Error::Cancelled`] when the caller does not want to go on.
+    /// Same as [`Shape::from_mesh`]; [`Error::Cancelled`] when the caller does not want to go on.
     pub fn from_mesh_in_steps(mesh: &PolygonMesh, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         in_integers(|| with_default(|| Shape::of_mesh(mesh, options, progress)))?
     }
@@ -336,10 +337,10 @@ impl Shape {
         Shape::from_points_in_steps(points, options, &mut Progress::new(&mut |_| true))
     }
 
-    /// As [`Shape::from_points`], saying how far it is.
+    /// Same as [`Shape::from_points`], with progress reports.
     ///
     /// # Errors
-    /// As [`Shape::from_points`]; [`Error::Cancelled`] when the caller does not want to go on.
+    /// Same as [`Shape::from_points`]; [`Error::Cancelled`] when the caller does not want to go on.
     pub fn from_points_in_steps(points: &[Vector], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         let build = || {
             let images = transformed(points, &options.transform(), &mut progress.part(0.0, 0.0))?;
@@ -363,15 +364,15 @@ impl Shape {
     /// From a mesh file ([`read_mesh`]).
     ///
     /// # Errors
-    /// As [`read_mesh`] and [`Shape::from_mesh`]; the message names the file.
+    /// Same as [`read_mesh`] and [`Shape::from_mesh`]; the message names the file.
     pub fn from_file(path: &Path, options: &ShapeOptions) -> Result<Shape> {
         Shape::from_file_in_steps(path, options, &mut Progress::new(&mut |_| true))
     }
 
-    /// As [`Shape::from_file`], saying how far it is.
+    /// Same as [`Shape::from_file`], with progress reports.
     ///
     /// # Errors
-    /// As [`Shape::from_file`]; [`Error::Cancelled`] when the caller does not want to go on.
+    /// Same as [`Shape::from_file`]; [`Error::Cancelled`] when the caller does not want to go on.
     pub fn from_file_in_steps(path: &Path, options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         Shape::from_mesh_in_steps(&read_mesh(path)?, options, progress).map_err(|error| match error {
             Error::Mesh(message) => Error::Mesh(format!("{}: {message}", path.display())),
@@ -379,13 +380,13 @@ impl Shape {
         })
     }
 
-    /// From levels of detail that the caller gives, the finest first: `meshes[0]` is the body itself, as in
-    /// [`Shape::from_mesh`]; of each further one the convex hull of its vertices counts, moved and scaled until it bounds the
-    /// body ([`Hierarchy::from_levels`]). All go through the same input transform.
+    /// From levels of detail that the caller gives, the finest first: `meshes[0]` is the body itself, as in [`Shape::from_mesh`];
+    /// the convex hull of each further one's vertices counts, moved and scaled until it bounds the body
+    /// ([`Hierarchy::from_levels`]). All go through the same input transform.
     ///
     /// # Errors
-    /// As [`Shape::from_mesh`] and [`Hierarchy::from_levels`]; [`Error::Argument`] for no mesh, or if `options.hierarchy` asks
-    /// for levels to be built.
+    /// Same as [`Shape::from_mesh`] and [`Hierarchy::from_levels`]; [`Error::Argument`] for no mesh, or if `options.hierarchy`
+    /// asks for levels to be built.
     pub fn from_levels(meshes: &[PolygonMesh], options: &ShapeOptions, progress: &mut Progress) -> Result<Shape> {
         with_default(|| Shape::of_levels(meshes, options, progress))
     }
@@ -433,7 +434,7 @@ impl Shape {
     /// The same body with other levels of detail, built at once if they are not automatic; those that it has are dropped.
     ///
     /// # Errors
-    /// As [`Hierarchy::build`].
+    /// Same as [`Hierarchy::build`].
     pub fn with_levels(self, options: &HierarchyOptions, progress: &mut Progress) -> Result<Shape> {
         with_default(|| options.check())?;
         let Shape { polyhedron, swept_radius, .. } = self;
@@ -447,9 +448,10 @@ impl Shape {
         Shape::from_parts(polyhedron, hierarchy, swept_radius)
     }
 
-    /// The same shape with every length multiplied by `scale`, a power of two: vertices, levels of detail and distances are exactly
-    /// those multiplied, and labels are the same. Levels are not built anew, automatic ones are taken over if they are made. What
-    /// answers rest on is proved and measured again, as by [`file::load`]; that takes up to half as long as making the shape did.
+    /// The same shape with every length multiplied by `scale`, a power of two: vertices, levels of detail and distances are
+    /// exactly those multiplied, and labels are the same. Levels are not built anew, automatic ones are taken over if they are
+    /// made. The data that answers rest on are proved and measured again, same as by [`file::load`]; that takes up to half as
+    /// long as making the shape did.
     ///
     /// A shape that is turned or moved needs no copy: it is a pose, of an object or of a piece of it. At any other scale vertices
     /// would be rounded, faces with them, and levels might no longer contain the body: such a shape is to be made anew
@@ -482,9 +484,9 @@ impl Shape {
     }
 
     /// The inertia tensor of a body of mass 1 and of uniform density about its centre of mass, in the axes of the local frame:
-    /// symmetric, in units of length squared. Times a body's mass, density times volume, it is the inertia of that body. Of a shape
-    /// without interior the mass is spread over its area or length. Each entry is within 1e-13 of the largest, unless the body is
-    /// thinner than 1e-12 of its size. It takes time in proportion to the triangles.
+    /// symmetric, in units of length squared. Times a body's mass, density times volume, it is the inertia of that body. For a
+    /// shape without interior the mass is spread over its area or length. Each entry is within 1e-13 of the largest, unless the
+    /// body is thinner than 1e-12 of its size. It takes time in proportion to the triangles.
     pub fn inertia(&self) -> Matrix {
         with_default(|| inertia(&self.polyhedron))
     }
@@ -508,8 +510,8 @@ impl Shape {
         self.hierarchy.get().is_none() & (self.polyhedron.vertices.len() >= LEAST_VERTICES_FOR_LEVELS)
     }
 
-    /// Makes automatic levels if they are not made: the caller is to go through them. Others who need them meanwhile wait. Where
-    /// memory is lacking there are none, and bodies answer themselves.
+    /// Makes automatic levels if they are not made: the caller is to go through them. Other threads that need them meanwhile
+    /// wait. Where memory is lacking there are none, and bodies answer themselves.
     #[inline]
     pub(crate) fn need_levels(&self) {
         if self.lacks_levels() {
@@ -526,11 +528,13 @@ impl Shape {
         Hierarchy::build(&self.polyhedron, &HierarchyOptions::default(), progress)
     }
 
-    /// Makes now what the first query that needs it would, saying how far it is: the look-up tables and maps of support
-    /// functions, a small part of the work (of needles up to a third) which is not interrupted, the search for polygons on faces
-    /// of many, and automatic levels. After that no query of this shape allocates or waits, except for the integer arithmetic.
+    /// Makes now, with progress reports, the data that the first query to need them would make: the look-up tables and maps of
+    /// support functions, a small part of the work (of needles up to a third) which is not interrupted, the search for polygons
+    /// on faces of many, and automatic levels. After that no query of this shape allocates or waits, except for the integer
+    /// arithmetic.
     ///
-    /// Nobody waits for levels that may be cancelled: who needs them meanwhile makes them, too, and what comes second is dropped.
+    /// No thread waits for levels that may be cancelled: one that needs them meanwhile makes them, too, and the second result is
+    /// dropped.
     ///
     /// # Errors
     /// [`Error::Cancelled`] when the caller does not want to go on, [`Error::Memory`]: no levels are made then, and the shape can
@@ -540,7 +544,7 @@ impl Shape {
     }
 
     fn make_ready(&self, progress: &mut Progress) -> Result<()> {
-        /// Of the time that both take, about, at 100,000 and 200,000 vertices.
+        /// The table's share of the time that both take, about, at 100,000 and 200,000 vertices.
         const SHARE_OF_TABLE: f64 = 0.06;
         progress.report(0.0)?;
         insist_on_table(&self.polyhedron)?;

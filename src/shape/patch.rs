@@ -9,7 +9,7 @@ use crate::build::hull::{check_points, convex_hull_in_steps};
 use crate::mesh::{Numbers, PolygonMesh};
 use crate::polyhedron::Polyhedron;
 
-/// What a face of the hull of a patch is called on which none of the caller's lies: UINT32_MAX.
+/// The label of a face of a patch's hull on which none of the caller's faces lies: UINT32_MAX.
 pub const NO_FACE: u32 = u32::MAX;
 
 /// How far off the hull a face that lies on it may be, in units of the noise of its coordinates: each corner by two roundings along

@@ -1,4 +1,4 @@
-//! The input transform: what becomes of vertices before a shape is made of them.
+//! The input transform: applied to vertices before a shape is made of them.
 
 use crate::base::double_double::{DoubleDouble, two_product};
 use crate::base::error::{Error, Result};

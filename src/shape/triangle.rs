@@ -1,4 +1,4 @@
-//! A shape that is one triangle, then another: what a query of many triangles asks the pair layer about.
+//! A shape that is one triangle, then another: a query of many triangles passes it to the pair layer.
 
 use super::{InputPolicy, LookupKind, LookupOptions, Shape, ShapeOptions};
 use crate::base::error::Result;
@@ -11,7 +11,7 @@ use crate::polyhedron::Polyhedron;
 #[derive(Debug)]
 pub(crate) struct TriangleShape {
     shape: Shape,
-    /// Of each vertex the corner that it is.
+    /// The corner that each vertex is.
     corner_of: [usize; 3],
     /// The face from which the corners go around counter-clockwise.
     front: usize,
@@ -23,7 +23,7 @@ pub(crate) struct Triangle {
     pub corners: [Vector; 3],
     /// The unit normal of the side from which they go around counter-clockwise, right to a few u.
     pub normal: Vector,
-    /// What the corners are called, and the triangle.
+    /// The labels of the corners; that of the triangle is next.
     pub labels: [u32; 3],
     pub label: u32,
 }
@@ -54,7 +54,8 @@ impl TriangleShape {
         self.complete()
     }
 
-    /// Makes it a triangle, as [`of`](TriangleShape::of) takes it, of which only a [manifold](TriangleShape::shown) may be asked.
+    /// Makes it a triangle, as [`of`](TriangleShape::of) takes it, for which only a [manifold](TriangleShape::shown) may be
+    /// queried.
     pub fn show(&mut self, triangle: &Triangle) {
         let polyhedron = &mut self.shape.polyhedron;
         let corners = self.corner_of.map(|corner| triangle.corners[corner]);

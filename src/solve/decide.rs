@@ -1,4 +1,4 @@
-//! Deciding a pair for sure when marching alone cannot: the fallback, then integers.
+//! Proves a pair's verdict when marching alone cannot: the fallback, then integers.
 
 use crate::base::math::{Pose, ROTATION_LIMIT, Vector, clamp};
 use crate::base::simd::{self, Kernel, Lanes};
@@ -63,10 +63,10 @@ pub struct Effort {
     pub exact_iterations: u32,
 }
 
-/// What an interval is to tell.
+/// The result that an interval must deliver.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Wanted {
-    /// It is as narrow as answers are to be, else it need only prove the verdict.
+    /// It is as narrow as answers must be, else it need only prove the verdict.
     pub tight: bool,
     /// It is on one side of this, as far as doubles can tell: the integers' interval always tells, as its ends are neighbours and
     /// the true distance is between them, or both are it. `upper` is at most the tolerance just where the true distance is.
@@ -84,7 +84,7 @@ impl Wanted {
 /// beyond the error bounds of double precision, and integers decide at once.
 ///
 /// # Panics
-/// Where integers get no memory, as of [`in_integers`](crate::base::memory::in_integers).
+/// Fails where integers get no memory, same as [`in_integers`](crate::base::memory::in_integers).
 pub fn decide(
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],
@@ -129,7 +129,7 @@ pub fn decide(
     (decision, effort)
 }
 
-/// What floating point makes of a pair.
+/// The floating-point result for a pair.
 enum Proposal {
     /// Proved, and as tight as was asked.
     Separated(gjk::Nearest),

@@ -48,7 +48,7 @@ pub fn enclose<L: Lanes>(frame: &Frame<L>, supports: &mut Supports, simplex: &[V
         let pair = supports.farthest(frame, &direction);
         let corner = gjk::difference(frame, pair);
         let error = frame.difference_error(corner.norm());
-        // False for a NaN. Where the body does not reach beyond the origin by more than rounding, nothing can be proved.
+        // False for a NaN. If the body does not reach beyond the origin by more than rounding, nothing can be proved.
         let reaches_beyond = direction.dot(&corner) > 4.0 * error * direction.norm();
         if !reaches_beyond || exchanges == EXCHANGE_LIMIT {
             return None;
@@ -139,7 +139,7 @@ fn sides_of_faces<L: Lanes>(frame: &Frame<L>, corners: &[L; 4]) -> Sides {
     // A bound of their length that is never 0.
     let longest = if longest > error { longest } else { error };
     let bound = determinant_error(longest, error);
-    // Written out: what the compiler leaves out of line, a closure say, is not compiled for these lanes.
+    // Written out: code that the compiler leaves out of line, a closure say, is not compiled for these lanes.
     let &[p, q, r, s] = corners;
     let [ax, ay, az] = L::components(&[q, p, p, p]);
     let [bx, by, bz] = L::components(&[s, r, s, q]);
@@ -152,7 +152,7 @@ fn sides_of_faces<L: Lanes>(frame: &Frame<L>, corners: &[L; 4]) -> Sides {
     let volume = first + second + third + fourth;
     // With the sign of the volume; false for a NaN.
     let inside = values.mul(L::splat(volume.signum())).greater(L::splat(bound));
-    // Asked for as the weights below are, the compiler would divide by 0 all the same, and throw 0/0 away.
+    // Asked for as the weights below are, the compiler would still divide by 0, and throw 0/0 away.
     let divisor = if volume.abs() > f64::MIN_POSITIVE { volume } else { f64::MIN_POSITIVE };
     let shares = values.div(L::splat(divisor)).to_array();
     let weights = if volume == 0.0 { [f64::NEG_INFINITY; 4] } else { shares };
@@ -167,7 +167,7 @@ pub fn length_above<S: Scalar>(square: S) -> S {
     square.sqrt() * constant(1.0 + 8.0 * U)
 }
 
-/// What a determinant is off by, for columns of length at most `longest`, each off by at most `error`, see [`sides_of_faces`].
+/// The error of a determinant, for columns of length at most `longest`, each off by at most `error`, see [`sides_of_faces`].
 #[inline(always)]
 pub fn determinant_error<S: Scalar>(longest: S, error: S) -> S {
     let spread = constant::<S>(1.0) + error / longest;

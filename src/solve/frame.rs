@@ -1,9 +1,9 @@
 //! A pair of placed polyhedra prepared for one query: everything is measured in world axes relative to the other body, from
 //! R₁, R₂ and T₁ − T₂ as given.
 //!
-//! The translations are subtracted before anything is rotated, so that a pair 10⁹ from the origin loses no digits. A direction
-//! is mapped *into* a body by the transpose, which is exact for support functions whatever R; only where marching maps a
-//! *point* into a body does the transpose stand for the inverse, and there it merely proposes.
+//! The translations are subtracted before anything is rotated, so that a pair 10⁹ from the origin loses no digits. A direction is
+//! mapped *into* a body by the transpose, which is exact for support functions with any R; only where marching maps a *point*
+//! into a body does the transpose stand for the inverse, and there it merely proposes.
 
 use crate::base::double_double::{DoubleDouble, two_product, two_sum};
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
@@ -25,8 +25,8 @@ pub const RIGID_TOGETHER: f64 = 10.0 * UNIT_ROUNDOFF;
 /// Measuring errs by up to 3.5u on the diagonal entry by entry, 2.5u in lanes, and 2u beside it: together 28.5u and 28.9u.
 pub const RIGID_DEFECT: f64 = 29.0 * UNIT_ROUNDOFF;
 
-/// Where the first body of a pair saw the second, and its first two axes ([`Frame::mark`]), as the bits of single-precision
-/// numbers; of each four the last says nothing.
+/// The second body's position and its first two axes, as seen from the first body of a pair ([`Frame::mark`]), as the bits of
+/// single-precision numbers; the last of each four carries no information.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(transparent)]
 pub struct Marker([[u32; 4]; 3]);
@@ -116,13 +116,13 @@ pub struct Frame<'a, L> {
     pub size: f64,
     /// An upper bound of |Δ|, the distance of the centred origins, and so large that Δ as computed is off by at most 2u times it.
     pub separation: f64,
-    /// What rounding may make of a point of one body seen from the other: marching leaves a Voronoi region only when a plane is
+    /// The rounding error of a point of one body seen from the other: marching leaves a Voronoi region only when a plane is
     /// violated by more.
     pub tolerance: f64,
 }
 
 impl<'a, L: Lanes> Frame<'a, L> {
-    /// Prepares a pair, `rotation_limit` as in [`Pose::check`]. The frame is good for nothing unless it is `in_range`.
+    /// Prepares a pair, `rotation_limit` as in [`Pose::check`]. The frame is useless unless it is `in_range`.
     #[inline(always)]
     pub fn new(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2], rotation_limit: f64) -> Frame<'a, L> {
         let placed = [PoseInLanes::<L>::new(poses[0]), PoseInLanes::<L>::new(poses[1])];
@@ -193,7 +193,7 @@ impl<'a, L: Lanes> Frame<'a, L> {
         [self.bodies[0].polyhedron, self.bodies[1].polyhedron]
     }
 
-    /// Where body 1 sees the centred origin of body 2, in its own axes.
+    /// The centred origin of body 2 as seen by body 1, in its own axes.
     #[inline(always)]
     fn view(&self) -> L {
         self.bodies[0].rotate_back(self.bodies[1].offset)
@@ -247,7 +247,7 @@ impl<'a, L: Lanes> Frame<'a, L> {
     }
 
     /// An upper bound of the rounding error of [`Frame::difference`], whose length is about `length`, for points within their
-    /// bodies' radii. A foot found on a face's plane may lie beyond; what that adds is for whoever takes it, as `of_face` does.
+    /// bodies' radii. A foot found on a face's plane may lie beyond; a caller that uses it adds that error, as `of_face` does.
     ///
     /// R·p errs by at most γ₃·‖|R|‖·|p| ≤ 5.3u·ρ (‖|R|‖ ≤ √3·1.015), the sum with Δ by u(|D| + 1.02ρ₂), Δ itself by at most
     /// 2u|Δ|, the last difference by u|D|.
@@ -264,7 +264,7 @@ pub fn difference_error<S: Scalar>(size: S, separation: S, length: S) -> S {
     constant::<S>(UNIT_ROUNDOFF) * (by_size * size + by_separation * separation + by_length * length)
 }
 
-/// [`Frame::separation`], from Δ² and what [`Centred::cancelled`] says.
+/// [`Frame::separation`], from Δ² and the value of [`Centred::cancelled`].
 #[inline(always)]
 pub fn separation<S: Scalar>(square: S, cancelled: S) -> S {
     square.sqrt() * constant(1.0 + 8.0 * UNIT_ROUNDOFF) + constant::<S>(16.0 * UNIT_ROUNDOFF) * cancelled
@@ -328,11 +328,11 @@ impl<L: Lanes> PoseInLanes<L> {
     }
 }
 
-/// Where the bodies' centred origins are.
+/// The positions of the bodies' centred origins.
 struct Origins<L> {
     /// That of body 1 minus that of body 2.
     offset: L,
-    /// What [`Centred::cancelled`] says.
+    /// The value of [`Centred::cancelled`].
     cancelled: f64,
     /// In the world.
     translations: [L; 2],
@@ -345,7 +345,7 @@ fn look_closer(poses: [&Pose; 2], limit: f64) -> (bool, [bool; 2]) {
     (in_range, poses.map(|pose| !(pose.rotation_defect() <= RIGID)))
 }
 
-/// What differs for bodies whose centres are not their origins.
+/// The additional data for bodies whose centres are not their origins.
 struct Centred {
     /// (T₁ + R₁c₁) − (T₂ + R₂c₂).
     offset: [f64; 4],
@@ -355,7 +355,7 @@ struct Centred {
     translations: [[f64; 4]; 2],
 }
 
-/// M's weight in `separation` covers what the offset is off by: 2u·16u·M.
+/// M's weight in `separation` covers the error of the offset: 2u·16u·M.
 #[cold]
 fn centred(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Centred {
     let ([x, y, z], cancelled) = between_centres(polyhedra, poses);

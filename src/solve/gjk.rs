@@ -29,7 +29,7 @@ pub struct Simplex {
     pub weights: [f64; 4],
 }
 
-/// What the iteration came to.
+/// The result of the iteration.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum GjkResult {
     /// The simplex is nearest as far as rounding lets one see, at a positive distance.
@@ -86,7 +86,8 @@ impl Supports {
         pair
     }
 
-    /// What the bodies' look-up tables say, or else the farthest of the vertices met before and, of large bodies, of a sample.
+    /// The start from the bodies' look-up tables, or else the farthest of the vertices met before and, for large bodies, of a
+    /// sample.
     fn nearest_start(&self, polyhedra: [&Polyhedron; 2], towards: [&Vector; 2]) -> VertexPair {
         let mut start = [0; 2];
         for i in 0..2 {
@@ -212,8 +213,8 @@ pub fn height_over<S: Scalar>(g: [S; 3], vertex: [S; 3], point: [S; 3]) -> S {
 pub const EXCESS: f64 = 24.0 * U;
 
 /// How far a combination a + w₁(b − a) + w₂(c − a) lies out of the body, over ρ. w₁ + w₂ ≤ 1 + 3u, which takes it out by 3u·2ρ;
-/// both differences and products err by 2u·2ρ together, the two sums by uρ each: 12u, and what is of second order is covered by
-/// the factors of [`certificate::interval`].
+/// both differences and products err by 2u·2ρ together, the two sums by uρ each: 12u, and the second-order part is covered by the
+/// factors of [`certificate::interval`].
 pub const COMBINATION: f64 = 12.0 * U;
 
 /// The interval of two points (convex combinations of vertices) and a direction, with supports proved at the given vertices.
@@ -246,7 +247,7 @@ fn supported_interval<L: Lanes>(
 }
 
 impl Simplex {
-    /// Adds a vertex pair and its difference, if it is not there yet; says whether it did. There are at most three before.
+    /// Adds a vertex pair and its difference, if it is not there yet; returns whether it did. There are at most three before.
     pub fn add(&mut self, pair: VertexPair, difference: Vector) -> bool {
         let is_new = !self.pairs[..self.count].contains(&pair);
         if is_new {

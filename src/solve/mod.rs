@@ -1,5 +1,5 @@
-//! One pair of placed polyhedra: floating point proposes nearest points or an overlap, a certificate accepts, integers decide what
-//! is left. It keeps nothing from one query to the next.
+//! One pair of placed polyhedra: floating point proposes nearest points or an overlap, a certificate accepts, integers decide the
+//! rest. It keeps nothing from one query to the next.
 
 #[doc(hidden)]
 pub mod state;

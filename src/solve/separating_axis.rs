@@ -1,7 +1,7 @@
 //! A direction that separates two bodies, from one that did or nearly does: the verdict alone asks for no nearest points.
 //!
 //! Support vertices are climbed to; where the direction does not separate these it is mirrored at the plane between them (K.
-//! Chung and W. Wang, "Quick collision detection of polytopes in virtual environments", 1996). What is found proves itself: no
+//! Chung and W. Wang, "Quick collision detection of polytopes in virtual environments", 1996). A result proves itself: no
 //! neighbour of a support vertex lies ahead, so neither does the body.
 
 use crate::base::math::{Vector, divisor};
@@ -12,7 +12,7 @@ use crate::solve::frame::{Body, Frame};
 use crate::solve::voronoi::{Corner, Rule, VertexTest, test_vertex};
 use crate::tables::tables;
 
-/// What one query remembers for the next.
+/// One query's memory for the next.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Axis {
     /// A vertex of each body, near those farthest towards the other.
@@ -35,7 +35,7 @@ pub fn between_spheres<L: Lanes>(frame: &Frame<L>) -> Interval {
     }
 }
 
-/// Directions tried beyond the first; marching is better at what they leave open.
+/// Directions tried beyond the first; marching is better at the cases that they leave open.
 const MOST_DIRECTIONS: u32 = 3;
 
 /// The gap along an axis below which the search is given up, as a multiple of the distance of the bodies' origins. (Of plates and
@@ -58,7 +58,7 @@ pub struct Trial<L> {
     pub inverse: f64,
     /// The support vertices, if `is_clear`.
     pub vertices: [u32; 2],
-    /// Of the bodies' distance: from the gap along the direction to the distance of the vertices.
+    /// The interval of the bodies' distance: from the gap along the direction to the distance of the vertices.
     pub interval: Interval,
     /// The difference of the vertices.
     difference: L,
@@ -66,7 +66,7 @@ pub struct Trial<L> {
     pub distance: f64,
     /// Its part along the direction.
     gap: f64,
-    /// Whether both climbs came to a vertex all of whose neighbours lie clearly behind.
+    /// Whether both climbs reached a vertex all of whose neighbours lie clearly behind.
     is_clear: bool,
     /// How many vertices have been looked at.
     pub steps: u32,
@@ -125,7 +125,7 @@ impl<L: Lanes> Trial<L> {
     }
 }
 
-/// The search where the last axis does not separate: from the line of the origins, and the vertices that the tables say.
+/// The search where the last axis does not separate: from the line of the origins, and the vertices from the tables.
 pub struct AxisSearch<'a, L> {
     /// The pair.
     pub frame: &'a Frame<'a, L>,
@@ -169,7 +169,7 @@ fn farthest<L: Lanes>(frame: &Frame<L>, direction: L) -> Option<[u32; 2]> {
     }
 }
 
-/// Climbs to a vertex all of whose neighbours lie clearly behind in a direction; whether it came to one.
+/// Climbs to a vertex all of whose neighbours lie clearly behind in a direction; whether it reached one.
 #[inline(always)]
 fn climb<L: Lanes>(body: &Body<L>, vertex: &mut u32, towards: L, length: f64, longest: u32, steps: &mut u32) -> bool {
     for _ in 0..longest {

@@ -23,8 +23,8 @@ pub fn most_violated_side(polyhedron: &Polyhedron, face: &Face, point: &Vector, 
     (polygon.value(side, point) < -tolerance).then_some(side)
 }
 
-/// Where the way from a point inside a face's prism to another leaves it: the fraction of the way and the side, or (1, None).
-/// `skip` is an edge whose side does not count.
+/// The point where the way from a point inside a face's prism to another leaves it: the fraction of the way and the side, or (1,
+/// None). `skip` is an edge whose side does not count.
 #[inline(never)]
 pub fn exit_of_prism(polyhedron: &Polyhedron, face: &Face, [from, to]: [&Vector; 2], skip: u32) -> (f64, Option<u32>) {
     let polygon = Polygon::new(polyhedron, face);

@@ -35,7 +35,7 @@ pub enum Kind {
 /// waits until both have left the store queue.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct State {
-    /// What the features are.
+    /// The kind of the features.
     pub kind: Kind,
     /// The index of body 1's feature.
     pub first: u32,

@@ -1,7 +1,7 @@
 //! An interval of the distance from look-ups of both bodies' support functions, along a direction that gets better from one to the
 //! next.
 //!
-//! Along a unit direction n from body 2 to body 1, with h₁ and h₂ the heights that the maps say for −R₁ᵀn and R₂ᵀn, x and y the
+//! Along a unit direction n from body 2 to body 1, with h₁ and h₂ the heights that the maps give for −R₁ᵀn and R₂ᵀn, x and y the
 //! points that go with them, Δ the difference of the origins:
 //!
 //! ```text
@@ -12,8 +12,8 @@
 //! points is parallel to n. So the next direction is a Newton step towards that, with the curvature of two ellipsoids about as
 //! thick as the bodies.
 //!
-//! Both bodies are looked up at once, in single precision, in a unit of length in which neither is larger than 1. What that rounds
-//! is far less than errors that are worth a look-up; [`SupportSearch::interval`] adds it.
+//! Both bodies are looked up at once, in single precision, in a unit of length in which neither is larger than 1. The rounding in
+//! that is far less than errors that are worth a look-up; [`SupportSearch::interval`] adds it.
 
 use crate::base::simd::{Lanes, Twins};
 use crate::solve::certificate::{Interval, reciprocal_length};
@@ -34,19 +34,19 @@ const COMBINED_FROM: u32 = 3;
 /// origins.
 const MUCH_OVERLAP: f32 = -0.125;
 
-/// A difference this near to parallel to its direction (the cosine) says that the direction is right …
+/// A difference this near to parallel to its direction (the cosine) shows that the direction is right …
 const IS_RIGHT: f32 = 0.995;
 
 /// … and if its own interval is at most this times as wide as the best, then the cells are too wide.
 const OWN_WIDTH: f32 = 1.15;
 
-/// A search: look, and unless that says enough, advance. Vectors of the pair stand in both places.
+/// A search: look, and unless that suffices, advance. Vectors of the pair stand in both places.
 pub struct SupportSearch<'a, L: Lanes> {
     grids: [Grids<'a>; 2],
     is_fine: bool,
     /// A power of two: lengths below are in this unit, except those of slacks.
     unit: f64,
-    /// What rounding may have added to a gap, and taken from a distance.
+    /// The rounding error that may have been added to a gap, and taken from a distance.
     slacks: [f64; 2],
     /// R of both bodies, rows, and columns times the body's unit.
     rows: [L::Twins; 3],
@@ -58,7 +58,7 @@ pub struct SupportSearch<'a, L: Lanes> {
     separation: f32,
     /// A unit vector, up to rounding, from body 2 to body 1.
     direction: L::Twins,
-    /// What the last look-up found.
+    /// The result of the last look-up.
     difference: L::Twins,
     distance: f32,
     gap: f32,
@@ -86,9 +86,9 @@ impl<'a, L: Lanes> SupportSearch<'a, L> {
     /// | sums of heights, and their difference | 2.2u₁(s + D) |
     /// | the length of n, 1 up to 5u₁, which divides the gap | 5.1u₁(s + D) |
     ///
-    /// That is less than 16u₁(s + D). To it comes what the maps' own directions are off by. Of a distance: R·x as Rᵀn, 7.2u₁s; Δ,
-    /// u₁D; sums, 3.1u₁(s + D); root and square, 4u₁(s + D); a combination of differences, 9.1u₁(s + D). That is less than
-    /// 32u₁(s + D), and points lie a little out of their bodies.
+    /// That is less than 16u₁(s + D). The error of the maps' own directions is added. For a distance: R·x as Rᵀn, 7.2u₁s; Δ, u₁D;
+    /// sums, 3.1u₁(s + D); root and square, 4u₁(s + D); a combination of differences, 9.1u₁(s + D). That is less than 32u₁(s +
+    /// D), and points lie a little out of their bodies.
     #[inline(always)]
     pub fn new(frame: &Frame<L>, grids: [Grids<'a>; 2], direction: L) -> Self {
         let [body1, body2] = &frame.bodies;
@@ -129,7 +129,7 @@ impl<'a, L: Lanes> SupportSearch<'a, L> {
         }
     }
 
-    /// What is proved so far. `lower` may be negative.
+    /// The interval proved so far. `lower` may be negative.
     #[inline(always)]
     pub fn interval(&self) -> Interval {
         Interval {
@@ -246,7 +246,7 @@ fn columns<L: Lanes>(first: &[[f32; 4]; 3], second: &[[f32; 4]; 3]) -> [L::Twins
     ]
 }
 
-/// What a look-up says of both bodies, in the units of each.
+/// The supports of both bodies from a look-up, in the units of each.
 pub struct Supports<T> {
     /// A point of each, up to the grid's `point_error`.
     pub points: T,
@@ -275,7 +275,7 @@ pub fn look_up<L: Lanes>(grids: [&Grid; 2], towards: L::Twins) -> Supports<L::Tw
     Supports { points: node, heights: [cell1.length * height1, cell2.length * height2] }
 }
 
-/// Where a direction meets the map of a body.
+/// The cell where a direction meets the map of a body.
 struct Cell<'a> {
     /// From the first corner of the cell on; the second row begins a side later.
     nodes: &'a [Node],

@@ -35,12 +35,12 @@ pub enum VertexTest {
     Tied,
     /// One is ahead: the edge to it, or NONE where there is no edge between merged faces, and the neighbour.
     Leaves {
-        /// The edge, or NONE; of a [flat vertex](Polyhedron::edge_by_flat_vertex) it may lead elsewhere.
+        /// The edge, or NONE; for a [flat vertex](Polyhedron::edge_by_flat_vertex) it may lead elsewhere.
         edge: u32,
         /// The neighbour.
         head: u32,
-        /// How far the edge is to be followed, for a direction of the length of the way to the other body: where the nearest point
-        /// on its line is.
+        /// How far the edge should be followed, for a direction of the length of the way to the other body: where the nearest
+        /// point on its line is.
         parameter: f32,
     },
 }
@@ -52,7 +52,7 @@ pub struct Corner<'a> {
     pub polyhedron: &'a Polyhedron,
     /// Its number there.
     pub index: u32,
-    /// What the body knows of it.
+    /// The body's record of it.
     pub record: &'a Vertex,
 }
 
@@ -97,7 +97,7 @@ fn test_vertex_further<L: Lanes>(rule: Rule, corner: Corner, g: L, length: f64, 
     }
 }
 
-/// [`test_vertex`] where single precision does not tell.
+/// [`test_vertex`] where single precision does not decide.
 #[cold]
 fn test_vertex_closely(polyhedron: &Polyhedron, vertex: u32, g: &Vector, length: f64, tolerance: f64) -> VertexTest {
     match polyhedron.steepest_closely(vertex, g, length) {
@@ -130,7 +130,7 @@ pub fn climb<L: Lanes>(polyhedron: &Polyhedron, g: L, start: u32) -> u32 {
     if !(length >= f64::MIN_POSITIVE) {
         return start;
     }
-    // Of a length that single precision holds.
+    // Scaled to a length that single precision holds.
     let g = g.mul(L::splat(1.0 / length));
     // Rounding could make steps along edges normal to g go round in circles: a vertex seen at a power of two is met again (Brent).
     let (mut vertex, mut mark) = (start, start);
@@ -155,8 +155,8 @@ fn steepest_of_block<L: Lanes>(block: &NeighbourBlock, g: L) -> (f32, u32, u32) 
     (slope, block.edge[lane & 7], block.head[lane & 7])
 }
 
-/// Where the steepest neighbour is across a merged face, or the steepest is not asked for: leave by the steepest real edge that
-/// clearly rises or the first. Where none does a flat vertex leaves by an edge of what it lies in: from neighbour to neighbour
+/// If the steepest neighbour is across a merged face, or the steepest is not asked for: leave by the steepest real edge that
+/// clearly rises or the first. If none does, a flat vertex leaves by an edge of what it lies in: from neighbour to neighbour
 /// inside a face, past where it is nearest, it would go round in circles. A corner leaves to the neighbour.
 #[cold]
 fn leave_by_edge(rule: Rule, corner: Corner, g: Vector, length: f64, head: u32) -> VertexTest {
@@ -233,8 +233,8 @@ pub fn violated_side<L: Lanes>(
     (worst < -tolerance).then_some(side)
 }
 
-/// Where the way from one point to another leaves the prism over a face: the fraction of the way and the side, or (1, None).
-/// `skip` is an edge whose side does not count: the way begins on it.
+/// The point where the way from one point to another leaves the prism over a face: the fraction of the way and the side, or (1,
+/// None). `skip` is an edge whose side does not count: the way begins on it.
 #[inline(always)]
 pub fn exit_of_prism<L: Lanes>(
     polyhedron: &Polyhedron,
@@ -274,13 +274,14 @@ pub fn exit_of_prism<L: Lanes>(
     if exit < 1.0 { (exit, Some(side)) } else { (1.0, None) }
 }
 
-/// Where values change sign on the way from the first to the second: the fraction of the way, +∞ where they do not fall below 0.
+/// The points where values change sign on the way from the first to the second: the fraction of the way, +∞ where they do not
+/// fall below 0.
 #[inline(always)]
 fn exit_fractions<L: Lanes>(start: L, end: L) -> L {
     let (zero, never) = (L::splat(0.0), L::splat(f64::INFINITY));
     let inside = start.max(zero);
-    // What does not fall below 0 falls by the least double, so that no 0/0 is computed. (Not by a choice of lanes: LLVM divides
-    // first and chooses afterwards.)
+    // Values that do not fall below 0 are made to fall by the least double, so that no 0/0 is computed. (Not by a choice of
+    // lanes: LLVM divides first and chooses afterwards.)
     let below = end.negate().max(L::splat(f64::from_bits(1)));
     let fraction = inside.div(inside.add(below));
     fraction.where_greater(zero, end, never).where_greater(start, end, never)

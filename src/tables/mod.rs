@@ -20,7 +20,7 @@ use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST, Vertex};
 /// bounding sphere only where this body is thin.
 const RADII: [f64; 8] = [0.3, 0.5, 0.8, 1.15, 1.5, 2.0, 3.0, 6.0];
 
-/// Which table a body gets, by the options.
+/// The table that a body gets, by the options.
 ///
 /// # Errors
 /// [`Error::Argument`] for a resolution or radius factor out of range.
@@ -78,7 +78,7 @@ pub fn plan_lookup(polyhedron: &Polyhedron, options: &LookupOptions) -> Result<L
     Ok(Lookup { plan, jump: jump * spacing, made: OnNeed::new() })
 }
 
-/// Which table a level of a body gets: of the kind that the body has, as many vertices as the level has ask for.
+/// The table that a level of a body gets: of the body's kind, chosen for the level's number of vertices.
 pub fn plan_for_level(level: &Polyhedron, body: &Polyhedron) -> Lookup {
     let (kind, radius_factor) = match body.lookup.plan {
         Plan::None => (LookupKind::None, LookupOptions::DEFAULT.radius_factor),
@@ -89,7 +89,8 @@ pub fn plan_for_level(level: &Polyhedron, body: &Polyhedron) -> Lookup {
     plan_lookup(level, &LookupOptions { kind, resolution: 0, radius_factor }).unwrap_or_else(|_| Lookup::none())
 }
 
-/// The table of a body. The first to look makes it; others who come meanwhile wait. Where memory is lacking nobody gets one.
+/// The table of a body. The first thread to look makes it; others that come meanwhile wait. Where memory is lacking none gets
+/// one.
 #[inline(always)]
 pub fn table(polyhedron: &Polyhedron) -> &Table {
     match polyhedron.lookup.made.get() {
@@ -249,8 +250,9 @@ impl Thickness {
 
     /// Whether the body is thin in two directions. The vertices nearest to a point are then those next to it along the needle, on
     /// whatever side, while the nearest feature, which reaches farther along it, is on the near side. A vertex of that is the
-    /// better start: of needles of 1:100, 1:1,000 and 1:10,000 with 1,002 vertices it leaves 18, 22 and 23 steps of 31, 56 and 61.
-    /// Finding it takes thirty times as long (12 ms), of 10,002 vertices twenty times (55 ms), of 100,002 ten times (180 ms).
+    /// better start: for needles of 1:100, 1:1,000 and 1:10,000 with 1,002 vertices it leaves 18, 22 and 23 steps of 31,
+    /// 56 and 61. Finding it takes thirty times as long (12 ms), with 10,002 vertices twenty times (55 ms), with 100,002 ten
+    /// times (180 ms).
     fn is_needle(&self) -> bool {
         self.spreads.iter().filter(|spread| **spread < tuning::NEEDLE).count() == 2
     }
@@ -261,8 +263,8 @@ impl Thickness {
     }
 
     /// The inverse root of the covariance, which turns a vertex half-way from the direction away from the centre of mass to the
-    /// normal of an ellipsoid so thick. Of both, and what is between, it mistakes the fewest pairs that are disjoint for
-    /// overlapping: of needles a third of those that the former does, of wafers half of those that the latter does.
+    /// normal of an ellipsoid so thick. Among both, and all between, it mistakes the fewest disjoint pairs for overlapping: for
+    /// needles a third of those that the former does, for wafers half of those that the latter does.
     fn outward(&self) -> [[f32; 3]; 3] {
         let reciprocals = self.spreads.map(|spread| LEAST_SPREAD / spread.max(LEAST_SPREAD));
         let matrix = self.axes * Matrix::from_diagonal(&reciprocals) * self.axes.transpose();
@@ -345,8 +347,8 @@ impl NearestVertices<'_> {
         self.polyhedron.vertices[vertex as usize].more > MANY_BLOCKS
     }
 
-    /// The nearest vertex, found by walking from another one and then excluding the rest; of several the one that the walk met,
-    /// else the lowest.
+    /// The nearest vertex, found by walking from another one and then excluding the rest; among several, the one that the walk
+    /// met, else the lowest.
     fn nearest(&self, point: &Vector, from: u32) -> u32 {
         let mut best = (from, (self.positions[from as usize] - point).norm_squared());
         self.tree.nearest(&self.positions, point, &mut best);
@@ -383,7 +385,7 @@ impl BoxTree {
 
     /// Puts a vertex nearer than `best` there, if there is one, with its squared distance.
     fn nearest(&self, positions: &[Vector], point: &Vector, best: &mut (u32, f64)) {
-        // Depth first; of each level at most seven boxes wait.
+        // Depth first; at each level at most seven boxes wait.
         let mut waiting = [(0, 0); 8 * 12];
         let mut count = 1;
         waiting[0] = (self.levels.len() - 1, 0);

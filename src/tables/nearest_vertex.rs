@@ -1,4 +1,4 @@
-//! Which vertex of a body is nearest to a point, for where marching starts: from its table, or of all vertices where these are few.
+//! The vertex of a body nearest to a point, as the start of marching: from its table, or among all vertices where these are few.
 //!
 //! Points are relative to the body's centre of mass, as multiples of its radius.
 
@@ -14,13 +14,13 @@ pub trait NearestVertex {
     /// A vertex nearly farthest in a direction.
     fn farthest(&self, direction: [f32; 3]) -> u32;
 
-    /// Where a vertex is; the fourth number is 0.
+    /// The position of a vertex; the fourth number is 0.
     fn position(&self, vertex: u32) -> [f32; 4];
 
     /// See [`Shells::rounds`].
     fn rounds(&self) -> u32;
 
-    /// See [`Shells::outward`]; of few vertices the nearest one does not tell on which side of the body a point is.
+    /// See [`Shells::outward`]; with few vertices, the nearest one does not tell on which side of the body a point is.
     fn outward(&self) -> Option<&[[f32; 3]; 3]>;
 }
 
@@ -53,7 +53,7 @@ impl NearestVertex for Shells {
 
 /// A body of few vertices.
 pub struct AllVertices<'a> {
-    /// The body, of a radius whose square is a number.
+    /// The body; the square of its radius is a number.
     pub polyhedron: &'a Polyhedron,
     /// See [`Shells::rounds`].
     pub rounds: u32,

@@ -2,9 +2,10 @@
 //! direction, and names a point of it that reaches nearly as far.
 //!
 //! Within a cell of a cube map the directions are (1, u, v), their order and signs apart. The support function is convex and
-//! positively homogeneous, so it is convex in u and in v: bilinear interpolation of its values at the corners of the cell bounds it
-//! from above. The same weights on the vertices that are farthest at the corners give a point of the body. How far the point stays
-//! behind the bound is the *gap*: of a smooth body it shrinks with the square of the cells, at sharp edges with their size.
+//! positively homogeneous, so it is convex in u and in v: bilinear interpolation of its values at the corners of the cell bounds
+//! it from above. The same weights on the vertices that are farthest at the corners give a point of the body. How far the point
+//! stays behind the bound is the *gap*: for a smooth body it shrinks with the square of the cells, at sharp edges with their
+//! size.
 //!
 //! Directions are stretched first by the root of the body's covariance, in whose frame it is about as thick in all directions. So
 //! plates and needles need no finer cells than balls.
@@ -41,7 +42,7 @@ pub struct Grids<'a> {
     pub fine: &'a Grid,
 }
 
-/// What the grids of a body can do for an error.
+/// The answer of a body's grids for an error.
 pub enum Choice<'a> {
     /// These are fine enough.
     Grids(Grids<'a>),
@@ -52,7 +53,7 @@ pub enum Choice<'a> {
 }
 
 impl SupportMap {
-    /// Of a body whose look-up table is planned; nothing is made yet.
+    /// For a body whose look-up table is planned; nothing is made yet.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
@@ -72,7 +73,8 @@ impl SupportMap {
         self.least_error
     }
 
-    /// The grids for a distance that may be off by so much. It depends on the body and the error alone, not on what else is made.
+    /// The grids for a distance that may be off by so much. It depends on the body and the error alone, not on the other grids
+    /// that are made.
     #[inline(always)]
     pub fn choose(&self, error: f64) -> Choice<'_> {
         let grids = &self.grids;
@@ -95,7 +97,7 @@ impl SupportMap {
         Choice::TooCoarse
     }
 
-    /// Makes what [`SupportMap::choose`] lacks for an error. Where memory is lacking that is not made.
+    /// Makes the grids that [`SupportMap::choose`] lacks for an error. Where memory is lacking they are not made.
     #[cold]
     #[inline(never)]
     pub fn make_for(&self, polyhedron: &Polyhedron, error: f64) {
@@ -106,7 +108,7 @@ impl SupportMap {
         }
     }
 
-    /// Makes all that any query may need; nothing of bodies that are not to have a map.
+    /// Makes all that any query may need; nothing for bodies without a map.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
@@ -124,13 +126,14 @@ impl SupportMap {
         size_of_val(&self.grids[..]) + self.table_bytes()
     }
 
-    /// Of that what is held by grids that are made.
+    /// The part of that memory held by grids that are made.
     pub fn table_bytes(&self) -> usize {
         self.grids.iter().filter_map(OnNeed::get).map(|grid| size_of_val(&grid.nodes[..])).sum()
     }
 }
 
-/// Whether a body's support function is tabulated, once an approximate distance needs it: of bodies with many vertices and shells.
+/// Whether a body's support function is tabulated, once an approximate distance needs it: for bodies with many vertices and
+/// shells.
 fn has_support_map(polyhedron: &Polyhedron) -> bool {
     (polyhedron.vertices.len() >= tuning::LEAST_VERTICES_FOR_SUPPORT_MAP)
         & matches!(polyhedron.lookup.plan, Plan::Shells { .. })
@@ -274,7 +277,7 @@ struct Stretch {
     to_map: Matrix,
     from_map: Matrix,
     shape: Matrix,
-    /// As [`Grid::misfit`], of a body of radius 1.
+    /// Same as [`Grid::misfit`], for a body of radius 1.
     misfit: f64,
 }
 
@@ -319,7 +322,7 @@ struct Highest {
     height: f64,
 }
 
-/// By a climb, whose end is proved: on a convex body a vertex all of whose neighbours are behind is the farthest. Where one may be
+/// By a climb with a proved end: on a convex body a vertex all of whose neighbours are behind is the farthest. Where one may be
 /// level with it, as along the normal of a face, all vertices are looked at.
 fn highest(polyhedron: &Polyhedron, direction: &Vector, start: u32) -> Highest {
     let length = direction.lp_norm(1);

@@ -48,7 +48,7 @@ pub const FAR: f64 = 1.6;
 /// take long to look at all of them.
 pub const LEAST_VERTICES_FOR_TABLE: usize = 32;
 
-/// Bodies with no spread of less than this are round. Of ellipsoids of (1, 0.8, 0.8) one look-up is still better than three, of
+/// Bodies with no spread of less than this are round. For ellipsoids of (1, 0.8, 0.8) one look-up is still better than three, for
 /// (1, 1, 0.6) it is worse by more than a step.
 pub const ROUND: f64 = 0.75;
 
@@ -58,7 +58,7 @@ pub const NEEDLE: f64 = 1.0 / 30.0;
 /// Beyond so many vertices thin bodies are looked up in [`ROUNDS_OF_FINE`] rounds.
 pub const FINE: usize = 4_000;
 
-/// Rounds of look-ups on round bodies: what another body's centre of mass sees is what is nearest.
+/// Rounds of look-ups on round bodies: the vertex that another body's centre of mass sees is the nearest.
 pub const ROUNDS_OF_ROUND: u32 = 1;
 
 /// On bodies thin in two directions.
@@ -76,7 +76,7 @@ pub const LEAST_VERTICES_FOR_SUPPORT_MAP: usize = 500;
 /// From so many vertices on a body may have the finest grid of its support function.
 pub const LEAST_VERTICES_FOR_FINEST_GRID: usize = 5_000;
 
-/// The least error of a distance that grids but the finest are asked for, as a multiple of the radius.
+/// The least error of a distance that grids but the finest are used for, as a multiple of the radius.
 pub const LEAST_ERROR_OF_GRIDS: f64 = 0.008;
 
 /// The same with the finest grid.

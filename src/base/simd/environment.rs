@@ -9,11 +9,12 @@
 //! only ever raises them.
 //!
 //! LLVM takes it for granted that Rust code runs in the default environment, and does not know what the registers mean: it could
-//! move arithmetic across the instructions that set them. It cannot move what is in another function. So whatever runs behind a
-//! change does so in a call that is never inlined, and is handed no number that was computed just before. Where nothing is changed,
-//! moving does no harm: what is moved up before the test is used only where the environment is the default. (It could trap where
-//! it is not. LLVM moves up what both sides of a branch compute, what is the same in all rounds of a loop, and so little that the
-//! whole side becomes a selection; here one side is a call, the other a function of the interface, its loops and all.)
+//! move arithmetic across the instructions that set them. It cannot move code that is in another function. So all that runs
+//! behind a change does so in a call that is never inlined, and is handed no number that was computed just before. Where nothing
+//! is changed, moving does no harm: a value moved up before the test is used only where the environment is the default. (It could
+//! trap where it is not. LLVM moves up what both sides of a branch compute, what is the same in all rounds of a loop, and so
+//! little that the whole side becomes a selection; here one side is a call, the other a function of the interface, its loops and
+//! all.)
 
 use std::cell::Cell;
 
@@ -21,7 +22,7 @@ use std::cell::Cell;
 type Control = u64;
 
 thread_local! {
-    /// What the program had set where a call from it came in, if that was not the default.
+    /// The program's setting when it called in, if that was not the default.
     static CALLERS: Cell<Option<Control>> = const { Cell::new(None) };
 }
 
@@ -92,7 +93,7 @@ pub struct Environment {
 /// A direction of rounding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Rounding {
-    /// To the nearest double, of two to the even one.
+    /// To the nearest double; a tie goes to the even one.
     Nearest,
     /// Towards −∞.
     Down,
@@ -125,7 +126,7 @@ impl Environment {
     }
 }
 
-/// Whether `body` computes what has no value, as 0/0 or ∞ − ∞, or divides by zero. For tests.
+/// Whether `body` computes an undefined value, as 0/0 or ∞ − ∞, or divides by zero. For tests.
 pub fn is_invalid<T>(body: impl FnOnce() -> T) -> bool {
     register::clear_flags();
     out_of_line(body);
@@ -138,7 +139,7 @@ mod register {
     use super::{Control, Environment, Rounding};
     use std::arch::asm;
 
-    /// All exceptions masked, to nearest, nothing flushed: what a process begins with.
+    /// All exceptions masked, to nearest, nothing flushed: the state that a process begins with.
     pub(super) const DEFAULT: Control = 0x1f80;
 
     /// FZ, the rounding, the masks of the six exceptions, DAZ.
@@ -159,8 +160,8 @@ mod register {
     }
 
     fn write(word: u32) {
-        // SAFETY: reads the four bytes of `word`, which come from `read`, apart from bits that every processor has. What follows
-        // computes in the default environment or is the program's own, by this module's functions.
+        // SAFETY: reads the four bytes of `word`, which come from `read`, apart from bits that every processor has. The code that
+        // follows computes in the default environment or is the program's own, by this module's functions.
         unsafe { asm!("ldmxcsr [{}]", in(reg) &raw const word, options(nostack, preserves_flags)) };
     }
 
@@ -201,7 +202,7 @@ mod register {
     use super::{Control, Environment, Rounding};
     use std::arch::asm;
 
-    /// To nearest, nothing flushed, no traps, NaN handed on: what a process begins with.
+    /// To nearest, nothing flushed, no traps, NaN handed on: the state that a process begins with.
     pub(super) const DEFAULT: Control = 0;
 
     const INVALID_OR_DIVISION_BY_ZERO: u64 = 0b11;
@@ -218,8 +219,8 @@ mod register {
     }
 
     pub(super) fn set_control(control: Control) {
-        // SAFETY: every program may write it. What follows computes in the default environment or is the program's own, by this
-        // module's functions.
+        // SAFETY: every program may write it. The code that follows computes in the default environment or is the program's own,
+        // by this module's functions.
         unsafe { asm!("msr fpcr, {}", in(reg) control, options(nostack, preserves_flags)) };
     }
 

@@ -1,10 +1,10 @@
-//! Four doubles: what a query needs of them, and plain arrays that do it on any machine.
+//! Four doubles: the operations that a query needs, and plain arrays that do them on any machine.
 
 use super::Work;
 use super::twins::{PortableTwins, Twins};
 use crate::base::math::Vector;
 
-/// Four doubles. Of a vector in three dimensions lanes 0 to 2 are the components and lane 3 is unspecified.
+/// Four doubles. For a vector in three dimensions, lanes 0 to 2 are the components and lane 3 is unspecified.
 pub trait Lanes: Copy {
     /// Two vectors in single precision.
     type Twins: Twins;
@@ -81,7 +81,7 @@ pub trait Lanes: Copy {
     fn extreme_products(self, vectors: &[[[f32; 8]; 3]]) -> [f32; 2];
     /// The least lane and which it is; the first of equals. Any lane if one is a NaN.
     fn least(self) -> (f64, usize);
-    /// Asks the memory for an element that may soon be needed: the first three cache lines, which are what marching reads of a
+    /// Prefetches an element that may soon be needed: the first three cache lines, which are the part that marching reads of a
     /// feature. Any index will do.
     #[inline(always)]
     fn prefetch<T>(_elements: &[T], _index: u32) {}

@@ -35,7 +35,7 @@ pub use twins::Twins;
 
 /// Work that can run on any [`Lanes`]; its `run` is to be `#[inline(always)]`.
 pub trait Kernel {
-    /// What it returns.
+    /// The return type.
     type Output;
     /// The work.
     fn run<L: Lanes>(&mut self) -> Self::Output;
@@ -43,21 +43,21 @@ pub trait Kernel {
 
 /// Work on lanes that it has already; its `run` is to be `#[inline(always)]`.
 pub trait Work {
-    /// What it returns.
+    /// The return type.
     type Output;
     /// The work.
     fn run(&mut self) -> Self::Output;
 }
 
-/// What a query may be compiled with.
+/// The instruction sets that a query may be compiled with.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 #[repr(u8)]
 pub enum Features {
-    /// What every machine of the target has.
+    /// The instructions that every machine of the target has.
     Baseline = 1,
     /// AVX2 and FMA.
     Avx2,
-    /// AVX-512 with its foundation and its operations on short registers and on doublewords, and what came before it.
+    /// AVX-512 with its foundation and its operations on short registers and on doublewords, and the extensions before it.
     Avx512,
 }
 
@@ -87,7 +87,7 @@ pub fn dispatch_to_avx2<K: Kernel>(kernel: &mut K) -> K::Output {
     run_portable(kernel)
 }
 
-/// Asks the memory for what will be read soon.
+/// Prefetches data that will be read soon.
 #[inline(always)]
 pub fn prefetch<T>(place: &T) {
     #[cfg(target_arch = "x86_64")]
@@ -104,7 +104,7 @@ pub fn prefetch<T>(place: &T) {
     let _ = place;
 }
 
-/// From now on this process does without more features than these: all machines round alike at the baseline. For tests.
+/// From now on this process uses no more features than these: all machines round alike at the baseline. For tests.
 pub fn narrow_to(most: Features) {
     #[cfg(target_arch = "x86_64")]
     wide::narrow_to(most);

@@ -1,6 +1,6 @@
-//! Two vectors side by side in single precision, one of each body of a pair: what needs few digits is done for both at once.
+//! Two vectors side by side in single precision, one of each body of a pair: work that needs few digits is done for both at once.
 
-/// Two vectors of four single-precision numbers. Of a vector in three dimensions the fourth is unspecified.
+/// Two vectors of four single-precision numbers. For a vector in three dimensions the fourth is unspecified.
 pub trait Twins: Copy {
     /// From memory.
     fn load(first: &[f32; 4], second: &[f32; 4]) -> Self;

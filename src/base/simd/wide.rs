@@ -115,8 +115,8 @@ impl<const WITH_AVX512: bool> Lanes for Wide<WITH_AVX512> {
         unsafe { _mm256_storeu_pd(out.as_mut_ptr(), self.0) };
         out
     }
-    /// In two pieces that the compiler leaves alone. Of plain numbers it would make wider ones out of several vectors, with
-    /// AVX-512 of 512 bits, which cost an Intel Xeon a fifth of the time at 0.1°.
+    /// In two pieces that the compiler leaves alone. From plain numbers it would merge several vectors into wider ones, with
+    /// AVX-512 of 512 bits. These cost an Intel Xeon a fifth of the time at 0.1°.
     #[inline(always)]
     fn store_vector(self, to: &mut [f64; 3]) {
         // SAFETY: see above; the pointers are to two and to one writable doubles.

@@ -7,7 +7,7 @@ use std::arch::x86_64::*;
 #[derive(Clone, Copy)]
 pub(super) struct WideTwins(pub(super) __m256);
 
-// SAFETY of every block below: as of `Wide`, whose lanes alone lead here.
+// SAFETY of every block below: same as `Wide`, whose lanes alone lead here.
 impl Twins for WideTwins {
     #[inline(always)]
     fn load(first: &[f32; 4], second: &[f32; 4]) -> Self {

@@ -1,7 +1,7 @@
 //! How a task is handed over to threads and given back: the states between callers and threads that wait, and every interleaving of
 //! their steps tried in a model.
 
-/// Who works on what. Threads change it one at a time, each step as a whole.
+/// The assignment of threads to tasks. Threads change it one at a time, each step as a whole.
 ///
 /// ```text
 /// caller: offer ─► takes parts ─► waits until take_back                    (at the end of all: end)
@@ -9,17 +9,17 @@
 /// ```
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) struct Handover<T> {
-    /// What may be joined.
+    /// The task that may be joined.
     task: Option<T>,
-    /// There is a caller who has not taken his task back. Until then there is no other: only one waits to be told, and a panic in a
-    /// thread is his.
+    /// A caller has not taken its task back. Until it has, there is no other: only one waits for a wake, and a panic in a thread
+    /// is its own.
     is_lent: bool,
     /// Threads that have joined and not left.
     active: usize,
     ended: bool,
 }
 
-/// What a thread is to do.
+/// A thread's next step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
 pub(super) enum Next<T> {
     Wait,
@@ -30,7 +30,7 @@ pub(super) enum Next<T> {
 impl<T: Clone> Handover<T> {
     pub const IDLE: Handover<T> = Handover { task: None, is_lent: false, active: 0, ended: false };
 
-    /// The caller lets threads join; false if another has not taken his task back yet. All that wait are to be told.
+    /// The caller lets threads join; false if another has not taken its task back yet. All that wait are to be woken.
     pub fn offer(&mut self, task: T) -> bool {
         let is_free = !self.is_lent;
         if is_free {
@@ -40,7 +40,7 @@ impl<T: Clone> Handover<T> {
         is_free
     }
 
-    /// What a thread is to do that does nothing.
+    /// The next step of an idle thread.
     pub fn next(&mut self) -> Next<T> {
         match &self.task {
             _ if self.ended => Next::End,
@@ -52,7 +52,7 @@ impl<T: Clone> Handover<T> {
         }
     }
 
-    /// A thread has found no more parts: nobody else need join. True if the caller is to be told that it was the last.
+    /// A thread has found no more parts: no other need join. True if this was the last, so that the caller is to be woken.
     pub fn leave(&mut self) -> bool {
         self.task = None;
         self.active -= 1;
@@ -67,7 +67,7 @@ impl<T: Clone> Handover<T> {
         !self.is_lent
     }
 
-    /// There will be no more tasks. All that wait are to be told.
+    /// There will be no more tasks. All that wait are to be woken.
     pub fn end(&mut self) {
         self.ended = true;
     }
@@ -78,10 +78,10 @@ mod tests {
     use super::*;
     use std::collections::HashSet;
 
-    /// Where a thread of the model is.
+    /// State of a thread of the model.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
     enum At {
-        /// About to look what is next, told or woken by chance.
+        /// About to look for its next step, woken on purpose or by chance.
         Looking,
         /// Waits until it is told.
         Waiting,
@@ -94,7 +94,7 @@ mod tests {
         Gone,
     }
 
-    /// Where the caller is.
+    /// State of the caller.
     #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
     enum Caller {
         Offering(usize),
@@ -119,7 +119,7 @@ mod tests {
         handover: Handover<usize>,
         caller: Caller,
         threads: [At; THREADS],
-        /// Of each task the next part, how often each was done, and whether the task still lives.
+        /// The next part of each task, how often each was done, and whether the task still lives.
         next: [usize; TASKS],
         done: [[u8; PARTS]; TASKS],
         lives: [bool; TASKS],
@@ -259,8 +259,8 @@ mod tests {
         seen.len()
     }
 
-    /// Of several threads, and of wakes by chance, `loom/` tries only those interleavings that have few interruptions: of the code
-    /// around this, all are too many. Here a step is as long as the lock is held, and what was seen is not tried again.
+    /// With several threads, and with spurious wakes, `loom/` tries only those interleavings that have few interruptions: for the
+    /// code around this, all are too many. Here a step is as long as the lock is held, and no state is tried twice.
     #[test]
     #[cfg_attr(miri, ignore = "long")]
     fn every_interleaving_ends_with_each_part_done_once() {
@@ -271,8 +271,9 @@ mod tests {
     }
 
     /// A second caller could offer when the threads had left the task of the first, who was yet to look. Then the first, too,
-    /// waited for the second's threads, and only one of them was told that these had left: the other waited for ever. Either could
-    /// get a panic of the other's parts. Of 100,000 pairs of calls at once about one met it; `make loom` does, with two callers.
+    /// waited for the second's threads, and only one of them was told that these had left: the other waited for ever. Either
+    /// could get a panic of the other's parts. About one in 100,000 pairs of calls at once met it; `make loom` does, with two
+    /// callers.
     #[test]
     fn there_is_no_other_task_before_one_is_taken_back() {
         let mut handover = Handover::IDLE;

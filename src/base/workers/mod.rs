@@ -1,5 +1,5 @@
-//! Who shares in a long work: the caller's thread, or several. What is to be done is cut into parts of what belongs together, each
-//! with what it alone may change, and put together again in order: no bit of it depends on who did what.
+//! Sharing of long work: by the caller's thread alone, or by several. The work is cut into parts of what belongs together, each
+//! with the data it alone may change. The results are put together again in order: no bit of them depends on who did what.
 
 mod handover;
 pub(crate) mod parked;
@@ -18,7 +18,7 @@ const FEWEST_SHARED: usize = 2048;
 /// So many parts for each thread, as some take longer than others.
 const PARTS_EACH: usize = 4;
 
-/// Who shares in the work of a scene.
+/// The threads that share the work of a scene.
 pub struct Workers {
     count: usize,
     run: Box<RunParts>,
@@ -50,10 +50,10 @@ impl Workers {
         count.div_ceil(self.count.saturating_mul(PARTS_EACH)).max(1)
     }
 
-    /// What the work makes of each part, in their order.
+    /// The results of the work for each part, in their order.
     ///
     /// # Errors
-    /// [`Error::Memory`]: nothing is done then. [`Error::Bug`] where a panic was swallowed by who runs the parts.
+    /// [`Error::Memory`]: nothing is done then. [`Error::Bug`] where the runner of the parts swallowed a panic.
     pub(crate) fn map<P: Send, R: Send>(
         &self,
         parts: impl IntoIterator<Item = P>,

@@ -22,23 +22,23 @@ use std::time::{Duration, Instant};
 use super::handover::{Handover, Next};
 use crate::base::locks::locked;
 
-/// No more threads are started, whatever count is asked for: more only wait for each other.
+/// No more threads are started, whatever count is requested: more only wait for each other.
 pub(crate) const MOST_THREADS: usize = 256;
 
-/// One call makes several tasks one after the other. Who waits for the next, or for the last part of one, looks for it so long
-/// before it sleeps: to be woken takes about as long.
+/// One call makes several tasks one after the other. A thread that waits for the next, or for the last part of one, spins this
+/// long before it sleeps: to be woken takes about as long.
 const PATIENCE: Duration = Duration::from_micros(50);
 
 /// So many turns of a loop between two looks, about a microsecond.
 const SPINS: usize = 32;
 
-/// What several threads work on.
+/// Work shared by several threads.
 pub(crate) trait Task: Clone + Send + 'static {
     /// Takes parts, one after the other, and does them until there are none left.
     fn take_parts(&self);
 }
 
-/// Parts that are taken one after the other by whoever is free.
+/// Parts that are taken one after the other by any free thread.
 pub(crate) struct Parts<Work> {
     work: Work,
     count: usize,
@@ -71,10 +71,10 @@ pub(crate) struct ParkedThreads<T: Task> {
     process: u32,
 }
 
-/// What the threads and the caller share.
+/// The state that the threads and the caller share.
 struct Parking<T> {
     handover: Mutex<Handover<T>>,
-    /// What the first panic in a thread carried.
+    /// The payload of the first panic in a thread.
     panic: Mutex<Option<Box<dyn Any + Send>>>,
     /// How long somebody looks again and again before he sleeps.
     patience: Duration,
@@ -85,9 +85,9 @@ struct Parking<T> {
 }
 
 impl<T: Task> ParkedThreads<T> {
-    /// Up to `count` threads; those that cannot be started are done without.
+    /// Up to `count` threads; the work goes on without those that cannot be started.
     pub fn new(count: usize) -> ParkedThreads<T> {
-        // Where threads share processors, who looks keeps others from working.
+        // If threads share processors, one that spins keeps others from working.
         let has_room = std::thread::available_parallelism().is_ok_and(|processors| count < processors.get());
         let patience = if has_room { PATIENCE } else { Duration::ZERO };
         let (handover, panic) = (Mutex::new(Handover::IDLE), Mutex::new(None));
@@ -100,8 +100,8 @@ impl<T: Task> ParkedThreads<T> {
         ParkedThreads { parking, threads, process: std::process::id() }
     }
 
-    /// Has all parts of a task done by this thread and the others, and returns or panics when all of these have left it: none of
-    /// them holds a clone of it any more. A panic in any of them goes on in this one.
+    /// Runs all parts of a task in this thread and the others, and returns or panics when all of these have left it: none of them
+    /// holds a clone of it any more. A panic in any of them goes on in this one.
     pub fn run(&self, task: &T) {
         if self.threads.is_empty() || !self.are_in_this_process() || !locked(&self.parking.handover).offer(task.clone())
         {
@@ -123,7 +123,7 @@ impl<T: Task> ParkedThreads<T> {
 }
 
 impl<T: Task> Parking<T> {
-    /// What a thread does all its life.
+    /// The main loop of a thread.
     fn serve(&self) {
         let mut handover = locked(&self.handover);
         let mut waits_since = None;
@@ -151,7 +151,7 @@ impl<T: Task> Parking<T> {
         }
     }
 
-    /// Waits until all have left the task; what a panic in one of them carried.
+    /// Waits until all have left the task; returns the payload of a panic in one of them.
     fn take_back(&self) -> Option<Box<dyn Any + Send>> {
         let mut handover = locked(&self.handover);
         let mut waits_since = None;

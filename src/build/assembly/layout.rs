@@ -42,7 +42,7 @@ fn side_plane(positions: &[Vector], normal: &Vector, from: u32, to: u32) -> (Vec
     (inward, -inward.dot(tail))
 }
 
-/// The sine of a dihedral angle that is surely one: the planes' normals and products with them are each right to some 8u.
+/// The least sine of what is provably a dihedral angle: the planes' normals and products with them are each right to some 8u.
 const SMALLEST_SINE: f64 = 64.0 * UNIT_ROUNDOFF;
 
 /// An edge from its ends, the lower one first, and the faces beside it.
@@ -66,7 +66,7 @@ pub(super) fn edge_between(
     set_plane(&mut planes, 2, &-side_left, -offset_left);
     set_plane(&mut planes, 3, &-side_right, -offset_right);
     let sine = -normals[0].dot(&side_right);
-    // Where rounding hides the dihedral angle, as between coplanar triangles that were not merged, the two side planes bound no
+    // If rounding hides the dihedral angle, as between coplanar triangles that were not merged, the two side planes bound no
     // wedge but a whole plane, of which half is inside the body. A quick look takes it for the normal cone, so it must not do.
     let is_flat = sine <= SMALLEST_SINE && normals[0].dot(&normals[1]) > 0.0;
     let slack = if is_flat { f64::INFINITY } else { slacks[left as usize].max(slacks[right as usize]) };
@@ -83,12 +83,11 @@ pub(super) fn edge_between(
     }
 }
 
-/// What a short edge of merged faces adds to the slack of a quick look. Its vertices are in the faces' planes within
-/// [`crate::build::merge::merge_bound`], so it leans out of them by s = |n·ê| of up to 16uρ over its length. What a quick look
-/// takes for the cone of the normals are the directions across the edge between the normals' parts across it, n − (n·ê)ê; as
-/// combinations of the normals these miss by s each, and no point of the body is farther from the edge than 2ρ. What an edge
-/// of a triangle leans by rounding, the looks allow for: the product is right to 3u, and s up to 5u is within the 12u that they
-/// have for this.
+/// The slack that a short edge of merged faces adds to a quick look. Its vertices are in the faces' planes within
+/// [`crate::build::merge::merge_bound`], so it leans out of them by s = |n·ê| of up to 16uρ over its length. A quick look takes
+/// for the cone of the normals the directions across the edge between the normals' parts across it, n − (n·ê)ê. As combinations
+/// of the normals these miss by s each, and no point of the body is farther from the edge than 2ρ. The looks allow for the lean
+/// of a triangle's edge by rounding: the product is right to 3u, and s up to 5u is within the 12u that they have for this.
 pub(super) fn slack_of_leaning(edge: &Edge, radius: f64) -> f64 {
     let along = plane_normal(&edge.planes, 0);
     let leaning = edge.normals.map(|normal| normal.dot(&along).abs()).into_iter().fold(0.0, f64::max);
@@ -102,7 +101,7 @@ pub(super) fn slack_of_leaning(edge: &Edge, radius: f64) -> f64 {
     }
 }
 
-/// Of edges that lean less, the normals' parts across them are as long as the normals to a part in two million.
+/// For edges that lean less, the normals' parts across them are as long as the normals to a part in two million.
 const LARGEST_LEANING: f64 = 1e-3;
 
 /// Writes one lane of a plane block.

@@ -36,8 +36,8 @@ pub fn build(points: &[Vector], polygons: Option<&PolygonMesh>) -> Result<Polyhe
     build_in_steps(points, convex_hull(points)?, polygons, None, &mut Progress::new(&mut |_| true))
 }
 
-/// As [`build`], for points whose exact hull is known, saying how far it is. `numbers` gives the labels of points and polygons, if
-/// they are not their indices.
+/// Same as [`build`], for points whose exact hull is known, saying how far it is. `numbers` gives the labels of points and
+/// polygons, if they are not their indices.
 ///
 /// # Errors
 /// [`crate::base::error::Error::Bug`] if `hull` is not the hull of the points; [`crate::base::error::Error::Cancelled`] when the
@@ -82,7 +82,7 @@ pub fn build_in_steps(
     Ok(polyhedron)
 }
 
-/// What a polyhedron calls its vertices and faces: the members of the same names of [`Polyhedron`].
+/// The labels of a polyhedron's vertices and faces: the members of the same names of [`Polyhedron`].
 #[derive(Debug, Clone, PartialEq)]
 pub struct Labels {
     /// See [`Polyhedron::vertex_labels`].
@@ -159,7 +159,7 @@ fn copy_labels_in_steps(polyhedron: &mut Polyhedron, progress: &mut Progress) ->
     Ok(())
 }
 
-/// What to subtract from all points: per axis the middle m of the range [m−h, m+h] if h ≤ |m|/3, else 0.
+/// The vector to subtract from all points: per axis the middle m of the range [m−h, m+h] if h ≤ |m|/3, else 0.
 ///
 /// Then every x lies between 2m/3 and 4m/3 (up to rounding), well within [m/2, 2m] where x − m is exact (P. H. Sterbenz,
 /// Floating-Point Computation, 1974).

@@ -17,7 +17,7 @@ pub fn factor_to_middle_scale(points: &[Vector]) -> f64 {
 }
 
 /// Undoes the scaling of a polyhedron that was laid out about the local origin, and whose labels are still indices of the points.
-/// Vertices come back exactly and bounds remain bounds; what else is lost to underflow or overflow is data for a search that
+/// Vertices come back exactly and bounds remain bounds; the other values lost to underflow or overflow are data for a search that
 /// bodies of such a size are too large or too small for anyway.
 pub fn scale_back(polyhedron: &mut Polyhedron, centred: &[Vector], centre: Vector, factor: f64) -> Result<()> {
     for (vertex, label) in polyhedron.vertices.iter_mut().zip(&polyhedron.vertex_labels) {

@@ -6,9 +6,10 @@ use crate::build::assembly::layout::{edge_between, plane_normal, set_plane, slac
 use crate::build::slack::rise_over;
 use crate::polyhedron::{Bevel, LARGEST, MassProperties, Polyhedron, SMALLEST};
 
-/// Moves the three vertices of a triangle that [`build`](super::build) made, vertex v to `corners[v]`, and of all else what a
-/// manifold reads: the normals and slacks of its two faces. `normals` are theirs, of unit length, right to a few u. Labels stay.
-/// The corners are not on a line, no coordinate is beyond [`LARGEST`], and the triangle, centred, is not within [`SMALLEST`].
+/// Moves the three vertices of a triangle that [`build`](super::build) made, vertex v to `corners[v]`. Besides those, only the
+/// data that a manifold reads are moved: the normals and slacks of its two faces. `normals` are theirs, of unit length, right to
+/// a few u. Labels stay. The corners are not on a line, no coordinate is beyond [`LARGEST`], and the triangle, centred, is not
+/// within [`SMALLEST`].
 pub fn move_outline(polyhedron: &mut Polyhedron, corners: &[Vector; 3], normals: &[Vector; 2]) {
     let centre = centre_of(corners);
     // The sum with +0 turns −0 into 0.
@@ -29,7 +30,7 @@ pub fn move_outline(polyhedron: &mut Polyhedron, corners: &[Vector; 3], normals:
     }
 }
 
-/// Moves what [`move_outline`] leaves where it was, which takes far longer.
+/// Moves the data that [`move_outline`] leaves where they were, which takes far longer.
 pub fn move_inner(polyhedron: &mut Polyhedron) {
     let positions = [0, 1, 2].map(|v: usize| polyhedron.vertices[v].position);
     let normals = [0, 1].map(|f: usize| polyhedron.faces[f].normal);
@@ -60,7 +61,7 @@ fn move_edges(polyhedron: &mut Polyhedron, positions: &[Vector; 3], normals: &[V
         let ends = [edge.tail(), edge.head()];
         let mut moved = edge_between(ends, positions, [edge.left(), edge.right()], normals, slacks);
         (moved.labels, moved.bevel) = (edge.labels, edge.bevel);
-        // As of any sharp edge: minus the sum of the inward side directions.
+        // Same as for any sharp edge: minus the sum of the inward side directions.
         let normal = (plane_normal(&moved.planes, 2) + plane_normal(&moved.planes, 3)).normalize();
         let slack = width(&normal, positions, &ends.map(|v| positions[v as usize]));
         moved.slack = moved.slack.max(slack) + slack_of_leaning(&moved, polyhedron.radius);
@@ -109,8 +110,8 @@ mod tests {
     use crate::build::assembly::build;
     use swiftprox::random::Random;
 
-    /// Against building: of any triangle, near the origin and far from it, large and small, thick and thin, all that queries run on
-    /// is the same but for the slack, which bounds the same.
+    /// Against building: for any triangle, near the origin and far from it, large and small, thick and thin, all data that
+    /// queries run on are the same but for the slack, which bounds the same.
     #[test]
     fn a_triangle_moved_is_one_built() {
         let mut random = Random::new(0x7a1);

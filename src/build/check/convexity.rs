@@ -419,8 +419,7 @@ impl<'a> Boundary<'a> {
         })
     }
 
-    /// Triangle `start` and those nearest to it, counted in edges crossed; of a flat hull only
-    /// `start`.
+    /// Triangle `start` and those nearest to it, counted in edges crossed; for a flat hull only `start`.
     fn around(&self, start: usize) -> Result<Vec<usize>> {
         let across = self.across()?;
         let mut found = listed([start]);

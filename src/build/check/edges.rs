@@ -1,10 +1,10 @@
-//! Which faces meet at an edge.
+//! The faces that meet at an edge.
 
 use crate::base::error::Result;
 use crate::base::memory::{copied, filled};
 use crate::base::progress::Progress;
 
-/// Which corners share an edge.
+/// The corners that share an edge.
 pub(super) enum Matching {
     /// The corner across the edge of each corner: each edge is used twice, once in each direction.
     Twins(Vec<u32>),

@@ -1,5 +1,5 @@
-//! Is the caller's mesh what it promises: closed, 2-manifold, oriented, connected, convex? Or a
-//! message naming the face, edge or vertex where it is not.
+//! Does the caller's mesh keep its contract: closed, 2-manifold, oriented, connected, convex? Or a message naming the face, edge
+//! or vertex where it is not.
 
 mod violation;
 mod duplicates;
@@ -30,10 +30,10 @@ pub fn check_mesh(mesh: &PolygonMesh, tolerance: f64, allow_flat: bool) -> Resul
     check_mesh_in_steps(mesh, tolerance, allow_flat, &mut Progress::new(&mut |_| true))
 }
 
-/// As [`check_mesh`], saying how far it is.
+/// Same as [`check_mesh`], with progress reports.
 ///
 /// # Errors
-/// As [`check_mesh`]; [`crate::base::error::Error::Cancelled`] when the caller does not want to go on.
+/// Same as [`check_mesh`]; [`crate::base::error::Error::Cancelled`] when the caller does not want to go on.
 pub fn check_mesh_in_steps(
     mesh: &PolygonMesh,
     tolerance: f64,
@@ -70,13 +70,13 @@ pub fn check_surface(mesh: &PolygonMesh, progress: &mut Progress) -> Result<()> 
 /// does.
 ///
 /// # Errors
-/// As [`check_surface`], for what is wrong with indices alone.
+/// Same as [`check_surface`], for faults of the indices alone.
 pub fn vertex_of_no_face(mesh: &PolygonMesh, progress: &mut Progress) -> Result<Option<usize>> {
     check_indices(mesh)?;
     Corners::new(mesh, progress)?.unused_vertex()
 }
 
-/// What keeps the rest from failing on indices: [`PolygonMesh`] has public fields.
+/// Keeps the other checks from failing on indices: [`PolygonMesh`] has public fields.
 pub(crate) fn check_indices(mesh: &PolygonMesh) -> Result<()> {
     let count = mesh.vertices.len();
     if count == 0 || mesh.face_count() == 0 {
@@ -105,7 +105,7 @@ struct Corners {
     given: Vec<u32>,
     /// The face of each corner.
     face: Vec<u32>,
-    /// Where each face's corners begin; one more entry than faces.
+    /// Start of each face's corners; one more entry than faces.
     starts: Vec<u32>,
 }
 

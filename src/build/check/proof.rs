@@ -33,10 +33,10 @@ pub fn check_hull(points: &[Vector], hull: &Hull) -> Result<()> {
     check_hull_in_steps(points, hull, &mut Progress::new(&mut |_| true))
 }
 
-/// As [`check_hull`], saying how far it is.
+/// Same as [`check_hull`], with progress reports.
 ///
 /// # Errors
-/// As [`check_hull`]; [`Error::Cancelled`] when the caller does not want to go on.
+/// Same as [`check_hull`]; [`Error::Cancelled`] when the caller does not want to go on.
 pub fn check_hull_in_steps(points: &[Vector], hull: &Hull, progress: &mut Progress) -> Result<()> {
     let count = points.len() as u32;
     let named = hull.vertices.iter().chain(hull.triangles.iter().flatten());
@@ -72,7 +72,7 @@ fn fault<T>(message: String) -> Result<T> {
     Err(Error::Bug(format!("convex hull: {message}")))
 }
 
-/// Of exactly equal points only the first may be a vertex.
+/// Among exactly equal points only the first may be a vertex.
 fn check_lowest_duplicates(points: &[Vector], is_vertex: &[bool], progress: &mut Progress) -> Result<()> {
     let first = first_of_equal(points, progress)?;
     match (0..points.len()).find(|&i| is_vertex[i] && first[i] != i as u32) {

@@ -1,4 +1,4 @@
-//! What a mesh that breaks the contract is refused with.
+//! The error for a mesh that breaks the contract.
 
 use crate::base::error::{Error, Result};
 

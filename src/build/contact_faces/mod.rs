@@ -30,7 +30,7 @@ use outline::outline;
 /// been seen.
 const SLAB: f64 = 5.0;
 
-/// A triangle of less altitude, in units of the noise, says nothing of its plane: a corner's error turns it by 15°. Corners of an
+/// A triangle of less altitude, in units of the noise, has no reliable plane: a corner's error turns it by 15°. Corners of an
 /// outline that are nearer to the line through their neighbours do not count.
 const THIN: f64 = 4.0;
 
@@ -48,8 +48,8 @@ const MOST_FAILURES: u8 = 8;
 /// No group yet.
 const NONE: u32 = u32::MAX;
 
-/// The contact faces of a polyhedron whose coordinates may be off by `noise`. None where the noise is no more than rounding, which
-/// merged faces allow for; of flat bodies; of bodies beyond [`SMALLEST`] and [`LARGEST`]. Labels have been given.
+/// The contact faces of a polyhedron whose coordinates may be off by `noise`. None where the noise is no more than rounding,
+/// which merged faces allow for; for flat bodies; for bodies beyond [`SMALLEST`] and [`LARGEST`]. Labels have been given.
 ///
 /// # Errors
 /// [`crate::base::error::Error::Cancelled`] when the caller does not want to go on; [`crate::base::error::Error::Memory`].
@@ -85,13 +85,13 @@ pub fn find_contact_faces(polyhedron: &Polyhedron, noise: f64, progress: &mut Pr
     Ok(found)
 }
 
-/// What may become a contact face: all vertices between a support plane and one a little below.
+/// A candidate for a contact face: all vertices between a support plane and one a little below.
 struct Slab {
     normal: Vector,
     /// A vertex on the support plane.
     top: u32,
     vertices: Vec<u32>,
-    /// Of the outline, counter-clockwise; three at least.
+    /// The corners of the outline, counter-clockwise; three at least.
     corners: Vec<u32>,
 }
 
@@ -145,7 +145,7 @@ struct Hull<'a> {
     normals: Vec<Vector>,
     /// Twice the triangles' areas.
     sizes: Vec<f64>,
-    /// Whether a merged face has a triangle whose plane says something.
+    /// Whether a merged face has a triangle whose plane is reliable.
     has_plane: Vec<bool>,
 }
 
@@ -206,8 +206,8 @@ impl<'a> Hull<'a> {
         self.polyhedron.face_of_triangle[triangle as usize]
     }
 
-    /// Triangles from which groups may grow, the largest first: those with a plane to tell, of merged faces beside which there is
-    /// something to take in, or something that takes them in.
+    /// Triangles from which groups may grow, the largest first: those with a plane to tell, in merged faces that have a neighbour
+    /// to take in, or one that takes them in.
     fn seeds(&self, progress: &mut Progress) -> Result<Vec<u32>> {
         let count = self.surface.triangles.len() as u32;
         let mut is_open = filled(false, self.polyhedron.faces.len())?;
@@ -249,7 +249,7 @@ struct Groups<'a> {
     round: u32,
 }
 
-/// Of a triangle whose group is a merged face as it is.
+/// Marks a triangle whose group is a merged face as it is.
 const UNCHANGED: u32 = u32::MAX - 1;
 
 impl<'a> Groups<'a> {
@@ -381,7 +381,7 @@ impl<'a> Groups<'a> {
         slab.vertices.iter().try_for_each(|v| push(&mut found.at_vertices, [*v, number]))
     }
 
-    /// What has become of the merged faces.
+    /// The fate of the merged faces.
     fn parts(&self, found: &ContactFaces) -> Result<Vec<FacePart>> {
         let mut parts = filled(FacePart::Sliver, self.hull.has_plane.len())?;
         for (part, _) in parts.iter_mut().zip(&self.hull.has_plane).filter(|(_, has_plane)| **has_plane) {

@@ -1,9 +1,9 @@
-//! By how much the coordinates of an input may be off, from the coordinates and the polygons themselves.
+//! A bound of the coordinates' errors in an input, from the coordinates and the polygons themselves.
 
 use crate::base::math::Vector;
 use crate::mesh::PolygonMesh;
 
-/// Of any input, relative to its size: modellers write six digits.
+/// The noise of any input, relative to its size: modellers write six digits.
 const OF_ANY_INPUT: f64 = 1e-6;
 
 /// Coordinates of so few decimals that half of the last is more of the size than this are round numbers, not rounded ones.
@@ -12,14 +12,14 @@ const MOST_OF_DECIMALS: f64 = 1e-5;
 /// Polygons that are farther out of a plane than this, relative to the size, are not meant to be flat.
 const MOST_OF_POLYGONS: f64 = 1e-3;
 
-/// The most decimals that are told from all digits of a double.
+/// The most decimals that are distinguished from all digits of a double.
 const MOST_DECIMALS: i32 = 9;
 
 /// The rounding error of a number near 1 in single precision, 2⁻²⁴.
 const SINGLE_ROUNDOFF: f64 = 0.5 * f32::EPSILON as f64;
 
-/// By how much a coordinate may be off: the most of what any input is off by, the rounding to single precision or to decimals
-/// where all coordinates have passed through that, and how far given polygons are out of their planes.
+/// A bound of a coordinate's error: the largest of the noise of any input, the rounding to single precision or to decimals where
+/// all coordinates have passed through that, and how far given polygons are out of their planes.
 pub fn default_noise(points: &[Vector], polygons: Option<&PolygonMesh>) -> f64 {
     let [lower, upper] = [f64::min, f64::max].map(|pick: fn(f64, f64) -> f64| {
         points.iter().copied().reduce(|a, b| a.zip_map(&b, pick)).unwrap_or_else(Vector::zeros)
@@ -44,7 +44,7 @@ pub fn default_noise(points: &[Vector], polygons: Option<&PolygonMesh>) -> f64 {
     noise.max(out.min(MOST_OF_POLYGONS * size))
 }
 
-/// Whether a number is what is read from a text with so many decimals.
+/// Whether a number is the one read from a text with so many decimals.
 fn has_decimals(x: f64, decimals: i32) -> bool {
     let power = 10_f64.powi(decimals);
     (x * power).round() / power == x

@@ -25,8 +25,8 @@ use crate::mesh::check_vertex;
 pub struct Hull {
     /// The exact affine dimension of the points: 0 (one point), 1, 2 or 3.
     pub dimension: u8,
-    /// Indices of the extreme points, ascending: those that are not in the hull of the others. Of exact duplicates the
-    /// lowest index. In dimension 1 these are the two end points, in dimension 0 the one point.
+    /// Indices of the extreme points, ascending: those that are not in the hull of the others. For exact duplicates, the lowest
+    /// index. In dimension 1 these are the two end points, in dimension 0 the one point.
     pub vertices: Vec<u32>,
     /// Corners as indices into the input points.
     pub triangles: Vec<[u32; 3]>,
@@ -44,7 +44,7 @@ impl Hull {
 /// The largest number of points that a hull is made of.
 const MOST_POINTS: usize = 1 << 30;
 
-/// Of the time that a hull takes, what putting the points in order does, about.
+/// The share of a hull's time that putting the points in order takes, about.
 const SHARE_OF_ORDER: f64 = 0.05;
 
 /// The exact convex hull of `points`.
@@ -55,13 +55,13 @@ pub fn convex_hull(points: &[Vector]) -> Result<Hull> {
     convex_hull_in_steps(points, &mut Progress::new(&mut |_| true))
 }
 
-/// As [`convex_hull`], saying how far it is.
+/// Same as [`convex_hull`], with progress reports.
 ///
 /// # Errors
-/// As [`convex_hull`]; [`Error::Cancelled`] when the caller does not want to go on.
+/// Same as [`convex_hull`]; [`Error::Cancelled`] when the caller does not want to go on.
 pub fn convex_hull_in_steps(points: &[Vector], progress: &mut Progress) -> Result<Hull> {
     check_points(points)?;
-    // Along the curve: what is near on the hull is then near in memory.
+    // Along the curve: neighbours on the hull are then near in memory.
     let order = along_curve(points, &mut progress.part(0.0, SHARE_OF_ORDER))?;
     let progress = &mut progress.part(SHARE_OF_ORDER, 1.0);
     if is_identity(&order) {
@@ -79,7 +79,7 @@ pub fn convex_hull_in_steps(points: &[Vector], progress: &mut Progress) -> Resul
 /// Whether points are some that a hull is made of.
 ///
 /// # Errors
-/// As [`convex_hull`].
+/// Same as [`convex_hull`].
 pub fn check_points(points: &[Vector]) -> Result<()> {
     if points.is_empty() {
         return Err(Error::Argument("a convex hull needs at least one point".into()));

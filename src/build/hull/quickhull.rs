@@ -19,14 +19,14 @@
 //!   be tried against the new facets only, and each point is in at most one facet's list.
 //!
 //! The farthest point of a facet's list becomes the next vertex. That leads fast to the hull of most bodies, but points can be
-//! laid out such that it peels off one at a time. So it is for a limited work only; what is left then is taken in random order,
-//! for which the expected number of lists that a point goes through is logarithmic, whatever the points (K. L. Clarkson,
-//! P. W. Shor, "Applications of Random Sampling in Computational Geometry, II", Discrete & Computational Geometry 4, 1989).
-//! And in a cone of many new facets a point finds one that it sees by bisection (`first_seen_in_fan`).
+//! laid out such that it peels off one at a time. So it is for a limited work only; the points left then are taken in random
+//! order, for which the expected number of lists that a point goes through is logarithmic, whatever the points (K. L. Clarkson,
+//! P. W. Shor, "Applications of Random Sampling in Computational Geometry, II", Discrete & Computational Geometry 4, 1989). And
+//! in a cone of many new facets a point finds one that it sees by bisection (`first_seen_in_fan`).
 //!
-//! Of several farthest points any may become a vertex, so one inside a facet or an edge of the final hull, too. Such flat
-//! vertices are found at the end (fewer than three edges between planes that differ meet there), and the hull is built once
-//! more from the vertices without them.
+//! Any of several farthest points may become a vertex, hence also one inside a facet or an edge of the final hull. Such flat
+//! vertices are found at the end (fewer than three edges between planes that differ meet there), and the hull is built once more
+//! from the vertices without them.
 
 use crate::base::error::Result;
 use crate::base::memory::{collected, extend, filled, listed, push, reserve, with_capacity};
@@ -60,7 +60,7 @@ struct Facet {
     unseen_by: u32,
 }
 
-/// What a point sees of the hull.
+/// The part of the hull that a point sees.
 struct Cap {
     /// The facets that it sees.
     visible: Vec<u32>,
@@ -78,7 +78,7 @@ struct HorizonEdge {
     outer: u32,
 }
 
-/// Which point of a facet's list becomes the next vertex; see this file's head.
+/// The rule for the next vertex in a facet's list; see this file's head.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Choice {
     Farthest,
@@ -232,8 +232,8 @@ impl<'a> Quickhull<'a> {
         progress.steps(work, self.vertex_count, self.points.len())
     }
 
-    /// Puts each point into the list of one of `facets` that it sees, of few the first; drops it if there is
-    /// none. Facets with points then wait for their turn.
+    /// Puts each point into the list of one of `facets` that it sees, the first if they are few; drops it if there is none.
+    /// Facets with points then wait for their turn.
     fn distribute(&mut self, points: &[u32], facets: &[u32], progress: &mut Progress) -> Result<()> {
         let fan = if facets.len() > MANY_FACETS { self.fan(facets)? } else { Vec::new() };
         for &p in points {
@@ -291,7 +291,7 @@ impl<'a> Quickhull<'a> {
         Ok(fan)
     }
 
-    /// As [`Quickhull::first_seen`], for the facets of [`Quickhull::fan`], but any that it sees.
+    /// Same as [`Quickhull::first_seen`], for the facets of [`Quickhull::fan`], but any that it sees.
     ///
     /// The tails v₀ … vₘ₋₁ of the facets go counter-clockwise around the apex r. So v₁ … vⱼ₋₁ are not below the plane (r, v₀, vⱼ),
     /// and vⱼ₊₁ … vₘ₋₁ not above it. A point p that sees neither the first nor the last facet is not above (r, v₀, v₁) and not

@@ -1,4 +1,4 @@
-//! Which vertices of the merged faces are corners, and which lie inside a straight edge up to rounding.
+//! Decides which vertices of the merged faces are corners, and which lie inside a straight edge up to rounding.
 
 use super::faces::MergedFaces;
 use crate::base::error::Result;
@@ -53,7 +53,7 @@ pub fn straighten_edges(
     for chain in &chains {
         keep_bends(positions, chain, bound, &mut corners, progress)?;
     }
-    // What is left are two faces that share their whole boundary: a flat body.
+    // The rest are two faces that share their whole boundary: a flat body.
     for v in 0..positions.len() as u32 {
         if degrees[v as usize] == 2 && !on_chain[v as usize] {
             let Some(&h) = surface.around(v).iter().find(|h| faces.is_boundary(surface, **h)) else {

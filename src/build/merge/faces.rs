@@ -1,4 +1,4 @@
-//! What is merged, and what comes of it.
+//! The input and the result of merging.
 
 use crate::base::math::Vector;
 use crate::polyhedron::triangulation::{Triangulation, next};
@@ -7,7 +7,7 @@ use crate::polyhedron::triangulation::{Triangulation, next};
 pub struct Triangles<'a> {
     /// Their corners and neighbours.
     pub surface: &'a Triangulation,
-    /// Of the hull's vertices.
+    /// Positions of the hull's vertices.
     pub positions: &'a [Vector],
     /// Their unit normals.
     pub normals: &'a [Vector],

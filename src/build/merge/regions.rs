@@ -1,4 +1,4 @@
-//! Which triangles lie in one plane up to rounding.
+//! Finds the triangles that lie in one plane up to rounding.
 
 use super::faces::Triangles;
 use crate::base::error::Result;
@@ -53,8 +53,8 @@ pub fn coplanar_regions(triangles: &Triangles, bound: f64, progress: &mut Progre
     Ok((regions.region_of, regions.normals))
 }
 
-/// Regions that a triangle may be in before it gets one and that were given up; after that it is left out of the regions of others.
-/// Where they creep around a smooth needle they take in half of it each time.
+/// The most failed regions (given up) that a triangle may be in before it gets one; after that it is left out of the regions of
+/// others. Regions that creep around a smooth needle take in half of it each time.
 const MOST_FAILURES: u8 = 8;
 
 /// Regions of triangles while they grow.
@@ -146,7 +146,7 @@ impl Regions<'_> {
                     let mut candidate = reference;
                     candidate[k] = apex;
                     let candidate_size = area(candidate);
-                    // Where squares underflow all sizes are 0.
+                    // If squares underflow, all sizes are 0.
                     if candidate_size > 0.0 && candidate_size >= 2.0 * size {
                         let [a, b, c] = candidate.map(position);
                         let candidate_normal = normal_of(&area_vector(a, b, c), a, b, c);

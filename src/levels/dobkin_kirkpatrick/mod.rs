@@ -1,10 +1,10 @@
 //! Levels after D. P. Dobkin and D. G. Kirkpatrick ("Determining the Separation of Preprocessed Polyhedra: A Unified Approach",
 //! ICALP 1990), as Ehmann & Lin 2000, §4.4, make bounding volumes of them.
 //!
-//! From level to level an independent set of flat vertices is removed, and each hole is filled by the outer hull of the
-//! vertices around it: what is left is the exact hull of a part of the body's vertices, and the next removal begins there. For
-//! its bounding volume the vertices move outward along rays from the body's centre of mass c, all by one factor at first
-//! (scaling), and then back one by one as far as the volume stays convex and bounds the body (relaxation).
+//! From level to level an independent set of flat vertices is removed, and each hole is filled by the outer hull of the vertices
+//! around it: the rest is the exact hull of a part of the body's vertices, and the next removal begins there. For its bounding
+//! volume the vertices move outward along rays from the body's centre of mass c, all by one factor at first (scaling), and then
+//! back one by one as far as the volume stays convex and bounds the body (relaxation).
 //!
 //! On those rays both conditions are *linear*. Let r = p − c for each vertex, and let the level have its vertices at r/x. A
 //! point q of the body lies in the cone of one triangle, its centre-of-mass region: r_q = α·r_a + β·r_b + γ·r_c with α, β, γ
@@ -12,8 +12,7 @@
 //! triangle (a, b, c) is below its plane exactly if α·x_a + β·x_b + γ·x_c ≤ x_d, with r_d = α·r_a + β·r_b + γ·r_c. Neither the
 //! cones nor their coefficients change while vertices slide.
 //!
-//! The combinatorics are exact. Factors are floating point: that the level bounds the body is proved by whoever uses it
-//! (see `hierarchy`).
+//! The combinatorics are exact. Factors are floating point: the caller proves that the level bounds the body (see `hierarchy`).
 
 mod surface;
 mod relaxation;
@@ -43,7 +42,7 @@ const LEAST_SAVING: usize = 16;
 pub struct Removal {
     /// The vertices of the body that are left, ascending.
     pub vertices: Vec<u32>,
-    /// Where they are on this level, in the centred coordinates of the body.
+    /// Their positions on this level, in the centred coordinates of the body.
     pub points: Vec<Vector>,
     /// The triangles that fill holes: their corners, ascending, and the removed vertex. Ordered by the corners.
     pub filled: Vec<([u32; 3], u32)>,
@@ -74,7 +73,7 @@ impl DobkinKirkpatrick<'_> {
         let x = self.relaxed(&self.conditions()?)?;
         progress.report(0.9)?;
 
-        // What is a constraint met with equality becomes one met in spite of rounding: a few u·ρ at planes of the least height.
+        // A constraint met with equality becomes one met in spite of rounding: a few u·ρ at planes of the least height.
         let radius = self.base.mass.radius;
         let least = (0..self.triangles.len() as u32).map(|t| self.height(t));
         let grown = 1.0 + 64.0 * UNIT_ROUNDOFF * radius / least.fold(radius, f64::min);
@@ -96,10 +95,10 @@ impl DobkinKirkpatrick<'_> {
         (0..star.len()).map(|k| 1.0 - normal(k).dot(normal(k + 1))).sum()
     }
 
-    /// Vertices to be removed, no two of them neighbours: the least important ones first, of equal ones the lowest; ascending.
+    /// Vertices to be removed, no two of them neighbours: the least important ones first, among equal ones the lowest; ascending.
     ///
     /// Such a vertex is taken unless a less important neighbour is. So they need not be visited in order of importance, which
-    /// jumps about in memory: whoever asks for one decides its less important neighbours before.
+    /// jumps about in memory: a caller that asks for one decides its less important neighbours before.
     fn independent_set(&self, minimum: usize) -> Result<Vec<u32>> {
         let mut star = Vec::new();
         // Infinite for a vertex that stays in any case.
@@ -395,7 +394,7 @@ mod tests {
             let mut removing = DobkinKirkpatrick::new(&body).unwrap();
             while let Some(Removal { vertices, points, .. }) = next(&mut removing) {
                 let kept: Vec<Vector> = vertices.iter().map(|v| body.vertices[*v as usize].position - centre).collect();
-                // The factor, from the planes of the hull of what is left.
+                // The factor, from the planes of the hull of the rest.
                 let hull = build(&kept, None).unwrap();
                 let mut factor = 1.0_f64;
                 for corners in &hull.triangles {

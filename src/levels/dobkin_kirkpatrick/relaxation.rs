@@ -11,7 +11,7 @@ const LEAST_SLIDE: f64 = 1e-2;
 /// Slides for each triangle at most; one or two are common.
 const MOST_SLIDES: usize = 32;
 
-/// What the triangles of a level demand of the x of their corners a, b, c, each by its coefficients α, β, γ.
+/// The conditions that the triangles of a level put on the x of their corners a, b, c, each by its coefficients α, β, γ.
 pub(super) struct Conditions {
     /// α·x_a + β·x_b + γ·x_c ≤ 1 for the body's vertices in the region of triangle t: `bounds[starts[t]..starts[t + 1]]`.
     bounds: Vec<[f64; 3]>,

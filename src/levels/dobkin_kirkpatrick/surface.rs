@@ -122,7 +122,7 @@ impl<'a> DobkinKirkpatrick<'a> {
     }
 }
 
-/// Which corner of a triangle a vertex is.
+/// The corner of a triangle that a vertex is.
 pub(super) fn place_of(triangle: &Triangle, v: u32) -> usize {
     debug_assert!(triangle.corners.contains(&v));
     triangle.corners.iter().position(|w| *w == v).unwrap_or(0)

@@ -56,11 +56,11 @@ pub fn by_position(below: &PointDistance, above: &Polyhedron) -> Result<Correspo
     Ok(Correspondence { children, parents })
 }
 
-/// The scheme of a hierarchy whose levels have vertices of the body, moved: what is kept corresponds to itself, a new edge or
-/// face to the vertex that was removed there, and that to what replaces it, by position. `ids` gives for the vertices of
+/// The scheme of a hierarchy whose levels have vertices of the body, moved. A feature that is kept corresponds to itself, a new
+/// edge or face to the vertex that was removed there, and that to its replacement, by position. `ids` gives for the vertices of
 /// `below` and of `above` which of the body they are, `filled` for the new triangles the removed vertex.
 ///
-/// The paper says so for children; its parents "are different", no more. What is removed gets a neighbour that is kept, the
+/// The paper says so for children; its parents "are different", no more. A removed vertex gets a neighbour that is kept, the
 /// faces around it the vertex that is extreme along their normals.
 ///
 /// # Errors
@@ -136,7 +136,7 @@ pub fn by_identity(
     Ok(Correspondence { children, parents })
 }
 
-/// Where each id is in a list of some of 0..`count`; NONE for the others.
+/// The index of each id in a list of some of 0..`count`; NONE for the others.
 fn index_of(ids: &[u32], count: usize) -> Result<Vec<u32>> {
     debug_assert!(ids.iter().all(|id| (*id as usize) < count));
     let mut index = filled(NONE, count)?;

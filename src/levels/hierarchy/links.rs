@@ -39,7 +39,7 @@ impl Links {
             && vertices.iter().chain(edges).chain(faces).all(exists)
     }
 
-    /// What a feature is linked to.
+    /// The feature that a feature is linked to.
     #[inline]
     pub fn of(&self, feature: FeatureId) -> FeatureId {
         match feature {

@@ -1,8 +1,8 @@
 //! Levels of detail: ever simpler convex polyhedra P₁ … P_k around a body P₀, each of which provably contains it, with how far it
 //! stands off and which features of neighbouring levels belong together (Ehmann & Lin 2000, §3 and §4).
 //!
-//! The makers (quadric error simplification, Dobkin-Kirkpatrick, cutting planes) propose points; what all have in common is here. A
-//! level is the *exact* hull of its points, laid out like P₀, so all that runs on a body runs on its levels.
+//! The makers (quadric error simplification, Dobkin-Kirkpatrick, cutting planes) propose points; the code common to all is here.
+//! A level is the *exact* hull of its points, laid out like P₀, so all that runs on a body runs on its levels.
 
 mod links;
 mod bounding;
@@ -43,7 +43,7 @@ pub enum HierarchyKind {
     /// Cut out of a box by planes that touch the body: tight on thin bodies, too.
     OuterCuts = 3,
     /// The caller's, translated and scaled until they contain the body: those of a shape made from levels
-    /// (swiftprox_shape_create_from_levels). No shape can be asked to build them.
+    /// (swiftprox_shape_create_from_levels). No shape can build them.
     Given = 4,
     /// Quadric ones by the default options for bodies of 30,000 vertices and more, made by the first query that goes through them;
     /// none for smaller bodies.
@@ -57,14 +57,14 @@ enumerator!(HierarchyKind { None, Quadric, DobkinKirkpatrick, OuterCuts, Given, 
 /// where the choice is automatic.
 pub const LEAST_VERTICES_FOR_LEVELS: usize = 30_000;
 
-/// What levels to make.
+/// The levels to make.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct HierarchyOptions {
     /// How.
     pub kind: HierarchyKind,
     /// The fraction of the triangles that a level has left of those of the next finer one, between 0 and 1, both exclusive; less
-    /// where that many would have more features than faces of many corners have. Dobkin and Kirkpatrick's own way of
-    /// building decides for theirs. This and what follows does not count for automatic levels.
+    /// where that many would have more features than faces of many corners have. Dobkin and Kirkpatrick's own way of building
+    /// decides for theirs. This and the following members do not count for automatic levels.
     pub decimation: f64,
     /// No level has fewer triangles.
     pub minimum_triangles: usize,
@@ -163,9 +163,9 @@ impl Hierarchy {
         Ok(builder.finish(base))
     }
 
-    /// Levels that the caller gives, the finest first: of each the convex hull of its points counts, in the frame of P₀. It is
-    /// moved so that its centre of mass falls on that of the next finer level, and scaled about it so that it barely contains
-    /// P₀. Nothing is asked about how many features it has.
+    /// Levels that the caller gives, the finest first: the convex hull of each one's points counts, in the frame of P₀. It is
+    /// moved so that its centre of mass falls on that of the next finer level, and scaled about it so that it barely contains P₀.
+    /// Its number of features is free.
     ///
     /// # Errors
     /// [`Error::Mesh`] for a coordinate that is not finite and a level without interior or so thin that no rounding makes it
@@ -203,8 +203,8 @@ impl Hierarchy {
     }
 
     /// From levels that were built before, the finest first: each polyhedron in the centred coordinates of `base`, with its
-    /// children and parents. What a query relies on is found out anew: that every level contains the body, exactly, and how far
-    /// it stands off.
+    /// children and parents. The facts that a query relies on are established anew: that every level contains the body, exactly,
+    /// and how far it stands off.
     ///
     /// # Errors
     /// [`Error::Argument`] for a level that does not contain the body, or links out of range; [`Error::Cancelled`],

@@ -26,10 +26,10 @@ const MARGIN: f64 = 256.0 * UNIT_ROUNDOFF;
 /// Growing a level that rounding left too small all the same: so many times, each by four times as much as before.
 const ATTEMPTS: i32 = 16;
 
-/// No more cuts than so many times the planes asked for.
+/// No more cuts than so many times the requested planes.
 const MOST_CUTS: f64 = 4.0;
 
-/// A corner that stands off by less than this fraction of the body's radius is not cut any more: what is left is the body; 2⁻³⁰.
+/// A corner that stands off by less than this fraction of the body's radius is not cut any more: the rest is the body; 2⁻³⁰.
 const LEAST_DEVIATION: f64 = f64::from_bits((1023 - 30) << 52);
 
 /// A body to be cut out.
@@ -65,7 +65,7 @@ struct DualTriangle {
     planes: [u32; 3],
     /// `neighbours[i]` is across the edge from `planes[i]` to `planes[(i + 1) % 3]`.
     neighbours: [u32; 3],
-    /// Where it is.
+    /// Its position.
     position: Vector,
     /// The nearest point of the body.
     nearest: Vector,
@@ -74,7 +74,7 @@ struct DualTriangle {
     removed: bool,
 }
 
-/// A corner waiting to be cut: the bits of a deviation ≥ 0, which are ordered as the numbers are; of equal ones the oldest.
+/// A corner waiting to be cut: the bits of a deviation ≥ 0, which are ordered as the numbers are; among equal ones the oldest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 struct Waiting {
     deviation: u64,

@@ -8,7 +8,7 @@ use crate::polyhedron::Polyhedron;
 pub fn spread_of(body: &Polyhedron, centre: &Vector) -> Option<Matrix> {
     debug_assert_eq!(body.dimension, 3);
     let mut spread = Matrix::identity() * body.radius;
-    // The eigenvalues of a covariance are right to u of the largest, so those of a body of aspect 10⁶ only to 10⁻⁴: what is left is
+    // The eigenvalues of a covariance are right to u of the largest, so those of a body of aspect 10⁶ only to 10⁻⁴: the rest is
     // found in the new coordinates.
     for round in 0..4 {
         let covariance = covariance(body, centre, &spread.try_inverse()?)?;

@@ -12,7 +12,7 @@
 //! Bodies and a Localization Lemma", Discrete & Computational Geometry 13, 1995, theorem 4.1): needles and wafers are as good
 //! as balls.
 //!
-//! All that is floating point here only steers. What a level promises, that it contains the body, is checked exactly at the end.
+//! All floating point here only steers. A level's guarantee, that it contains the body, is checked exactly at the end.
 
 mod isotropy;
 mod cuts;
@@ -24,8 +24,8 @@ use crate::base::progress::Progress;
 use crate::polyhedron::Polyhedron;
 use cuts::{Block, Cuts};
 
-/// Blocks to begin with: the planes of a box, an octahedron, a rhombic dodecahedron and a regular dodecahedron, each by one
-/// normal, of which the others have the same components in cyclic order and with any signs.
+/// Blocks to begin with: the planes of a box, an octahedron, a rhombic dodecahedron and a regular dodecahedron. Each is given by
+/// one normal; the others have the same components in cyclic order and with any signs.
 const BLOCKS: [[f64; 3]; 4] = [[1.0, 0.0, 0.0], [1.0, 1.0, 1.0], [0.0, 1.0, 1.0], [0.0, 1.0, GOLDEN_RATIO]];
 
 /// Up to so many planes it matters where the first ones lie. On 28 bodies no block was better than the box in the geometric
@@ -38,7 +38,7 @@ const GOLDEN_RATIO: f64 = 1.618_033_988_749_895;
 /// Levels around `base` with the given numbers of planes, ascending: the coarsest first. A level of F planes has at most 2F − 4
 /// vertices and 3F − 6 edges (and more but tiny faces where several planes meet almost in a point). The last level has fewer
 /// planes, and no more follow, where those bound the body to within 10⁻⁹ of its radius; there are none for a body without
-/// interior. A level of at most 48 planes is the best of several; of those with more planes each lies in all with fewer.
+/// interior. A level of at most 48 planes is the best of several; each of those with more planes lies in all with fewer.
 ///
 /// Every level contains `base` exactly, the vertices of both in the centred coordinates of `base`, whose `centre` is 0. The result
 /// depends on the arguments and the machine's vector units, which round differently.

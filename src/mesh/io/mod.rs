@@ -74,7 +74,7 @@ impl Format {
 /// [`MOST_FILE_BYTES`](crate::base::files::MOST_FILE_BYTES) are read; a pipe or a device is refused, not waited for.
 ///
 /// # Errors
-/// [`Error::File`] naming the file and the line, the triangle of a binary file, or the registered reader and what it says.
+/// [`Error::File`] naming the file and the line, the triangle of a binary file, or the registered reader and its message.
 pub fn read_mesh(path: &Path) -> Result<PolygonMesh> {
     let name = path.display().to_string();
     let bytes = read_whole(path, &name)?;
@@ -88,7 +88,7 @@ pub fn read_mesh(path: &Path) -> Result<PolygonMesh> {
 /// stands for the file in messages.
 ///
 /// # Errors
-/// [`Error::File`] naming the file and the line, the triangle of a binary file, or the registered reader and what it says.
+/// [`Error::File`] naming the file and the line, the triangle of a binary file, or the registered reader and its message.
 pub fn parse_mesh(bytes: &[u8], format: Option<Format>, name: &str) -> Result<PolygonMesh> {
     if format.is_none()
         && let Some(mesh) = registered::parse(bytes, name)

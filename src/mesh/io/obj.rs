@@ -1,7 +1,7 @@
 //! Wavefront OBJ (Advanced Visualizer manual, appendix B1), as far as it is polygons: `v` and `f`.
 //!
-//! Indices count from 1, negative ones back from the last vertex so far; of `a/b/c` only the first counts. Weights and
-//! colours behind a vertex and all other keywords are skipped; groups and objects become one mesh. A file of other text is told so.
+//! Indices count from 1, negative ones back from the last vertex so far; in `a/b/c` only the first counts. Weights and colours
+//! behind a vertex and all other keywords are skipped; groups and objects become one mesh. A file of other text is told so.
 
 use std::str::FromStr;
 
@@ -19,7 +19,7 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
     // A face may name vertices that come later, so faces wait, with their lines, until all vertices are known.
     let mut corners = Vec::new();
     let mut faces = Vec::new();
-    // The first word that no OBJ begins a line with: what it says is skipped, but a file of such lines alone is no OBJ.
+    // The first word that no OBJ begins a line with: its line is skipped, but a file of such lines alone is no OBJ.
     let mut stranger = None;
     while let Some(keyword) = scanner.token() {
         match keyword {

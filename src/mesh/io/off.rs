@@ -29,7 +29,7 @@ use crate::mesh::PolygonMesh;
 
 use super::scanner::{Scanner, shown};
 
-/// What may be announced behind a vertex's position: texture coordinates, a colour, a normal.
+/// The data that may be announced behind a vertex's position: texture coordinates, a colour, a normal.
 const ATTRIBUTES: [&[u8]; 3] = [b"ST", b"C", b"N"];
 
 const MOST_NUMBERS_OF_COLOUR: usize = 4;
@@ -37,7 +37,7 @@ const MOST_NUMBERS_OF_COLOUR: usize = 4;
 /// How many numbers a vertex has with all of them.
 const MOST_NUMBERS: usize = 3 + 2 + MOST_NUMBERS_OF_COLOUR + 3;
 
-/// What stands before the vertices.
+/// The part before the vertices.
 struct Head {
     vertex_count: u32,
     face_count: u32,
@@ -101,7 +101,7 @@ pub fn is_keyword(word: &[u8]) -> bool {
     split_keyword(word).is_some()
 }
 
-/// A keyword as the letters of what vertices have, the word itself, and the digits that are glued to it.
+/// A keyword as the letters of the vertices' attributes, the word itself, and the digits that are glued to it.
 fn split_keyword(word: &[u8]) -> Option<(&[u8], &[u8], &[u8])> {
     let at = word.windows(3).position(|part| part.eq_ignore_ascii_case(b"OFF"))?;
     let (letters, rest) = word.split_at(at);
@@ -209,8 +209,8 @@ fn read_by_lines(mut scanner: Scanner, head: &Head, widths: &mut Widths) -> Resu
     Ok(mesh)
 }
 
-/// Vertices of `width` numbers, the first three of which are the position, on any lines; what stands behind a face's last corner,
-/// up to the end of the line, is its colour.
+/// Vertices of `width` numbers, the first three of which are the position, on any lines; the rest of the line behind a face's
+/// last corner is its colour.
 fn read_free_form(mut scanner: Scanner, head: &Head, width: usize) -> Result<PolygonMesh> {
     let mut mesh = PolygonMesh::default();
     for v in 0..head.vertex_count {

@@ -1,5 +1,5 @@
 //! Readers that a program adds to those here, one registry for the process. A file is theirs when it begins with a reader's magic
-//! bytes, which no two readers can claim: of two magics neither begins with the other.
+//! bytes, which no two readers can claim: neither of two magics begins with the other.
 
 use std::sync::{Arc, PoisonError, RwLock, RwLockReadGuard, RwLockWriteGuard};
 
@@ -12,7 +12,7 @@ use super::scanner::{is_space, shown};
 use super::{BYTE_ORDER_MARK, without_mark};
 
 /// Makes a mesh of the bytes of a whole file, which come with white space before the magic and the magic itself, without a UTF-8
-/// byte order mark. Several threads may call it at once; what it says went wrong need not name the file.
+/// byte order mark. Several threads may call it at once; its error message need not name the file.
 pub type MeshReader = dyn Fn(&[u8]) -> Result<PolygonMesh> + Send + Sync;
 
 struct Registered {
@@ -60,7 +60,7 @@ pub fn register_mesh_reader(magic: &[u8], reader: Arc<MeshReader>) -> Result<()>
             None
         }
     };
-    // What a reader holds is the program's, and may register readers where it is dropped.
+    // The data that a reader holds are the program's, and may register readers where they are dropped.
     drop(readers);
     drop(replaced);
     Ok(())
@@ -75,7 +75,8 @@ pub fn unregister_mesh_reader(magic: &[u8]) -> bool {
     removed.is_some()
 }
 
-/// What the registered reader of such a file makes of it; `None` without such a reader. `name` stands for the file in messages.
+/// The mesh that the registered reader of such a file makes; `None` without such a reader. `name` stands for the file in
+/// messages.
 pub(super) fn parse(bytes: &[u8], name: &str) -> Option<Result<PolygonMesh>> {
     let bytes = without_mark(bytes);
     let start = bytes.iter().position(|&b| !is_space(b))?;

@@ -102,7 +102,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// The next number; `of` says in messages what it belongs to.
+    /// The next number; `of` names its owner in messages.
     pub fn number(&mut self, of: fmt::Arguments) -> Result<f64> {
         let token = self.token().ok_or_else(|| self.ended(of))?;
         self.parse_number(token, of)
@@ -113,13 +113,13 @@ impl<'a> Scanner<'a> {
         Ok(Vector::new(self.number(of)?, self.number(of)?, self.number(of)?))
     }
 
-    /// The next whole number from 0; `of` says in messages what it is.
+    /// The next whole number from 0; `of` names it in messages.
     pub fn index(&mut self, of: fmt::Arguments) -> Result<u32> {
         let token = self.token().ok_or_else(|| self.ended(of))?;
         self.parse_index(token, of)
     }
 
-    /// A word as a whole number from 0; `of` says in messages what it is.
+    /// A word as a whole number from 0; `of` names it in messages.
     pub fn parse_index(&self, token: &[u8], of: fmt::Arguments) -> Result<u32> {
         match text(token).map(u32::from_str) {
             Some(Ok(index)) => Ok(index),
@@ -130,7 +130,7 @@ impl<'a> Scanner<'a> {
         }
     }
 
-    /// A word as a number; `of` says in messages what it belongs to.
+    /// A word as a number; `of` names its owner in messages.
     pub fn parse_number(&self, token: &[u8], of: fmt::Arguments) -> Result<f64> {
         text(token)
             .and_then(|t| f64::from_str(t).ok())

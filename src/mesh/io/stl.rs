@@ -1,13 +1,13 @@
 //! STL, ASCII and binary (3D Systems, Stereolithography Interface Specification, 1989).
 //!
-//! STL repeats every vertex in every triangle: exactly equal ones become one here, in order of first occurrence. A
-//! triangle with two equal corners has no area, and its other two sides coincide, so the surface closes without it: it is
-//! dropped, and later triangles move up. One with three equal corners is a place that nobody filled in, and no vertex comes of it.
-//! Normals are not read: vertices say the same, more accurately.
+//! STL repeats every vertex in every triangle: exactly equal ones become one here, in order of first occurrence. A triangle with
+//! two equal corners has no area, and its other two sides coincide, so the surface closes without it: it is dropped, and later
+//! triangles move up. One with three equal corners is a place that nobody filled in, and yields no vertex. Normals are not read:
+//! vertices say the same, more accurately.
 //!
-//! A binary file may go on behind its triangles: with what is no whole number of them or with zeros. Where its count is 0, as
-//! programs leave it that do not come back to the header, its length says how many there are, if it is that of whole triangles.
-//! Of ASCII words `endloop`, `endfacet` and `endsolid` may be two words.
+//! A binary file may go on behind its triangles, with bytes that make no whole number of them or with zeros. Its count is 0 if
+//! the program that wrote it did not come back to the header. Then the file's length tells the count, if it is that of whole
+//! triangles. The ASCII words `endloop`, `endfacet` and `endsolid` may be two words.
 //!
 //! The coordinates of a binary file are single precision. So are nearly always those of an ASCII file, being printed from
 //! the same programs' floats, hence both are marked as such.
@@ -28,7 +28,8 @@ const HEADER: usize = 84;
 const TRIANGLE: usize = 50;
 
 /// Whether the file has exactly the size that its triangle count says as a binary file. This is safer than the first word: the
-/// free bytes of a binary file may well start with "solid". Only who knows that a file is STL may take another size ([`parse`]).
+/// free bytes of a binary file may well start with "solid". Only a caller that knows that a file is STL may take another size
+/// ([`parse`]).
 pub fn is_binary(bytes: &[u8]) -> bool {
     claimed_size(bytes) == Some(bytes.len() as u64)
 }
@@ -44,7 +45,7 @@ pub fn parse(bytes: &[u8], name: &str) -> Result<PolygonMesh> {
     parse_binary(triangles_of(bytes, name)?, name)
 }
 
-/// The triangles of a binary file, without what stands before and behind them.
+/// The triangles of a binary file, without the bytes before and behind them.
 fn triangles_of<'a>(bytes: &'a [u8], name: &str) -> Result<&'a [u8]> {
     let length = bytes.len() as u64;
     let refusal = |problem: String| {
@@ -184,7 +185,7 @@ impl Default for Welder {
 
 impl Welder {
     fn push_triangle(&mut self, corners: [Vector; 3]) -> Result<()> {
-        // Not of what is no number: that is refused below.
+        // Not for values that are no numbers: they are refused below.
         let is_point = corners.iter().all(|corner| corner == &corners[0] && corner.iter().all(|x| x.is_finite()));
         if is_point {
             return Ok(());
@@ -202,12 +203,12 @@ impl Welder {
 
     /// The index of the vertex at this position, new or not.
     fn vertex(&mut self, position: &Vector) -> Result<u32> {
-        // −0 + 0 = 0: what compares equal gets one key.
+        // −0 + 0 = 0: numbers that compare equal get one key.
         let key = [position.x, position.y, position.z].map(|x| (x + 0.0).to_bits());
         if let Some(&index) = self.indices.get(&key) {
             return Ok(index);
         }
-        // `push_vertex` refuses what does not fit 32 bits.
+        // `push_vertex` refuses a count that does not fit 32 bits.
         let index = self.mesh.vertices.len() as u32;
         self.indices.try_reserve(1).map_err(|e| lacking::<([u64; 3], u32)>(self.indices.len() + 1, &e))?;
         self.mesh.push_vertex(*position)?;

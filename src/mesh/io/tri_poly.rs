@@ -5,7 +5,7 @@
 //! POLY nv nf  (x y z) × nv  (n i1 … in) × nf
 //! ```
 //!
-//! Words separated by white space, any line breaks, no comments, indices from 0; what follows the last face is ignored.
+//! Words separated by white space, any line breaks, no comments, indices from 0; text after the last face is ignored.
 
 use crate::base::error::Result;
 use crate::base::memory::push;

@@ -1,11 +1,11 @@
-//! What a depth query is asked for and what it answers: plain data, laid out for C.
+//! The options and the answer of a depth query: plain data, laid out for C.
 
 use crate::base::error::{Result, check_range};
 use crate::base::math::ROTATION_LIMIT;
 use crate::pair::answer::{Feature, Outcome};
 use crate::pair::config::check_accuracy;
 
-/// What a depth query is asked for.
+/// The options of a depth query.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DepthConfig {
     /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default).
@@ -14,9 +14,8 @@ pub struct DepthConfig {
     pub absolute_error: f64,
     /// … or as this times `lower`. Both 0 (the default): as narrow as double precision can prove.
     pub relative_error: f64,
-    /// Expansions after which the query stops with what it has, 1 or more; UINT32_MAX (the default): no limit but the library's
-    /// own,
-    /// 400. What is then left of the verdict is decided all the same, in integers.
+    /// Expansions after which the query stops with its current result, 1 or more; UINT32_MAX (the default): no limit but the
+    /// library's own, 400. The rest of the verdict is still decided, in integers.
     pub step_budget: u32,
 }
 
@@ -27,7 +26,7 @@ impl Default for DepthConfig {
 }
 
 impl DepthConfig {
-    /// Refuses what is out of range.
+    /// Refuses values out of range.
     ///
     /// # Errors
     /// [`Error::Argument`](crate::base::error::Error::Argument), naming the first such member.

@@ -1,5 +1,5 @@
-//! What a pair remembers of its depth: the polytope that proved it, packed, or the nearest facet of two small bodies, and the
-//! pyramids of a pair at rest. Here alone it is packed and unpacked.
+//! The pair's cache of its depth: the polytope that proved it, packed, or the nearest facet of two small bodies, and the pyramids
+//! of a pair at rest. Only this module packs and unpacks it.
 
 use crate::base::math::Vector;
 use crate::base::simd::Lanes;
@@ -13,7 +13,7 @@ use crate::solve::state::FeatureId;
 /// Vertices of a polytope that is kept.
 const MOST_VERTICES: usize = 56;
 
-/// Triangles of a polytope that is kept: a closed surface without holes and handles of so many vertices has no more.
+/// Triangles of a polytope that is kept: a closed surface of `MOST_VERTICES` vertices, without holes and handles, has no more.
 const MOST_TRIANGLES: usize = 108;
 
 /// What a pair remembers from its last depth query. Any bytes are safe; all zero is cold. It changes how fast an answer comes, and
@@ -48,7 +48,7 @@ pub const PYRAMIDS: usize = 2;
 /// along edges of both …
 const WAITS: u8 = 15;
 
-/// … unless the last has proved so many depths since: raising one takes about as long as three searches.
+/// … unless the last has proved this many depths since: raising one takes about as long as three searches.
 const WORTH: u16 = 4;
 
 /// A pyramid, and which features held the witness points when it proved a depth.
@@ -89,8 +89,8 @@ impl Default for DepthCache {
 }
 
 impl DepthCache {
-    /// Puts the kept polytope into an empty one, its positions computed for the pair's poses, and says where to begin. The polytope
-    /// stays empty where none is kept, or what is kept has vertices that the bodies have not; it need not be
+    /// Puts the kept polytope into an empty one, its positions computed for the pair's poses, and returns where to begin. The
+    /// polytope stays empty where none is kept, or what is kept has vertices that the bodies have not; it need not be
     /// [closed](Polytope::is_closed).
     #[inline(always)]
     pub fn unpack<L: Lanes, const V: usize, const T: usize>(
@@ -199,7 +199,7 @@ impl DepthCache {
         may
     }
 
-    /// A pyramid was raised, or came to nothing. The other one stays behind it.
+    /// A pyramid was raised, or the attempt failed. The other one stays behind it.
     #[inline(always)]
     pub fn raised(&mut self, pyramid: Option<&Pyramid>) {
         self.failures = if pyramid.is_some() { 0 } else { self.failures.saturating_add(1) };
@@ -215,13 +215,13 @@ impl DepthCache {
         self.proved = self.proved.saturating_add(1);
     }
 
-    /// Whether a polytope is kept, be it of these bodies or not.
+    /// Whether a polytope is kept, of these bodies or of others.
     #[inline(always)]
     pub fn has_polytope(&self) -> bool {
         self.counts[1] > 0
     }
 
-    /// Whether a pyramid is kept, be it of these bodies or not.
+    /// Whether a pyramid is kept, of these bodies or of others.
     #[inline(always)]
     pub fn has_pyramid(&self) -> bool {
         self.pyramids[0].pyramid.is_there()

@@ -1,4 +1,4 @@
-//! Answers from what a search found, and where that leaves the verdict open from integers.
+//! Answers from the result of a search, and from integers where that leaves the verdict open.
 
 use super::answer::{DepthAnswer, DepthEnding, DepthStatistics};
 use super::search::{FoundPolytope, Search, WIDEST};
@@ -14,7 +14,7 @@ use crate::solve::facets::Overlap;
 use crate::solve::polytope::{Ending, Expansion};
 use crate::solve::state::FeatureId;
 
-/// Answers by what the search found, `overlap` where all facets did, and where that leaves the verdict open by integers.
+/// Answers by the result of the search, `overlap` where all facets gave it, and by integers where that leaves the verdict open.
 ///
 /// # Errors
 /// [`Error::Memory`](crate::base::error::Error::Memory) where integers get none: the answer is as it was.
@@ -65,7 +65,7 @@ fn fill_by_polytope(
     Ok(())
 }
 
-/// What a search did, and integers after it.
+/// The statistics of a search, and of integers after it.
 fn statistics_of(found: Option<&FoundPolytope>, exact_iterations: u32) -> DepthStatistics {
     let done = |found: &FoundPolytope| {
         let FoundPolytope { expansion: Expansion { steps, supports, .. }, triangles, .. } = *found;
@@ -91,7 +91,7 @@ fn fill_overlapping(answer: &mut DepthAnswer, polyhedra: [&Polyhedron; 2], poses
     fill_points(answer, polyhedra, poses, combination, &-direction, upper - lower);
 }
 
-/// Decides in integers, with what the search has found.
+/// Decides in integers, with the result of the search.
 #[cold]
 #[inline(never)]
 fn decide(
@@ -133,7 +133,7 @@ fn decide(
                     fill_overlapping(answer, polyhedra, poses, found);
                 }
                 _ => {
-                    // The polytope need not surround the origin, and says no point.
+                    // The polytope need not surround the origin, and gives no point.
                     let of_polytope = known.map(|found| (found.expansion.upper, -found.expansion.direction));
                     let (upper, normal) = of_polytope.or(along_axes).unwrap_or((f64::INFINITY, Vector::x()));
                     answer.outcome = Outcome::Intersecting;
@@ -205,7 +205,7 @@ fn has_witness(found: &FoundPolytope, polyhedra: [&Polyhedron; 2], poses: [&Pose
     *triangles > 0 && (world2 - world1 + along).norm() <= *upper
 }
 
-/// Of objects that are apart only a normal is said.
+/// For objects that are apart only a normal is reported.
 fn fill_separated(answer: &mut DepthAnswer, ending: DepthEnding, normal: &Vector) {
     let statistics = answer.statistics;
     *answer = DepthAnswer {
@@ -242,7 +242,7 @@ struct Combination<'a> {
     weights: &'a [f64; 4],
 }
 
-/// Of the points the features are said; seen along the normal they are as far as `within` inside the bodies.
+/// Features are reported for the points, which are up to `within` inside the bodies along the normal.
 fn fill_points(
     answer: &mut DepthAnswer,
     polyhedra: [&Polyhedron; 2],

@@ -1,6 +1,6 @@
 //! How deep two objects are in each other: an interval that holds the least translation that parts them, and where.
 //!
-//! Floating point searches and proves: of pairs at rest by the pyramid of before, else of small bodies by all facets,
+//! Floating point searches and proves: for pairs at rest by the earlier pyramid, else for small bodies by all facets,
 //! `solve/facets/`, else by `solve/polytope/`. Integers decide what rounding hides at the ends: objects that touch, flat ones in
 //! one plane, objects that hardly overlap.
 
@@ -65,7 +65,7 @@ fn answer_query(
 }
 
 /// Along which direction two bodies that intersect overlap least, for poses that are accepted: a depth from nothing. And the
-/// pyramid that proves it with the triangle that holds its points, if one is to be raised and there is one.
+/// pyramid that proves it with the triangle that holds its points, if one is requested and there is one.
 ///
 /// # Errors
 /// [`Error::Memory`](crate::base::error::Error::Memory) where integers get none.

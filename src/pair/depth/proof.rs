@@ -11,7 +11,7 @@ use crate::solve::exact::VertexPair;
 use crate::solve::frame::Frame;
 use crate::solve::polytope::{self, Polytope, SearchStart, Wanted, is_in_scale};
 
-/// Where a proof of a depth is looked for.
+/// The source of a proof of a depth.
 #[derive(Clone, Copy)]
 pub enum ProofFrom<'a> {
     /// A pyramid that a cache holds.
@@ -28,7 +28,7 @@ pub enum ProofFrom<'a> {
 /// [`Error::Memory`](crate::base::error::Error::Memory) of bodies that are copied in another unit of length.
 ///
 /// # Panics
-/// Where there is no memory for the triangles, as of [`in_integers`](crate::base::memory::in_integers).
+/// Fails where there is no memory for the triangles, same as [`in_integers`](crate::base::memory::in_integers).
 pub fn proof(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: ProofFrom) -> Result<Vec<[VertexPair; 3]>> {
     if let Some(found) = simd::dispatch_to_avx2(&mut Proof { polyhedra, poses, from }) {
         return Ok(found);

@@ -1,4 +1,4 @@
-//! Pairs at rest: the pyramids that proved a depth before, and those to come.
+//! Pairs at rest: the pyramids that proved a depth before, and pyramids for later queries.
 
 use super::answer::{DepthAnswer, DepthEnding, DepthStatistics};
 use super::cache::{DepthCache, PYRAMIDS};
@@ -18,7 +18,7 @@ const SHALLOW: f64 = 1.0 / 64.0;
 /// … and whose direction of least overlap has turned by at most the angle of this cosine, 8°, since the last search.
 const STEADY: f64 = 0.99;
 
-/// Answers by a pyramid of before, if one still proves a depth.
+/// Answers by an earlier pyramid, if one still proves a depth.
 #[inline(always)]
 pub fn look_at_pyramids<L: Lanes>(
     frame: &Frame<L>,
@@ -39,7 +39,7 @@ pub fn look_at_pyramids<L: Lanes>(
     }
 }
 
-/// What is left where the first pyramid has failed: to move it, and the second one.
+/// The remaining steps after the first pyramid has failed: to move it, and to try the second one.
 struct LookFurther<'a, L> {
     frame: &'a Frame<'a, L>,
     rounding: &'a Rounding,
@@ -113,7 +113,8 @@ fn fill<L: Lanes>(
     answer.feature2 = contact::label(body2.polyhedron, features[1], &point2.to_vector());
 }
 
-/// What holds the witness points of the first pyramid: what held them before, if that still is made of the same vertices.
+/// The features that hold the witness points of the first pyramid: the earlier ones, if the pyramid is still made of the same
+/// vertices.
 #[inline(always)]
 fn features_of<L: Lanes>(
     polyhedra: [&Polyhedron; 2],
@@ -152,7 +153,7 @@ impl LeastFacet {
     }
 }
 
-/// Raises a pyramid over a facet for the queries to come, if there is one that lasts.
+/// Raises a pyramid over a facet for later queries, if there is one that lasts.
 #[inline(always)]
 pub fn raise<L: Lanes>(frame: &Frame<L>, cache: &mut DepthCache, facet: LeastFacet) {
     L::out_of_line(&mut Raise { cache, frame, facet });

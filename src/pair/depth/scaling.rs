@@ -14,8 +14,8 @@ pub struct Rescaled {
 }
 
 impl Rescaled {
-    /// `None` where some coordinate would not be the same number in the new unit: of bodies of the range of doubles at once, of
-    /// translations 2²⁰⁰ times as large as both bodies, and of points.
+    /// `None` where some coordinate would not be the same number in the new unit: for bodies that span the whole range of
+    /// doubles, for translations 2²⁰⁰ times as large as both bodies, and for points.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory) where the copies get none.
@@ -77,8 +77,8 @@ fn in_unit_of_pose(pose: &Pose, unit: f64) -> Option<Pose> {
     Some(Pose::new(&pose.rotation(), &exactly(&pose.translation(), unit)?))
 }
 
-/// What supports are found by: vertices exactly, slacks as bounds. Planes stay as they are, which no support looks at, and there is
-/// no look-up table and no fan.
+/// A body that supports are found by: vertices exactly, slacks as bounds. Planes stay as they are, since no support looks at
+/// them, and there is no look-up table and no fan.
 fn in_unit_of(polyhedron: &Polyhedron, unit: f64) -> Result<Option<Polyhedron>> {
     let mut copy = polyhedron.copy()?;
     for vertex in &mut copy.vertices {

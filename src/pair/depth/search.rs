@@ -1,4 +1,4 @@
-//! The search in floating point: what rests is looked at first, then all facets of small bodies, else a polytope.
+//! The search in floating point: the pyramid at rest is looked at first, then all facets of small bodies, else a polytope.
 
 use super::answer::{DepthAnswer, DepthConfig};
 use super::cache::DepthCache;
@@ -20,11 +20,11 @@ pub struct DepthQuery<'a> {
     /// Filled where a pyramid answers.
     pub answer: &'a mut DepthAnswer,
     pub pyramids: Pyramids,
-    /// Filled where all facets answer, or say that the bodies are apart.
+    /// Filled where all facets answer, or find that the bodies are apart.
     pub overlap: &'a mut Overlap,
 }
 
-/// When a pyramid is raised for the queries to come.
+/// When a pyramid is raised for later queries.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Pyramids {
     /// None is raised or looked at.
@@ -34,7 +34,7 @@ pub enum Pyramids {
     Always,
 }
 
-/// What looking at all facets takes: planes times corners of the pair, see [`facets::work`]. Below this it takes less time than
+/// The cost of looking at all facets: planes times corners of the pair, see [`facets::work`]. Below this it takes less time than
 /// moving on a polytope that was kept …
 const LITTLE_WORK: usize = 3_000;
 
@@ -47,10 +47,10 @@ const COHERENT: f64 = 0.9975;
 /// faces were merged of triangles that lean out of them by rounding, or edges are nearly parallel. A polytope does better then …
 pub const WIDEST: f64 = 176.0 * UNIT_ROUNDOFF;
 
-/// … unless it comes to no end.
+/// … unless it does not finish.
 const WIDEST_OF_ALL: f64 = 1e-9;
 
-/// What widths are relative to: the pair's size, or how far the bodies' origins are apart.
+/// The scale for relative widths: the pair's size, or how far the bodies' origins are apart.
 #[inline(always)]
 fn scale_of<L: Lanes>(frame: &Frame<L>) -> f64 {
     if frame.separation > frame.size { frame.separation } else { frame.size }
@@ -63,15 +63,15 @@ fn is_narrow(expansion: &Expansion, widest: f64) -> bool {
     expansion.lower > 0.0 && expansion.upper - expansion.lower <= widest
 }
 
-/// Room for a polytope of which the cache may keep what it comes to.
+/// Room for a polytope whose final state the cache may keep.
 const MOST_VERTICES: usize = 64;
 
-/// A closed surface of so many vertices without holes and handles has no more triangles.
+/// The most triangles of a closed surface of `MOST_VERTICES` vertices, without holes and handles.
 const MOST_TRIANGLES: usize = 124;
 
-/// What one search or the other found.
+/// The result of one search or the other.
 pub enum Search {
-    /// A pyramid of before: all is said already.
+    /// An earlier pyramid: the answer is already complete.
     Answered,
     /// All facets: the query's overlap.
     Facets,
@@ -81,7 +81,7 @@ pub enum Search {
     Polytope(FoundPolytope),
 }
 
-/// What the search by a polytope found.
+/// The result of the search by a polytope.
 pub struct FoundPolytope {
     pub expansion: Expansion,
     pub witness: Witness,
@@ -144,7 +144,7 @@ fn are_alike(before: Option<[Vector; 2]>, after: Option<[Vector; 2]>) -> bool {
     a.dot(&c) > COHERENT && b.dot(&d) > COHERENT
 }
 
-/// The search by a polytope, and by facets where that does not come to an end.
+/// The search by a polytope, and by facets where that does not finish.
 struct ByPolytope<'a, 'b, L> {
     query: &'a mut DepthQuery<'b>,
     frame: &'a Frame<'a, L>,
@@ -170,7 +170,7 @@ impl<L: Lanes> Work for ByPolytope<'_, '_, L> {
             found = query.search(frame, &mut polytope, &start, steps);
         }
         let was_told = start.triangle.is_some() || start.direction.is_some();
-        // What an earlier query left must not make an answer worse.
+        // State from an earlier query must not make an answer worse.
         if was_told && found.is_open() && found.expansion.steps < steps {
             let mut again = SearchAgain { search: query, frame, polytope: &mut polytope, first: &found };
             found = L::out_of_line(&mut again);
@@ -221,14 +221,14 @@ impl<'a> DepthQuery<'a> {
         L::out_of_line(&mut ByPolytope { query: self, frame })
     }
 
-    /// Of a pair of small bodies.
+    /// The fans of a pair of small bodies.
     #[inline(always)]
     fn fans(&self) -> Option<[&'a Fan; 2]> {
         let [polyhedron1, polyhedron2] = self.polyhedra;
         Some([polyhedron1.fan.as_ref()?, polyhedron2.fan.as_ref()?])
     }
 
-    /// What looking at all facets takes; without end where that is not for the pair.
+    /// The cost of looking at all facets; unbounded where that does not suit the pair.
     #[inline(always)]
     fn work(&self) -> usize {
         match self.fans() {
@@ -286,7 +286,7 @@ impl<'a> DepthQuery<'a> {
     }
 }
 
-/// The search from the beginning, with more room: of bodies that are nearly as deep in each other everywhere.
+/// The search from the beginning, with more room: for bodies that are nearly as deep in each other everywhere.
 struct InLarge<'a, 'b, L> {
     search: &'a mut DepthQuery<'b>,
     frame: &'a Frame<'a, L>,
@@ -303,7 +303,8 @@ impl<L: Lanes> Work for InLarge<'_, '_, L> {
     }
 }
 
-/// The search from nothing, after one that what was kept led nowhere. Its answer is that of a first query, as long as the steps do.
+/// The search from nothing, after one from the kept state that led nowhere. Its answer is that of a first query, as long as the
+/// steps do.
 struct SearchAgain<'a, 'b, L> {
     search: &'a mut DepthQuery<'b>,
     frame: &'a Frame<'a, L>,

@@ -1,4 +1,4 @@
-//! What of a minimum that marching finds is good enough an answer, at a quick look or a closer one.
+//! Which minima that marching finds are good enough for an answer, at a quick look or a closer one.
 
 use super::query::PairQuery;
 use crate::base::math::{ROTATION_LIMIT, divisor};

@@ -1,4 +1,4 @@
-//! What marching leaves open: a closer look, the last enclosure re-tested, the fallback, integers.
+//! The cases that marching leaves open: a closer look, the last enclosure re-tested, the fallback, integers.
 
 use super::acceptance::{Acceptance, Closely};
 use super::query::{Attempt, PairQuery};
@@ -18,7 +18,7 @@ use crate::solve::polytope::{Pyramid, Rounding};
 use crate::solve::state::State;
 use crate::tables::tuning::TURNED_AWAY;
 
-/// Where to go on.
+/// The place to go on from.
 #[derive(Clone, Copy)]
 pub(super) struct Hint {
     /// The vertex pairs of the last intersection, or one near which marching ended.
@@ -28,7 +28,7 @@ pub(super) struct Hint {
 }
 
 impl PairQuery<'_> {
-    /// Whether a closer look at what marching came to answers; else where to go on.
+    /// Whether a closer look at the result of marching answers; else where to go on.
     pub(super) fn look_closer(&mut self, attempt: Attempt) -> Option<Hint> {
         let (at, steps) = match attempt {
             Attempt::Answered => return None,
@@ -63,13 +63,13 @@ impl PairQuery<'_> {
         self.cache.holds_enclosure()
     }
 
-    /// Whether the tetrahedron of the last query still encloses the origin, of bodies that are [simple](PairQuery::is_simple).
+    /// Whether the tetrahedron of the last query still encloses the origin, for bodies that are [simple](PairQuery::is_simple).
     #[inline(always)]
     pub(super) fn look_at_last_enclosure(&mut self) -> Attempt {
         simd::dispatch_to_avx2(&mut LastEnclosure { pair: self })
     }
 
-    /// Whether the pyramid that proved the last depth, of which contacts are made, still does, of bodies that are
+    /// Whether the pyramid that proved the last depth, of which contacts are made, still does, for bodies that are
     /// [simple](PairQuery::is_simple).
     #[inline(always)]
     pub(super) fn look_at_last_pyramid(&mut self) -> Attempt {
@@ -208,7 +208,7 @@ impl PairQuery<'_> {
     }
 }
 
-/// The common case of bodies that intersect: what proved it the last time still does.
+/// The common case of bodies that intersect: the last proof still holds.
 struct LastEnclosure<'a, 'b> {
     pair: &'a mut PairQuery<'b>,
 }
@@ -225,7 +225,7 @@ impl Kernel for LastEnclosure<'_, '_> {
             return Attempt::Untried;
         }
         let Some(weights) = encloses_origin(&frame, pairs.as_slice()) else { return Attempt::NotEnclosed };
-        // Where memory is lacking for integers the rungs to come say so.
+        // If memory is lacking for integers, the later rungs report it.
         if self.pair.fill_enclosed(&frame, &Hint { pairs, steps: 0 }, weights).is_err() {
             return Attempt::Untried;
         }
@@ -233,7 +233,7 @@ impl Kernel for LastEnclosure<'_, '_> {
     }
 }
 
-/// The common case of bodies in contact: what proved their depth the last time still does.
+/// The common case of bodies in contact: the last proof of their depth still holds.
 struct LastPyramid<'a, 'b> {
     pair: &'a mut PairQuery<'b>,
     pyramid: Pyramid,
@@ -256,7 +256,7 @@ impl Kernel for LastPyramid<'_, '_> {
         let pairs = [a, b, c, pyramid.apex()];
         let Some(weights) = encloses_origin(&frame, &pairs) else { return Attempt::Untried };
         let mut points = decide::combinations(polyhedra, &pairs, &weights);
-        // Where the tetrahedron is thin the two points are not yet one.
+        // If the tetrahedron is thin, the two points do not coincide yet.
         if frame.difference(&points[0], &points[1]).to_vector().norm() > rounding.difference {
             let weights = contact::refined_weights(polyhedra, poses, &pairs, weights);
             points = decide::combinations(polyhedra, &pairs, &weights);

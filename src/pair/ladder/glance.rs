@@ -1,4 +1,4 @@
-//! What settles a query at a glance: bounding spheres that are apart, or the axis that separated the bodies the last time.
+//! Queries settled at a glance: bounding spheres that are apart, or the axis that separated the bodies the last time.
 
 use super::query::PairQuery;
 use crate::base::simd::{self, Kernel, Lanes};
@@ -9,7 +9,7 @@ use crate::solve::certificate::reciprocal_length;
 use crate::solve::separating_axis::{self, AxisSearch, Trial};
 
 impl PairQuery<'_> {
-    /// Whether the bounding spheres are farther apart than is enough; the answer then says so, and the cache stays as it is.
+    /// Whether the bounding spheres are farther apart than is enough; the answer then reports that, and the cache stays as it is.
     #[inline(always)]
     pub(super) fn spheres_are_far_apart(&mut self) -> bool {
         let enough = self.enough();

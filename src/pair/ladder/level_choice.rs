@@ -33,7 +33,7 @@ const MANY_VERTICES: usize = 60_000;
 /// vertices (1.2 times slower at 0.1°, 1.6 to 2 times faster elsewhere).
 const VERY_MANY_VERTICES: usize = 200_000;
 
-/// Bodies of at least so many vertices, both together, may be worth levels; `None` where only the bodies themselves tell.
+/// Bodies of at least this many vertices, both together, may be worth levels; `None` where only the bodies themselves decide.
 #[inline(always)]
 fn least_vertices(query: Query) -> Option<usize> {
     match query {
@@ -43,7 +43,7 @@ fn least_vertices(query: Query) -> Option<usize> {
     }
 }
 
-/// How far the bounding spheres are apart, about; 0 where they overlap. It only says where to look.
+/// How far the bounding spheres are apart, about; 0 where they overlap. It only guides where to look.
 fn gap_of_spheres(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> f64 {
     let [centre1, centre2] = [0, 1].map(|i| poses[i].transform(&polyhedra[i].centre));
     let gap = (centre1 - centre2).norm() - (polyhedra[0].radius + polyhedra[1].radius);
@@ -68,8 +68,8 @@ fn standing_off(shape: &Shape) -> f64 {
     5.0 * shape.polyhedron().radius / shape.polyhedron().vertices.len() as f64
 }
 
-/// From which error on an approximate query about two bodies may be answered sooner than exactly, by maps of support functions or
-/// by levels; infinite where neither ever does.
+/// The error from which an approximate query about two bodies may be answered faster than exactly, by maps of support functions
+/// or by levels; infinite where neither ever does.
 pub(crate) fn least_error(shapes: [&Shape; 2], levels: Levels) -> f64 {
     let of_levels = least_error_of_levels(shapes, levels);
     if levels == Levels::Automatic { of_levels.min(support_glance::least_error(shapes)) } else { of_levels }
@@ -140,7 +140,7 @@ impl<'a> PairQuery<'a> {
         if relative > self.config.absolute_error { relative } else { self.config.absolute_error }
     }
 
-    /// Whether automatic levels are to be gone through. They are made if they are missing.
+    /// Whether automatic levels must be gone through. They are made if they are missing.
     fn automatic_levels_may_answer(&self) -> Result<bool> {
         if !self.is_large(self.query) {
             return Ok(false);
@@ -196,20 +196,20 @@ impl<'a> PairQuery<'a> {
         are_worth_it(shapes, error) && may_answer(shapes, error)
     }
 
-    /// What the query wants to know.
+    /// The accuracy that the query needs.
     fn accuracy_of_levels(&self) -> Accuracy {
         let beyond = self.config.distance_tolerance;
         match self.query {
-            // A tolerance is to be on one side of the interval.
+            // A tolerance must be on one side of the interval.
             Query::Intersection if beyond < f64::INFINITY => Accuracy { absolute: 0.0, relative: 0.0, beyond },
             Query::Intersection => Accuracy { absolute: f64::INFINITY, relative: 0.0, beyond },
             Query::Approximate => self.accuracy(),
-            // Only the bodies themselves tell.
+            // Only the bodies themselves decide.
             Query::Distance | Query::Contact => Accuracy { absolute: 0.0, relative: 0.0, beyond },
         }
     }
 
-    /// Whether what a pair of levels says is narrow enough an answer.
+    /// Whether the bounds of a pair of levels are narrow enough an answer.
     #[inline(always)]
     pub(super) fn is_met_by(&self, found: &LevelBounds) -> bool {
         self.accuracy().is_met_by(found.lower, found.upper)
@@ -217,12 +217,12 @@ impl<'a> PairQuery<'a> {
 
     /// How far levels may stand off from their bodies and still answer a query about bodies `gap` apart.
     pub(super) fn near_enough(&self, gap: f64) -> f64 {
-        // Who asks for all levels begins at the coarsest where there is a tolerance, as Ehmann & Lin do.
+        // A query for all levels begins at the coarsest where there is a tolerance, as Ehmann & Lin do.
         let asks_coarsest = (self.config.levels == Levels::All) & (self.config.distance_tolerance < f64::INFINITY);
         if asks_coarsest | (self.query != Query::Approximate) {
             return f64::INFINITY;
         }
-        // The whole interval is to be on the bodies' own side of the tolerance.
+        // The whole interval must be on the bodies' own side of the tolerance.
         let tolerance = self.config.distance_tolerance;
         if gap > tolerance { gap - tolerance } else { self.most_error(gap).min(tolerance - gap) }
     }

@@ -1,5 +1,5 @@
 //! The common case of approximate queries through levels of detail: near the features of the levels that the cache holds are the
-//! nearest, and they say enough. Straight through to the answer that the search among the levels comes to, to the last bit.
+//! nearest, and they suffice. A direct path to the answer of the search among the levels, to the last bit.
 
 use super::query::PairQuery;
 use crate::base::simd::{self, Kernel, Lanes};

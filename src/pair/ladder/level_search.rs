@@ -20,13 +20,13 @@ use crate::solve::marching::step_limit;
 use crate::solve::state::State;
 use crate::solve::voronoi::climb;
 
-/// What a search among levels came to.
+/// The result of a search among levels.
 pub(super) enum Searched<'a> {
     /// The answer is there.
     Answered,
     /// There are no levels that may answer.
     Bodies,
-    /// Marching at the bodies themselves from where the search came to ended so; where the next is to start is still to be
+    /// Marching at the bodies themselves, from where the search ended, ended so; where the next is to start is still to be
     /// remembered.
     Marched(LevelSearch<'a>, Attempt),
 }
@@ -100,7 +100,7 @@ impl<'a> LevelSearch<'a> {
         }
     }
 
-    /// Where the search starts: where the last one ended, else at the coarsest levels. Whether it is the former, too.
+    /// The start of the search: where the last one ended, else at the coarsest levels. Also returns whether it is the former.
     fn start(&self, pair: &PairQuery) -> (LevelState, bool) {
         let recalled = if pair.asks_cache() { pair.cache.level_state(&self.bodies) } else { None };
         match recalled {
@@ -115,8 +115,8 @@ impl<'a> LevelSearch<'a> {
         }
     }
 
-    /// Where to start if not where the last search ended: at the levels that may be near enough, at the vertices that their tables
-    /// say; without tables at the coarsest levels.
+    /// The start if it is not where the last search ended: at the levels that may be near enough, at the vertices from their
+    /// tables. Without tables it is at the coarsest levels.
     fn start_anew(&self, pair: &PairQuery) -> LevelState {
         let bodies = &self.bodies;
         let levels = if !self.has_levels {
@@ -167,7 +167,7 @@ impl<'a> LevelSearch<'a> {
         pair.cache.remember_level_state(self.bodies.coarsened(at, gap, most), 0);
     }
 
-    /// The answer when the steps are spent: what the levels say, or what a look along the line of two vertices says.
+    /// The answer when the steps are spent: the bounds of the levels, or of a look along the line of two vertices.
     #[cold]
     fn spend(&self, pair: &mut PairQuery, found: Option<LevelBounds>, at: LevelState, steps: u32) -> Searched<'a> {
         let (polyhedra, poses) = (pair.polyhedra(), pair.poses());
@@ -203,7 +203,7 @@ fn has_tables([first, second]: [&Polyhedron; 2]) -> bool {
     first.lookup.serves_with(&second.lookup)
 }
 
-/// What the line through two vertices says of the distance: their distance from above, supports along it from below.
+/// The bounds on the distance from the line through two vertices: their distance from above, supports along it from below.
 struct Glance<'a> {
     polyhedra: [&'a Polyhedron; 2],
     poses: [&'a Pose; 2],

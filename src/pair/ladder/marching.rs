@@ -1,4 +1,4 @@
-//! Attempts at the bodies themselves: marching from the last features, from where the tables say, or afresh, each minimum judged
+//! Attempts at the bodies themselves: marching from the last features, from the tables' vertices, or afresh, each minimum judged
 //! as it is found.
 
 use super::acceptance::{Acceptance, AtFirst};
@@ -14,7 +14,7 @@ use crate::solve::marching::{self, March, Transition, step_limit};
 use crate::solve::state::State;
 
 impl PairQuery<'_> {
-    /// Marching from the last features, of bodies that are [simple](PairQuery::is_simple).
+    /// Marching from the last features, for bodies that are [simple](PairQuery::is_simple).
     #[inline(always)]
     pub(super) fn march_from_last_features(&mut self) -> Attempt {
         simd::dispatch(&mut Coherent { pair: self })
@@ -25,7 +25,7 @@ impl PairQuery<'_> {
         simd::dispatch(&mut General { pair: self, start })
     }
 
-    /// Marching on at the bodies themselves from a state that a search among levels came to.
+    /// Marching on at the bodies themselves from a state that a search among levels reached.
     pub(super) fn march_on(&mut self, start: State, steps: u32, leg: Leg) -> Attempt {
         simd::dispatch(&mut FromState { pair: self, start, steps, leg })
     }
@@ -45,12 +45,12 @@ pub(super) enum Leg {
     Trial,
     /// To the end.
     Whole,
-    /// So many steps.
+    /// The number of steps.
     Budget(u32),
 }
 
 impl Leg {
-    /// With so many steps of a budget left; `u32::MAX` stands for no budget. A trial may go on for longer than a budget.
+    /// With this many steps of a budget left; `u32::MAX` means no budget. A trial may go on for longer than a budget.
     pub(super) fn of(left: u32, is_trial: bool) -> Leg {
         match left {
             u32::MAX if is_trial => Leg::Trial,
@@ -156,7 +156,7 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
 /// The general case: any bodies, poses and caches.
 struct General<'a, 'b> {
     pair: &'a mut PairQuery<'b>,
-    /// Where to start if the cache holds no features, if that is known.
+    /// The start if the cache holds no features, if it is known.
     start: Option<StartPair>,
 }
 

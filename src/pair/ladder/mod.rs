@@ -1,4 +1,4 @@
-//! The ladder: every way in which an answer comes about, the cheapest first. Each rung answers, or hands on what it learnt; the
+//! The ladder: every way in which an answer comes about, the cheapest first. Each rung answers, or hands on its findings; the
 //! last one, integers, always answers.
 
 mod query;
@@ -128,7 +128,7 @@ fn answer_by_bodies(query: Query, pair: &mut PairQuery, glances: Glances) -> Res
     }
 }
 
-/// The rest, for what is not the common case.
+/// The rest, for the less common cases.
 #[inline(never)]
 fn answer_on(pair: &mut PairQuery, mut attempt: Attempt) -> Result<()> {
     pair.forget()?;

@@ -1,4 +1,4 @@
-//! One query: what is asked, of which bodies, and where the answer goes.
+//! One query: the request, its bodies, and the destination of the answer.
 
 use crate::base::error::Result;
 use crate::base::math::{Pose, clamp};
@@ -21,10 +21,10 @@ pub(in crate::pair) enum Glances {
     LeftOut,
 }
 
-/// One query, its configuration checked. What is asked for is read here and in [`level_choice`](super::level_choice) alone.
+/// One query, its configuration checked. The requested result is read only here and in [`level_choice`](super::level_choice).
 pub(in crate::pair) struct PairQuery<'a> {
     pub query: Query,
-    /// Where the caller has them: a copy would load at once what has just been stored pointer by pointer, and wait for it (R1).
+    /// Borrowed from the caller: a copy would load at once what has just been stored pointer by pointer, and wait for it (R1).
     pub bodies: &'a [Placed<'a>; 2],
     pub cache: &'a mut PairCache,
     pub config: &'a PairConfig,
@@ -56,7 +56,7 @@ impl<'a> PairQuery<'a> {
         self.config.rotation_limit >= RIGID_TOGETHER
     }
 
-    /// What an approximate query wants to know.
+    /// The accuracy that an approximate query needs.
     #[inline(always)]
     pub fn accuracy(&self) -> Accuracy {
         let config = self.config;
@@ -71,7 +71,7 @@ impl<'a> PairQuery<'a> {
         if is_verdict { 0.0 } else { tolerance }
     }
 
-    /// Made in place by whoever calls it: it is large.
+    /// Made in place by the caller: it is large.
     #[inline(always)]
     pub fn frame<L: Lanes>(&self) -> Frame<'a, L> {
         Frame::new(self.polyhedra(), self.poses(), self.config.rotation_limit)
@@ -96,19 +96,19 @@ impl<'a> PairQuery<'a> {
         Ok(())
     }
 
-    /// Whether the cache may say where to start.
+    /// Whether the cache may give the start.
     #[inline(always)]
     pub fn asks_cache(&self) -> bool {
         matches!(self.config.start, Start::Automatic | Start::Cache)
     }
 
-    /// Whether look-up tables may say where to start.
+    /// Whether look-up tables may give the start.
     #[inline(always)]
     pub fn asks_tables(&self) -> bool {
         self.config.start != Start::Cold
     }
 
-    /// Whether a pair that has jumped may start anew, or is to begin at its last features all the same.
+    /// Whether a pair that has jumped may start anew, or must begin at its last features regardless.
     #[inline(always)]
     pub fn may_start_anew(&self) -> bool {
         self.config.start != Start::Cache
@@ -120,7 +120,7 @@ impl<'a> PairQuery<'a> {
         self.may_start_anew().then_some(&self.cache.marker)
     }
 
-    /// What the integers and the fallback are to tell. Cheap bounds or not, nearest points are to be nearest.
+    /// The result that the integers and the fallback must deliver. Cheap bounds or not, nearest points must be nearest.
     pub fn wanted(&self) -> Wanted {
         let distance_tolerance = self.config.distance_tolerance;
         let tight = self.query != Query::Intersection || distance_tolerance < f64::INFINITY;
@@ -129,7 +129,7 @@ impl<'a> PairQuery<'a> {
 
     // --- Answers -----------------------------------------------------------------------------------------------------------------
 
-    /// Whether an interval of the distance, of bodies of a size, answers the query.
+    /// Whether an interval of the distance, for bodies of a size, answers the query.
     #[inline(always)]
     pub fn is_answered_by(&self, interval: &Interval, size: f64) -> bool {
         let is_narrow = interval.is_tight(size)
@@ -157,7 +157,7 @@ impl<'a> PairQuery<'a> {
         set_interval(self.answer, interval, distance, self.config.distance_tolerance);
     }
 
-    /// The same of an interval that need not settle the tolerance: what a budget leaves open is not beyond.
+    /// The same for an interval that need not settle the tolerance: a case that a budget leaves open is not beyond.
     #[inline(always)]
     pub fn set_open_interval(&mut self, interval: &Interval, distance: f64) {
         let tolerance = if self.is_settled_by(interval) { self.config.distance_tolerance } else { f64::INFINITY };
@@ -165,7 +165,7 @@ impl<'a> PairQuery<'a> {
     }
 }
 
-/// What became of an attempt at marching.
+/// The result of an attempt at marching.
 pub(super) enum Attempt {
     /// The answer is there.
     Answered,
@@ -177,10 +177,10 @@ pub(super) enum Attempt {
     NotEnclosed,
 }
 
-/// What marching left open.
+/// The state that marching leaves open.
 #[derive(Clone, Copy)]
 pub(super) struct Open {
-    /// Where it came to.
+    /// The state that marching reached.
     pub at: State,
     /// Whether that is a minimum, whose certificate does not hold.
     pub is_minimum: bool,

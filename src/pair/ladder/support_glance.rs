@@ -1,4 +1,4 @@
-//! Approximate distances by look-ups of both bodies' support functions: what is not to be exact need not find the nearest features.
+//! Approximate distances by look-ups of both bodies' support functions: an approximate query need not find the nearest features.
 
 use super::query::PairQuery;
 use crate::base::error::Result;
@@ -13,8 +13,8 @@ use crate::solve::frame::Frame;
 use crate::solve::support_search::SupportSearch;
 use crate::tables::support_map::{Choice, Grids};
 
-/// The square of an angle times the root of the vertices: pairs that move by less from query to query are answered sooner by
-/// marching from their last features. Of bodies of 1,002 vertices that is 2.2°, of 10,002 0.7°.
+/// The square of an angle times the root of the vertices: pairs that move by less from query to query are answered faster by
+/// marching from their last features. For bodies of 1,002 vertices that is 2.2°, of 10,002 0.7°.
 const STILL: f64 = 1.44;
 
 /// From which error on maps of support functions may answer an approximate query about two bodies; infinite where they never do.

@@ -1,10 +1,9 @@
-//! Marching across levels of detail: from coarse levels to ever finer ones, as far as the query needs (Ehmann & Lin 2000, §3
-//! and §5.2).
+//! Marching across levels of detail: from coarse levels to finer ones, as far as the query needs (Ehmann & Lin 2000, §3 and
+//! §5.2).
 //!
 //! A level contains its body and stands off by at most its deviation. So bodies are at least as far apart as any two levels of
-//! theirs, and at most by the deviations farther: a pair of levels that is disjoint already bounds the distance from both
-//! sides, for sure. The level pair P₀/P₀ is not looked at here; that is an ordinary query, for which the search has found a
-//! start.
+//! theirs, and at most by the deviations farther. Thus a disjoint pair of levels already bounds the distance from both sides,
+//! provably. The level pair P₀/P₀ is not looked at here; that is an ordinary query, for which the search has found a start.
 
 use super::leveled::{LevelState, Leveled};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
@@ -16,7 +15,7 @@ use crate::solve::frame::{Frame, Marker};
 use crate::solve::marching::{self, March, Step, Transition, step_limit};
 use crate::solve::state::State;
 
-/// What a pair of levels says of its bodies.
+/// The bounds that a pair of levels gives for its bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LevelBounds {
     /// The levels and the features where they are nearest.
@@ -29,12 +28,12 @@ pub struct LevelBounds {
     pub normal: Vector,
 }
 
-/// What a search came to.
+/// The result of a search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Descended {
     /// An interval as narrow as was asked for, or beyond what has to be known: the one found.
     Enough,
-    /// The bodies themselves have to be looked at, from where it came to.
+    /// The bodies themselves must be looked at, from the state reached.
     Finest,
     /// The pair has jumped since the marker, or the trial took too long.
     Lost,
@@ -44,30 +43,30 @@ pub enum Descended {
 
 /// A search from levels and features on. It is lent to the kernel and keeps what it finds.
 pub struct Descent<'a> {
-    /// What is searched.
+    /// The bodies that are searched.
     pub bodies: Leveled<'a>,
-    /// What is asked for.
+    /// The accuracy that is asked for.
     pub accuracy: Accuracy,
     /// How it goes to finer levels.
     pub refinement: Refinement,
     /// Largest accepted entry of |RᵀR − I|.
     pub rotation_limit: f64,
-    /// Where it is; the features are features of the levels.
+    /// The place of the search; the features are features of the levels.
     pub at: LevelState,
     /// Whether the first levels get but a few steps: they are those of an earlier query, and the bodies may have jumped.
     pub is_trial: bool,
-    /// Where a trial is given up at once if the pair has [jumped](levels_have_jumped) since it had this marker.
+    /// A trial is given up at once if the pair has [jumped](levels_have_jumped) since it had this marker.
     pub marker: Option<Marker>,
     /// Steps of marching that it may make, at least 1.
     pub step_limit: u32,
     /// Steps made.
     pub steps: u32,
-    /// The last that a pair of disjoint levels said.
+    /// The last bounds of a pair of disjoint levels.
     pub found: Option<LevelBounds>,
 }
 
-/// Steps of a trial. Marching from the features of an earlier query is given up for a new start after so many: the pair has jumped
-/// without being noticed.
+/// Steps of a trial. Marching from the features of an earlier query is given up for a new start after this many: the pair has
+/// jumped without being noticed.
 pub const TRIAL_STEPS: u32 = 16;
 
 impl Kernel for Descent<'_> {
@@ -117,8 +116,8 @@ impl Kernel for Descent<'_> {
 }
 
 /// The beginning of a search alone, the trial at its first levels, for [simple](Polyhedron::simple) levels and a rotation limit
-/// of at least [`RIGID_TOGETHER`](crate::solve::frame::RIGID_TOGETHER): what it finds, if anything, in how many steps, and the
-/// pair's frame. It is what the search would find.
+/// of at least [`RIGID_TOGETHER`](crate::solve::frame::RIGID_TOGETHER): its result, if any, the number of steps, and the pair's
+/// frame. It is the result that the search would find.
 #[inline(always)]
 pub fn try_first<'a, L: Lanes>(
     bodies: &Leveled<'a>,
@@ -139,7 +138,7 @@ pub fn try_first<'a, L: Lanes>(
         state = at;
         steps += more;
     }
-    // Of a minimum alone it has kept something.
+    // Only a minimum has left something in `keep`.
     let found = keep.found(&frame, bodies, LevelState { state, ..at })?;
     Some((found, steps, frame))
 }
@@ -184,7 +183,7 @@ impl<L: Lanes> Keep<L> {
         Keep { interval: [f64::NEG_INFINITY, f64::INFINITY], normal: L::splat(0.0) }
     }
 
-    /// What it says of the bodies, if it proves that the levels are disjoint.
+    /// The bounds on the bodies, if the search proves that the levels are disjoint.
     #[inline(always)]
     fn found(&self, frame: &Frame<L>, bodies: &Leveled, at: LevelState) -> Option<LevelBounds> {
         let [lower, upper] = self.interval;
@@ -199,7 +198,7 @@ impl<L: Lanes> Keep<L> {
     }
 }
 
-/// What a quick look at a minimum leaves open.
+/// A closer look at a minimum that a quick look leaves open.
 #[inline(always)]
 fn look_closer<L: Lanes>(frame: &Frame<L>, keep: &mut Keep<L>, at: State) {
     let mut closer = CloserLook::<L, false> { found: None };

@@ -14,7 +14,7 @@ pub struct Leveled<'a> {
     bodies: [&'a Polyhedron; 2],
     /// Their levels that are made, the finest first.
     levels: [&'a [Level]; 2],
-    /// Where they are.
+    /// The poses of the bodies.
     pub poses: [&'a Pose; 2],
 }
 
@@ -98,9 +98,9 @@ impl<'a> Leveled<'a> {
         self.next_rise(at.levels, gap, most - off).is_none()
     }
 
-    /// Where the next query is to start: up the parents for as long as the levels would still be disjoint, the distance `gap`
-    /// of the levels being decreased by the differences in deviation (Ehmann & Lin 2000, §5.2), and would together stand off by
-    /// no more than `most`.
+    /// The start of the next query: up the parents for as long as the levels would still be disjoint and would together stand off
+    /// by no more than `most`. Each step decreases the distance `gap` of the levels by the differences in deviation (Ehmann & Lin
+    /// 2000, §5.2).
     pub fn coarsened(&self, from: LevelState, gap: f64, most: f64) -> LevelState {
         let LevelState { mut levels, state } = from;
         let mut features = state.features();
@@ -265,7 +265,7 @@ mod tests {
         assert!(reached.len() >= 6, "{reached:?}");
     }
 
-    /// Where going up promises levels that are disjoint they are: each stands off by no more than its deviation.
+    /// If going up promises disjoint levels, they are disjoint: each stands off by no more than its deviation.
     #[test]
     #[cfg_attr(miri, ignore = "builds levels, which takes it hours")]
     fn coarsened_levels_are_disjoint() {

@@ -1,4 +1,5 @@
-//! Levels of detail of a pair: which there are, what a pair of levels says of its bodies, and marching from coarse to fine.
+//! Levels of detail of a pair: which exist, the bounds that a pair of levels gives for its bodies, and marching from coarse to
+//! fine.
 
 mod leveled;
 mod descent;

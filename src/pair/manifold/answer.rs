@@ -1,4 +1,4 @@
-//! What a manifold query is asked for, answers and remembers: plain data, laid out for C.
+//! The options, the answer and the cache of a manifold query: plain data, laid out for C.
 
 use crate::base::error::{Result, check_range};
 use crate::base::math::ROTATION_LIMIT;
@@ -6,7 +6,7 @@ use crate::pair::answer::{Feature, Outcome};
 use crate::pair::depth::DepthCache;
 use crate::pair::signed_distance::SignedDistanceCache;
 
-/// What a manifold query is asked for.
+/// The options of a manifold query.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ManifoldConfig {
     /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default).
@@ -26,7 +26,7 @@ impl Default for ManifoldConfig {
 }
 
 impl ManifoldConfig {
-    /// Refuses what is out of range.
+    /// Refuses values out of range.
     ///
     /// # Errors
     /// [`Error::Argument`](crate::base::error::Error::Argument), naming the first such member.
@@ -47,7 +47,7 @@ pub struct ManifoldCache {
 }
 
 impl ManifoldCache {
-    /// What it remembers of the depth.
+    /// The cached depth.
     pub(crate) fn depth(&self) -> &DepthCache {
         self.signed_distance.depth()
     }
@@ -112,7 +112,7 @@ impl ManifoldPoint {
     }
 }
 
-/// Nothing is said.
+/// No value is set.
 impl Default for ManifoldPoint {
     fn default() -> Self {
         const UNSAID: [f64; 3] = [f64::NAN; 3];
@@ -151,7 +151,7 @@ pub struct Manifold {
     pub found_count: u32,
 }
 
-/// Nothing is said.
+/// No value is set.
 impl Default for Manifold {
     fn default() -> Self {
         Manifold {

@@ -1,9 +1,9 @@
 //! The common part of two outlines, in one sweep from left to right: its corners are corners of one inside the other, and
 //! crossings. Time in proportion to the corners; nothing is stored.
 //!
-//! What is nearer than `coincident` is at one place: there a corner speaks for crossings, and the reference's corner for the
-//! other's. So sides that lie on each other have no crossings, which could be anywhere along them, and which of two aligned
-//! corners speaks does not hang on the last bit.
+//! Points nearer to each other than `coincident` count as one place: there a corner represents crossings, and the reference's
+//! corner represents the other's. So sides that lie on each other have no crossings, which could be anywhere along them. Nor does
+//! it depend on the last bit which of two aligned corners speaks.
 
 use super::outline::{Chain, Outline};
 use crate::base::math::Vector;
@@ -46,9 +46,9 @@ impl Spot {
 /// How exact the sweep is.
 #[derive(Debug, Clone, Copy)]
 pub struct Precision {
-    /// What rounding makes of a length.
+    /// The rounding error of a length.
     pub rounding: f64,
-    /// What is nearer than this is at one place; much more than the rounding.
+    /// Points nearer to each other than this count as one place; much more than the rounding.
     pub coincident: f64,
     /// The body, 0 or 1, whose corners speak first.
     pub reference: usize,
@@ -91,7 +91,7 @@ pub fn common_part(outlines: &[Outline; 2], precision: &Precision, mut visit: im
     recent.pass(f64::INFINITY, &mut visit);
 }
 
-/// The chain whose event is the leftmost one to come.
+/// The chain with the leftmost next event.
 fn next_event(chains: &[[Chain; 2]; 2], pending: &[[bool; 2]; 2]) -> Option<[usize; 2]> {
     let mut next: Option<([usize; 2], f64)> = None;
     for (body, side) in [(0, 0), (0, 1), (1, 0), (1, 1)] {
@@ -118,7 +118,7 @@ fn other_point(
     {
         return Some((Vector::new(place.x, place.y, height), error));
     }
-    // Of two sides the nearer one, or, as of a patch that stands upright, the one that is more towards the body.
+    // The nearer of two sides or, as for a patch that stands upright, the one that is more towards the body.
     let towards = if body == 0 { 1.0 } else { -1.0 };
     let value = |(point, off): (Vector, f64)| (point, towards * point.z - off);
     let near = others.iter().filter_map(|chain| chain.point_near(place, precision.coincident, towards)).map(value);
@@ -147,7 +147,7 @@ fn is_between(chains: &[Chain; 2], place: &Vector, precision: &Precision) -> boo
     off <= precision.rounding && place.y >= low.y && place.y <= high.y
 }
 
-/// Where the segments of two chains cross, if they do, and neither begins nor ends at the other: such an end has a
+/// The point where the segments of two chains cross, if they do, and neither begins nor ends at the other: such an end has a
 /// [point there](other_point).
 fn crossing(chains: [&Chain; 2], precision: &Precision) -> Option<Spot> {
     let [first, second] = chains;
@@ -174,14 +174,14 @@ fn crossing(chains: [&Chain; 2], precision: &Precision) -> Option<Spot> {
     }
     let share = before / (before - after);
     let spots = [0, 1].map(|i| begin[i] + (end[i] - begin[i]) * share);
-    // Where along the segments they cross is off by the rounding over how fast they part.
+    // The place of the crossing along the segments is off by the rounding over how fast they part.
     let off = (2.0 * precision.rounding / (before - after).abs()).min(1.0);
     let gaps = [begin[0].z - begin[1].z, end[0].z - end[1].z];
     let corner = CommonCorner::Crossing { sides: [first.side(), second.side()] };
     Some(Spot { corner, spots, error: off * (gaps[0] - gaps[1]).abs() })
 }
 
-/// Corners that are told later, as another at the same place may speak for them.
+/// Corners that are reported later, as another at the same place may represent them.
 struct Recent<'a> {
     spots: [Option<Spot>; REMEMBERED],
     precision: &'a Precision,

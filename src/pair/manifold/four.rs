@@ -1,4 +1,4 @@
-//! Four of points that are there already, as of several manifolds with one normal.
+//! Four of points that exist already, for instance those of several manifolds with one normal.
 
 use super::answer::{FOUR, ManifoldPoint};
 use super::clip::CommonCorner;
@@ -8,9 +8,9 @@ use super::reduction::{Thinned, four_of};
 use crate::base::math::Vector;
 use nalgebra::Vector2;
 
-/// Of points with one normal the places of those that stay of a reduced manifold; `size` is a length next to the pair. Of points
-/// as deep as the deepest, that one counts as the deepest which is farthest out: where inner edges of a plane are crossed, no point
-/// is a corner of what is covered.
+/// For points with one normal, the places of those that stay in a reduced manifold; `size` is a length next to the pair. Among
+/// points as deep as the deepest, the farthest out counts as the deepest: where inner edges of a plane are crossed, no point is a
+/// corner of what is covered.
 pub(crate) fn four_of_points(points: &[ManifoldPoint], normal: &[f64; 3], size: f64) -> impl Iterator<Item = usize> {
     let normal = Vector::from(*normal);
     let axes = Axes::new(&normal, &normal);

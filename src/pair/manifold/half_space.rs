@@ -24,11 +24,11 @@ use crate::solve::exact::OverPlane;
 use crate::solve::state::FeatureId;
 use std::ops::RangeInclusive;
 
-/// Where a body, which is object 1, meets a half-space, or is up to the margin apart: the corners of its face that looks most at
-/// the plane, with a gap of at most the margin. The deepest point of the body is among them. Points on the half-space are on its
-/// plane, in the world; their features are of no kind.
+/// The contact points of a body, which is object 1, that meets a half-space or is up to the margin apart. They are the corners of
+/// the body's face that looks most at the plane, with a gap of at most the margin. The deepest point of the body is among them.
+/// Points on the half-space are on its plane, in the world; their features are of no kind.
 ///
-/// Of a manifold that is reduced four points are chosen anew each time: there is no cache.
+/// For a reduced manifold, four points are chosen anew each time: there is no cache.
 ///
 /// # Errors
 /// As of [`half_space_distance`](crate::pair::half_space_distance) and of [`manifold`](crate::pair::manifold).
@@ -43,7 +43,7 @@ pub fn half_space_manifold(
     half_space_manifold_into(body, half_space, config, &mut Sink { capacity, written: 0, write: &mut write })
 }
 
-/// The same, to where the caller says.
+/// The same, written to the caller's place.
 pub(crate) fn half_space_manifold_into(
     body: Placed,
     half_space: &HalfSpace,
@@ -116,7 +116,7 @@ struct Plane<'a> {
 /// How far vertices are over a plane.
 enum Heights {
     Rounded(RoundedPlane),
-    /// Of all corners of the outline, by integers: doubles are too small or too large to tell.
+    /// The coordinates of all corners of the outline, by integers: doubles are too small or too large to tell.
     Exact(Vec<[f64; 2]>),
 }
 
@@ -130,8 +130,8 @@ struct RoundedPlane {
     error: f64,
 }
 
-/// What double-double arithmetic makes of a product of sums of products, over the sizes of all parts: some 20 operations at 2⁻¹⁰²
-/// each, and a margin for what underflows.
+/// The error of double-double arithmetic for a product of sums of products, over the sizes of all parts: some 20 operations at
+/// 2⁻¹⁰² each, and a margin for what underflows.
 const ERROR: f64 = f64::from_bits((1023 - 90) << 52);
 
 /// Sums of sizes from here, 2⁻⁸⁰⁰, to here, 2⁹⁰⁰, are for double-double arithmetic. Some hundred operations lose 2⁻¹⁰⁷⁴ each where
@@ -151,7 +151,7 @@ impl RoundedPlane {
         let size = 2.0 * (polyhedron.centre.lp_norm(1) + polyhedron.radius) + body.pose.translation().lp_norm(1);
         let sizes = normal.lp_norm(1) * size + offset.abs();
         let plane = RoundedPlane { normal: widen(&normal), offset, length: normal.norm(), error: ERROR * sizes };
-        // False for what overflows.
+        // False on overflow.
         SIZES.contains(&sizes).then_some(plane)
     }
 

@@ -2,8 +2,8 @@
 //! penetration alike.
 //!
 //! The reference is the patch most parallel to the normal, a face up to the noise of the input, the incident patch the other
-//! object's; what both cover, seen along the normal, is the manifold. Where no patch is nearly parallel to the normal, as where
-//! edges cross, it is the one pair of witness points.
+//! object's; the part that both cover, seen along the normal, is the manifold. If no patch is nearly parallel to the normal, as
+//! where edges cross, it is the one pair of witness points.
 
 mod answer;
 mod id;
@@ -43,7 +43,7 @@ use patch::{COINCIDENT, Facing, facing};
 use places::{CommonPoint, Origin, View};
 use reduction::{Thinned, four_of};
 
-/// The manifold of two objects, written to `points` as far as there is room. Of objects farther apart than the margin there is
+/// The manifold of two objects, written to `points` as far as there is room. For objects farther apart than the margin there is
 /// none.
 ///
 /// The normal and the interval are as certain as those of [`crate::pair::distance`] and [`crate::pair::depth`]. Points are those
@@ -88,10 +88,10 @@ fn manifold_beside(
     manifold_into(bodies, cache, config, &mut Sink { capacity, written: 0, write: &mut write }, distance)
 }
 
-/// Fills all members of a point where it is to be: what was just written number by number is not copied (rule R1).
+/// Fills all members of a point in its final place: numbers just written one by one are not copied (rule R1).
 pub(crate) type Fill<'a> = &'a mut dyn FnMut(&mut ManifoldPoint);
 
-/// Where points go.
+/// The destination of points.
 pub(crate) struct Sink<'a> {
     /// How many there is room for.
     pub capacity: usize,
@@ -121,7 +121,7 @@ impl Sink<'_> {
 /// Has points added to a list that grows with them.
 ///
 /// # Errors
-/// [`Error::Memory`](crate::base::error::Error::Memory), beside what `find` says.
+/// [`Error::Memory`](crate::base::error::Error::Memory), beside the errors of `find`.
 pub(crate) fn add_points<A>(points: &mut Vec<ManifoldPoint>, find: impl FnOnce(&mut Sink) -> A) -> Result<A> {
     let mut written = Ok(());
     let mut write = |_: usize, fill: Fill| {
@@ -136,7 +136,7 @@ pub(crate) fn add_points<A>(points: &mut Vec<ManifoldPoint>, find: impl FnOnce(&
     written.map(|()| found)
 }
 
-/// As [`manifold_with_distance`], to where the caller says.
+/// As [`manifold_with_distance`], written to the caller's place.
 pub(crate) fn manifold_into(
     bodies: [Placed; 2],
     cache: &mut ManifoldCache,
@@ -156,7 +156,7 @@ pub(crate) fn manifold_into(
     })
 }
 
-/// What is known of two objects before their manifold is.
+/// The facts known about two objects before their manifold is.
 pub(crate) enum Known<'a> {
     /// Their distance.
     Apart(&'a PairAnswer),
@@ -182,8 +182,8 @@ pub(crate) fn manifold_of(
     of_bodies(bodies, reference, config, &contact, points)
 }
 
-/// As [`manifold_into`], along the normal of a contact, whatever it is: of faces that meet there. Where none do it is the contact's
-/// pair of points.
+/// As [`manifold_into`], along the normal of any contact: for faces that meet there. If none do, it is the contact's pair of
+/// points.
 pub(crate) fn manifold_along(
     bodies: [Placed; 2],
     contact: &SignedDistance,
@@ -193,7 +193,7 @@ pub(crate) fn manifold_along(
     of_bodies(bodies, &mut Reference::default(), config, contact, points)
 }
 
-/// Of bodies over which balls are swept: that of the polyhedra, whose points are moved out to the surfaces.
+/// The manifold of bodies over which balls are swept: that of the polyhedra, with its points moved out to the surfaces.
 fn of_bodies(
     bodies: [Placed; 2],
     before: &mut Reference,
@@ -307,7 +307,7 @@ fn clip(
     points: &mut Sink,
 ) -> usize {
     let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
-    // Of bodies far from their own origins sums that agree in nearly all digits.
+    // For bodies far from their own origins, these sums agree in nearly all digits.
     let (between, cancelled) = if polyhedra.iter().any(|polyhedron| polyhedron.centre != Vector::zeros()) {
         between_centres(polyhedra, poses)
     } else {
@@ -329,7 +329,8 @@ fn clip(
     ];
     let noise = 2.0 * (outlines[0].slack + outlines[1].slack);
     let precision = Precision { rounding, coincident: noise.max(COINCIDENT * size), reference: patches.reference };
-    // All corners of so small a body are one place: which are over the other's patch, rounding would say. A point has no others.
+    // All corners of so small a body are one place: rounding would decide which are over the other's patch. A point has no
+    // others.
     if polyhedra.iter().any(|body| body.radius > 0.0 && body.radius <= precision.coincident) {
         return 0;
     }

@@ -64,7 +64,7 @@ pub fn first_side(polyhedron: &Polyhedron, patch: Option<Patch>) -> Vector {
 /// body 2.
 pub struct Outline<'a> {
     pub polyhedron: &'a Polyhedron,
-    /// Where the body's own centred origin is.
+    /// The body's own centred origin.
     pub offset: Vector,
     pub axes: &'a Axes,
     /// From the body's axes to those of the contact, and where its origin is there.
@@ -77,12 +77,12 @@ pub struct Outline<'a> {
     pub is_counter_clockwise: bool,
     /// R⁻¹.
     inverse: Option<Matrix>,
-    /// How far a point of its corners and sides is from a point of the body, at most: half of what the slab is thick that the patch
-    /// stands for; 0 of a merged face, whose corners are exact.
+    /// How far a point of its corners and sides is from a point of the body, at most: half the thickness of the slab that the
+    /// patch stands for; 0 of a merged face, whose corners are exact.
     pub slack: f64,
     /// The patch's normal up to its length, in the axes of the contact, and that length.
     normal: Option<(Vector, f64)>,
-    /// Where the first corner is.
+    /// The position of the first corner.
     first: Vector,
 }
 
@@ -134,8 +134,8 @@ impl<'a> Outline<'a> {
         self.patch.map_or(corner as u32, |patch| patch.vertex(self.polyhedron, corner))
     }
 
-    /// Where a corner is: two coordinates across the normal, and the height along it. Corners of a contact face are put into the
-    /// plane in the middle of its slab, along its own normal: seen from anywhere they are a convex polygon.
+    /// The position of a corner: two coordinates across the normal, and the height along it. Corners of a contact face are put
+    /// into the plane in the middle of its slab, along its own normal: seen from anywhere they are a convex polygon.
     pub fn spot(&self, corner: usize) -> Vector {
         let mut position = self.polyhedron.vertices[self.vertex(corner) as usize].position;
         if let Some(Patch::Contact(face)) = self.patch {
@@ -175,8 +175,8 @@ impl<'a> Outline<'a> {
         }
     }
 
-    /// How high a patch is over two coordinates, and what of that may be wrong where lengths are off by `rounding`. `None` of a
-    /// patch on edge, and without one.
+    /// The height of a patch over two coordinates, and its possible error where lengths are off by `rounding`. `None` for a patch
+    /// on edge, and without one.
     ///
     /// A plane that is moved by δ along its unit normal n moves by δ/((R⁻¹)ᵀn)_z along z, whatever R is: so a slab reaches half its
     /// thickness over the cosine up and down. `slack` has a factor by which R may make lengths longer; |(R⁻¹)ᵀn| times that is at
@@ -243,7 +243,7 @@ pub struct Chain<'a> {
     outline: &'a Outline<'a>,
     /// From corner to corner, around.
     step: usize,
-    /// Segments still to come.
+    /// The remaining segments.
     pub segments: usize,
     /// The corner at `to`.
     pub corner: usize,
@@ -271,9 +271,9 @@ impl Chain<'_> {
         if self.step == 1 { (self.corner + self.outline.count - 1) % self.outline.count } else { self.corner }
     }
 
-    /// The segment's point nearest to a place across the normal, if it is within a distance, and how far it is. Of a segment that
-    /// is no longer than that, seen along the normal, the point is the end that is farther along it, or against it: `towards` is
-    /// the sign.
+    /// The segment's point nearest to a place across the normal, if it is within a distance, and how far it is. For a segment
+    /// that is no longer than that, seen along the normal, the point is the end that is farther along it, or against it:
+    /// `towards` is the sign.
     pub fn point_near(&self, place: &Vector, distance: f64, towards: f64) -> Option<(Vector, f64)> {
         let (along, arm) = ((self.to - self.from).xy(), (place - self.from).xy());
         // No squares, which would underflow where lengths do not.

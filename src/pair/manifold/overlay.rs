@@ -1,5 +1,5 @@
 //! The common part of two outlines of few corners, where no corner is near a side of the other: all corners against all sides at
-//! once, as bits. It says what the [sweep](super::clip) says, sooner, and leaves to that whatever is in doubt.
+//! once, as bits. It gives the result of the [sweep](super::clip), faster, and leaves any doubtful case to that.
 
 use super::clip::{CommonCorner, error_at_sides, height_over};
 use super::outline::Outline;
@@ -7,7 +7,7 @@ use super::places::{CommonPoint, Origin, View};
 use crate::base::math::Vector;
 use crate::base::simd::{self, Kernel, Lanes};
 
-/// Corners of an outline: a mask has so many bits.
+/// Corners of an outline: a mask has this many bits.
 pub const FEW: usize = 8;
 
 /// Lanes that hold them.
@@ -16,7 +16,7 @@ const FOURS: usize = FEW / 4;
 /// Corners of a common part: each is on the boundary of both outlines or a corner of one.
 const MOST_CORNERS: usize = 2 * FEW;
 
-/// Within so many times what is [`coincident`](Precision::coincident) the sweep takes two corners for one.
+/// Within this many times [`coincident`](Precision::coincident), the sweep takes two corners for one.
 const DOUBT: f64 = 4.0;
 
 /// The points of the common part whose gap is at most the margin; and the witness points, if others are there and none is as deep.
@@ -74,7 +74,7 @@ impl<L: Lanes> Few<L> {
         self.turn * ((to.x - from.x) * (place.y - from.y) - (to.y - from.y) * (place.x - from.x))
     }
 
-    /// Of each side the corners of another outline that are outside of it; `None` where one is as near as `doubt`.
+    /// For each side, the corners of another outline that are outside of it; `None` where one is as near as `doubt`.
     #[inline(always)]
     fn outside(&self, other: &Few<L>, doubt: f64) -> Option<[u8; FEW]> {
         let mut outside = [0; FEW];
@@ -109,7 +109,7 @@ impl<L: Lanes> Few<L> {
 impl Overlay {
     pub const NONE: Overlay = Overlay { places: [CommonPoint::NOWHERE; MOST_CORNERS + 1], count: 0 };
 
-    /// Makes it that of two outlines; `None` where the sweep has to tell. In place, as it is large.
+    /// Makes it that of two outlines; `None` where the sweep must decide. In place, as it is large.
     pub fn fill(&mut self, view: &View) -> Option<()> {
         let are_few = |outline: &Outline| outline.patch.is_some() && (3..=FEW).contains(&outline.count);
         if !view.outlines.iter().all(are_few) {
@@ -118,8 +118,8 @@ impl Overlay {
         simd::dispatch_to_avx2(&mut Filling { overlay: self, view })
     }
 
-    /// Adds one that is near; whether it may be as deep as the witness points. `None` where there is no room, as of outlines that
-    /// are not convex.
+    /// Adds one that is near; whether it may be as deep as the witness points. `None` where there is no room, for instance for
+    /// outlines that are not convex.
     #[inline(always)]
     fn push(&mut self, view: &View, place: CommonPoint) -> Option<bool> {
         if !view.is_near(&place) {
@@ -200,7 +200,7 @@ impl Kernel for Filling<'_> {
     }
 }
 
-/// Where two sides cross on either outline, and by how much the gap there may be off as they cross at a small angle.
+/// The point where two sides cross on either outline, and how much the gap there may be off because they cross at a small angle.
 ///
 /// How far an end is inside the other's line is off by less than twice the `rounding`, so the share of the side up to the crossing
 /// by that over how far both ends are apart across the line; each height changes along its side by so much of its rise.
@@ -233,7 +233,7 @@ mod tests {
     use crate::polyhedron::Polyhedron;
     use crate::random::Random;
 
-    /// A prism over a convex polygon of so many corners.
+    /// A prism over a convex polygon of this many corners.
     fn prism(corners: usize, random: &mut Random) -> Polyhedron {
         let angles: Vec<f64> = (0..corners).map(|k| (k as f64 + 0.4 * random.signed()) / corners as f64).collect();
         let around = |share: &f64| (std::f64::consts::TAU * share).sin_cos();

@@ -1,4 +1,4 @@
-//! The patch of a body that looks towards the other: a merged face, or what contact faces make of several.
+//! The patch of a body that looks towards the other: a merged face, or several that a contact face combines.
 
 use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::pair::contact::faces_at;
@@ -6,14 +6,14 @@ use crate::pair::placed::Placed;
 use crate::polyhedron::{FacePart, Polyhedron};
 use crate::tables;
 
-/// What is nearer than this, relative to the size of the pair, is at one place, 2⁻²⁷: far above rounding, and above what aligned
-/// bricks at rest move by; far below what shows.
+/// Points nearer to each other than this, relative to the size of the pair, count as one place, 2⁻²⁷: far above rounding, and
+/// above what aligned bricks at rest move by; far below what shows.
 pub const COINCIDENT: f64 = f64::from_bits((1023 - 27) << 52);
 
-/// Corners of the patch of before that are looked at; a climb takes about as long.
+/// Corners of the earlier patch that are looked at; a climb takes about as long.
 const MOST_LOOKED_AT: usize = 8;
 
-/// Of bodies with no more vertices than this all are looked at sooner than a climb ends.
+/// In bodies with no more vertices than this, a look at all of them takes less time than a climb.
 const SOONER_CLIMBED: usize = 32;
 
 /// A polygon that a manifold is made over.
@@ -90,9 +90,9 @@ pub struct Facing {
     pub parallel: f64,
 }
 
-/// The patch most parallel to a direction, which is in the world, of those at the vertex that reaches farthest along it; the last
-/// one, if it is as parallel up to `sticky`. The witness point, in the body's own frame, reaches as far. `None` of bodies without
-/// faces.
+/// The patch most parallel to a direction, which is in the world, among those at the vertex that reaches farthest along it; the
+/// last one, if it is as parallel up to `sticky`. The witness point, in the body's own frame, reaches as far. `None` of bodies
+/// without faces.
 pub fn facing(body: Placed, direction: &Vector, witness: &Vector, last: Option<u32>, sticky: f64) -> Option<Facing> {
     let polyhedron = body.shape.polyhedron();
     let towards = body.pose.rotate_back(direction);
@@ -123,7 +123,7 @@ pub fn facing(body: Placed, direction: &Vector, witness: &Vector, last: Option<u
     };
     around.into_iter().for_each(&mut look_at_merged);
     faces_at(polyhedron, vertex).for_each(look_at_merged);
-    // Where there are only slivers they have to do.
+    // If there are only slivers, they must serve.
     let best = match best {
         Some(patch) => Facing { patch, parallel },
         None => {
@@ -137,7 +137,7 @@ pub fn facing(body: Placed, direction: &Vector, witness: &Vector, last: Option<u
 /// A vertex that reaches farthest along a direction, up to [`COINCIDENT`]. `None` of bodies without edges.
 ///
 /// All neighbours of a vertex may be as high as itself up to rounding, as on the far face of a mesh that is flat up to rounding:
-/// there a climb ends. The witness point is the judge of that, and then all vertices are looked at. A corner of the patch of before
+/// there a climb ends. The witness point is the judge of that, and then all vertices are looked at. A corner of the earlier patch
 /// that is as far is mostly there.
 fn farthest_vertex(polyhedron: &Polyhedron, towards: &Vector, witness: &Vector, last: Option<Patch>) -> Option<u32> {
     let first = polyhedron.edges.first()?.tail();

@@ -1,4 +1,4 @@
-//! The points of a manifold: where outlines have corners in common, seen along the normal, and what is said of them.
+//! The points of a manifold: where outlines have corners in common, seen along the normal, and what is reported for them.
 
 use super::answer::ManifoldPoint;
 use super::clip::{CommonCorner, Precision, Spot, common_part};
@@ -21,10 +21,10 @@ pub struct View<'a> {
     pub witness_spots: [Vector; 2],
 }
 
-/// What a point is.
+/// The origin of a point.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Origin {
-    /// A corner of what both patches cover.
+    /// A corner of the part that both patches cover.
     Corner(CommonCorner),
     /// The pair of witness points.
     Witness,
@@ -51,7 +51,8 @@ impl CommonPoint {
         self.spots[0].z - self.spots[1].z
     }
 
-    /// A number, other than 0, that tells it from others of the same two patches; of very large patches perhaps not from all.
+    /// A number, other than 0, that distinguishes it from others of the same two patches; of very large patches perhaps not from
+    /// all.
     pub fn key(&self) -> u32 {
         match self.origin {
             Origin::Witness => 1,
@@ -123,7 +124,7 @@ impl View<'_> {
         point.id = id_of(&feature1, &feature2);
     }
 
-    /// What holds the point on a body: its own vertex, its side, or its patch.
+    /// The feature that holds the point on a body: its own vertex, its side, or its patch.
     fn feature(&self, corner: CommonCorner, body: usize, point: &Vector) -> Feature {
         let outline = &self.outlines[body];
         let polyhedron = outline.polyhedron;

@@ -5,14 +5,15 @@ use super::answer::FOUR;
 use super::places::CommonPoint;
 use crate::base::math::Vector;
 
-/// By how much less deep than the deepest the deepest of before may be, relative to the size of the pair: a contact at rest rocks.
+/// By how much less deep than the deepest point the earlier deepest may be, relative to the size of the pair: a contact at rest
+/// rocks.
 const AS_DEEP: f64 = 1e-5;
 
-/// The part of the area that those of before must have of the best.
+/// The part of the best area that the earlier points must have.
 const AS_LARGE: f64 = 0.9;
 
-/// Places at hand. Of more, those stay that are the deepest or reach farthest in one of [`DIRECTIONS`]: no other reaches farther by
-/// more than 2 % of the manifold.
+/// The available places. If there are more, those stay that are the deepest or reach farthest in one of [`DIRECTIONS`]: no other
+/// reaches farther by more than 2 % of the manifold.
 const ROOM: usize = 64;
 
 /// Directions in which places are told from each other where there is no room.
@@ -39,7 +40,7 @@ impl Thinned<'_> {
         self.count += 1;
     }
 
-    /// Leaves the deepest place, those of before, and the farthest in each direction: a third of them at most.
+    /// Leaves the deepest place, the earlier ones, and the farthest in each direction: a third of them at most.
     fn thin_out(&mut self) {
         let mut stays = [false; ROOM];
         stays[most(&self.places, |place| -place.gap())] = true;
@@ -64,8 +65,8 @@ impl Thinned<'_> {
 /// Four places, or fewer.
 type Four<'a> = [Option<&'a CommonPoint>; FOUR];
 
-/// Those that stay. `kept` are the keys of those that stayed the last time, in order, 0 for none; `size` is what is a length next
-/// to the pair.
+/// Those that stay. `kept` are the keys of those that stayed the last time, in order, 0 for none; `size` is a length next to the
+/// pair.
 pub fn four_of<'a>(places: &'a [CommonPoint], kept: &[u32; FOUR], size: f64) -> Four<'a> {
     if places.len() <= FOUR {
         return std::array::from_fn(|i| places.get(i));

@@ -159,7 +159,7 @@ impl<L: Lanes> LanePose<L> {
 /// Points relative to one body's centre of mass, in units of its radius, seen from another body in the same way.
 #[derive(Clone, Copy)]
 struct Map {
-    /// What the first, second and third coordinate are multiplied by.
+    /// The factors of the first, second and third coordinate.
     columns: [[f32; 3]; 3],
     offset: [f32; 3],
 }

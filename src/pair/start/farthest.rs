@@ -66,7 +66,7 @@ impl Supports<'_> {
         if !(length >= f64::MIN_POSITIVE) {
             return 0;
         }
-        // Of a length that single precision holds.
+        // Scaled to a length that single precision holds.
         let direction = direction.mul(L::splat(1.0 / length));
         let mut best = (f32::NEG_INFINITY, 0);
         for (index, block) in blocks.iter().enumerate() {

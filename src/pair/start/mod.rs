@@ -1,4 +1,4 @@
-//! Where marching starts: a policy says from what, look-ups or a climb lead to a vertex of each body.
+//! The start of marching: a policy chooses its source; look-ups or a climb then lead to a vertex of each body.
 
 mod start_pair;
 pub mod policy;
@@ -15,8 +15,8 @@ use farthest::farthest;
 use policy::{StartFrom, centre_of_mass};
 pub use start_pair::{Guess, StartPair};
 
-/// Where to start: as `from` says, as far as both bodies have tables for it, or one of them has and the other needs none; or else
-/// at the vertices farthest along the line of the bodies' origins.
+/// The start that `from` prescribes, as far as both bodies have tables for it, or one of them has and the other needs none.
+/// Otherwise it is at the vertices farthest along the line of the bodies' origins.
 #[inline(always)]
 pub fn start_pair(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: StartFrom) -> StartPair {
     match from {

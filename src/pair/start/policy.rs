@@ -1,5 +1,5 @@
-//! The policy of starts: what has moved since the last query, by how much, and which tables there are say where a search starts.
-//! The numbers are in [`tuning`](crate::tables::tuning).
+//! The policy of starts: the start of a search depends on what has moved since the last query, by how much, and which tables
+//! there are. The numbers are in [`tuning`](crate::tables::tuning).
 
 use crate::base::math::{Pose, Vector};
 use crate::base::simd::Lanes;
@@ -13,7 +13,7 @@ use crate::tables::tuning::{COME_APART, FAR, ONE_ROUND, TWO_ROUNDS};
 /// From what a search starts, if not from the features of the last query.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum StartFrom {
-    /// The vertices where the last query ended, and so many rounds of look-ups from them.
+    /// The vertices where the last query ended, and this many rounds of look-ups from them.
     LastVertices {
         /// One of each body.
         vertices: [u32; 2],
@@ -26,7 +26,7 @@ pub enum StartFrom {
     Farthest,
 }
 
-/// Where a search starts whose last query ended at `last`: there (`None`) while the pair has moved little, else from the tables.
+/// The start of a search whose last query ended at `last`: there (`None`) while the pair has moved little, else from the tables.
 #[inline(always)]
 pub fn choose<L: Lanes>(frame: &Frame<L>, marker: &Marker, last: State) -> Option<StartFrom> {
     if !has_jumped(frame, marker) {
@@ -51,7 +51,7 @@ pub fn has_jumped<L: Lanes>(frame: &Frame<L>, marker: &Marker) -> bool {
     frame.has_moved(marker, square_jump(frame))
 }
 
-/// Whether a pair that intersected when it had this marker has jumped, and may be apart: it is for marching, from the tables. Where
+/// Whether a pair that intersected when it had this marker has jumped, and may be apart: it is for marching, from the tables. If
 /// spheres inside the bodies may overlap, and the jump is not far, the last enclosure is the better hint.
 pub fn may_have_come_apart<L: Lanes>(frame: &Frame<L>, marker: &Marker, poses: [&Pose; 2]) -> bool {
     frame.has_moved(marker, FAR)

@@ -26,7 +26,7 @@ impl StartPair {
     }
 }
 
-/// What a look into the tables makes one expect.
+/// The expectation from a look into the tables.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
 pub enum Guess {

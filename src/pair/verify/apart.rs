@@ -11,7 +11,7 @@ use crate::pair::radii::{Radii, sum_above, sum_below};
 use crate::polyhedron::Polyhedron;
 use crate::solve::exact::{self, VertexPair};
 
-/// Proves verdict and interval, and checks the normal; returns what rounding may make of a length.
+/// Proves verdict and interval, and checks the normal; returns the rounding allowance for a length.
 pub(super) fn verify_disjoint(
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],
@@ -32,15 +32,15 @@ pub(super) fn verify_disjoint(
     Ok(allowed)
 }
 
-/// What of an interval is proved, and vertex pairs near where the objects are nearest.
+/// The proved part of an interval, and vertex pairs near where the objects are nearest.
 struct Proof {
     lower: bool,
     upper: bool,
     near: Vec<VertexPair>,
 }
 
-/// What double-double arithmetic proves of the interval of a disjoint pair: by the gap along the normal from below, from above by
-/// the witness points where they are said, else by the vertices that face each other.
+/// The interval of a disjoint pair that double-double arithmetic proves. The lower bound is the gap along the normal. The upper
+/// bound comes from the witness points if they are reported, else from the vertices that face each other.
 fn prove_interval(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, answer: &PairAnswer) -> Proof {
     let most = sum_below(answer.upper, radii.lower);
     let nothing = Proof { lower: false, upper: answer.upper == f64::INFINITY, near: Vec::new() };
@@ -92,7 +92,7 @@ pub(super) fn not_in_interval(truth: &exact::ExactDistance, radii: &Radii, answe
     })
 }
 
-/// The points are on their features, and as far apart as the interval says.
+/// The points are on their features, and as far apart as the interval requires.
 pub(super) fn check_points(
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],

@@ -1,5 +1,5 @@
 //! Bounds of the distance in double-double arithmetic: from below by the gap along a normal, from above by a point of each body.
-//! They hold to the last bit; where they do not suffice, nothing is said, and integers tell.
+//! They hold to the last bit; where they do not suffice, nothing is reported, and integers decide.
 
 use super::checks::length;
 use crate::base::double_double::{DoubleDouble, WideVector, narrow, two_product, wide_difference, wide_dot, widen};
@@ -74,14 +74,14 @@ impl<'a> Bounds<'a> {
     }
 
     /// The largest value of a world direction over all vertices of a body, about its centred origin, and a vertex that has it.
-    /// Doubles tell which vertices may have it.
+    /// Doubles determine which vertices may have it.
     fn highest(&self, body: usize, direction: &WideVector) -> (DoubleDouble, u32) {
         let (polyhedron, unit) = (self.polyhedra[body], self.unit);
         let direction = rotate_back(self.poses[body], direction);
         let rounded = narrow(&direction);
         let value = |vertex: &Vertex| rounded.dot(&(vertex.position * unit));
         let most = polyhedron.vertices.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
-        // Each value is off by u for the rounded direction and 3u for product and sums, of |g|₁·ρ. What underflow takes is less
+        // Each value is off by u for the rounded direction and 3u for product and sums, of |g|₁·ρ. The loss to underflow is less
         // than the error of a length.
         let rounding = 8.0 * U * rounded.lp_norm(1) * self.in_units(polyhedron.radius);
         let mut best = (DoubleDouble::from(f64::NEG_INFINITY), 0);
@@ -114,7 +114,7 @@ impl<'a> Bounds<'a> {
         plus_difference(&self.between, &point1, &point2)
     }
 
-    /// Whether the product of a difference with a vector of at most length 2 is more than a double for sure.
+    /// Whether the product of a difference with a vector of at most length 2 is provably more than a double.
     pub fn is_more(&self, product: DoubleDouble, than: f64) -> bool {
         (product - than.into()).hi > 4.0 * self.error
     }
@@ -128,7 +128,7 @@ impl<'a> Bounds<'a> {
         (gap.value + least * self.in_units(upper).into()).hi > self.error
     }
 
-    /// Whether a gap along a normal is one for sure: the bodies are apart.
+    /// Whether a gap along a normal is provably one: the bodies are apart.
     pub fn is_open(&self, gap: &Gap) -> bool {
         gap.value.hi > self.error
     }

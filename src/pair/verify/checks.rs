@@ -1,4 +1,4 @@
-//! What all checks share: lengths, what rounding may make of them, and the refusal.
+//! Shared parts of all checks: lengths, their rounding allowance, and the refusal.
 
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
@@ -14,8 +14,8 @@ pub(super) fn between_origins(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) ->
         + (poses[0].rotate(&polyhedra[0].centre) - poses[1].rotate(&polyhedra[1].centre))
 }
 
-/// What rounding may make of a length as it is checked here, of bodies over which balls are swept; `None` where sums of eight such
-/// lengths may overflow.
+/// The rounding allowance for a length as it is checked here, for bodies over which balls are swept; `None` where sums of eight
+/// such lengths may overflow.
 pub(super) fn allowed(polyhedra: [&Polyhedron; 2], between: &Vector, swept: [f64; 2]) -> Option<f64> {
     let centres = length(&polyhedra[0].centre) + length(&polyhedra[1].centre);
     let all = polyhedra[0].radius + polyhedra[1].radius + length(between) + centres + swept[0] + swept[1];

@@ -1,9 +1,9 @@
 //! The independent check of a depth: from above by the support along the normal, over all vertices; from below by a closed polytope
 //! of triangles, each at least so far from the origin, that surrounds it.
 //!
-//! Whoever proposes the polytope is not trusted. That it is closed is seen by its edges, how far a triangle is by double-double
-//! arithmetic or integers, and that it surrounds the origin by a ray that crosses it: not by the orientation of all triangles, as
-//! in the search.
+//! The source of the polytope is not trusted. Its edges show that it is closed, how far a triangle is by double-double arithmetic
+//! or integers, and that it surrounds the origin by a ray that crosses it: not by the orientation of all triangles, as in the
+//! search.
 
 use super::apart::{check_on_features, check_points, verify_disjoint};
 use super::bounds::Bounds;
@@ -35,13 +35,13 @@ use std::cmp::Ordering;
 /// | [`Outcome::Intersecting`] | the objects have a common point; `lower` ≤ d ≤ `upper`; `upper` is 0 just if d is |
 /// | [`Outcome::Separated`] | they have none; all of the interval is 0 |
 ///
-/// `lower` ≤ `depth` ≤ `upper` holds. What else is said is rounded, so it holds up to the allowance of [`super::verify`]: points
-/// and features as there, and world2 − world1 is `depth` · `normal` up to the allowance and `upper` − `lower`.
+/// `lower` ≤ `depth` ≤ `upper` holds. The other results are rounded, so they hold up to the allowance of [`super::verify`]:
+/// points and features as there, and world2 − world1 is `depth` · `normal` up to the allowance and `upper` − `lower`.
 ///
-/// It takes time in proportion to the vertices and to the triangles of the cache. Where the cache holds no proof it searches one.
-/// If that fails for small bodies it looks at all facets of the Minkowski difference, which takes time in proportion to
-/// triangles times vertices; integers tell what rounding hides there. Of larger bodies 10⁹ times as long as they are deep no proof
-/// may be found. The error then says that the depth is not proved; the answer may hold.
+/// It takes time in proportion to the vertices and to the triangles of the cache. If the cache holds no proof, it searches one.
+/// If that fails for small bodies it looks at all facets of the Minkowski difference, which takes time in proportion to triangles
+/// times vertices; integers decide the cases that rounding hides there. For larger bodies 10⁹ times as long as they are deep, no
+/// proof may be found. The error then reports that the depth is not proved; the answer may hold.
 ///
 /// # Errors
 /// As of [`super::verify`]; [`Error::Argument`] also for an `upper` of infinity, a depth beyond the largest double.
@@ -71,7 +71,7 @@ fn check_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii
     let normal = Vector::from(answer.normal);
     check_unit(&normal)?;
     let bounds = Bounds::new(polyhedra, poses);
-    // Of bodies without radii it is more than 0 that is proved, of others more than their sum.
+    // For bodies without radii, more than 0 is proved; for others, more than their sum.
     let least = if radii.upper > 0.0 { radii.upper.next_up() } else { 0.0 };
     if bounds.is_some_and(|bounds| bounds.prove_lower(&bounds.gap(&normal), &normal, least)) {
         return Ok(());
@@ -133,7 +133,7 @@ fn check_overlapping(
     Err(unverified(format!("the witness points are {off:e} off the translation by {depth:e} along the normal")))
 }
 
-/// Where the polyhedra of objects with a common point are.
+/// The position of the polyhedra of objects with a common point.
 #[derive(PartialEq)]
 pub(super) enum Polyhedra {
     /// They have a common point, too.
@@ -142,8 +142,8 @@ pub(super) enum Polyhedra {
     Apart,
 }
 
-/// Proves that the depth of objects is in an interval, and checks the normal; returns where the polyhedra are, and what rounding
-/// may make of a length.
+/// Proves that the depth of objects is in an interval, and checks the normal; returns where the polyhedra are, and the rounding
+/// allowance for a length.
 pub(super) fn prove_depth(
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],
@@ -167,7 +167,7 @@ pub(super) fn prove_depth(
     let facts = Facts::new(polyhedra, poses);
     let between = between_origins(polyhedra, poses);
     let allowed = allowed(polyhedra, &between, radii.each).ok_or_else(too_large)?;
-    // What is left of it for the polyhedra, rounded inwards.
+    // The remainder for the polyhedra, rounded inwards.
     let (least, most) = (sum_above(lower, -radii.lower), sum_below(upper, -radii.upper));
     if !(most >= 0.0) {
         return Err(unverified(format!("the radii alone make the depth more than {upper:e}")));
@@ -176,14 +176,14 @@ pub(super) fn prove_depth(
     if least > 0.0 {
         prove_lower(&facts, cache, least)?;
     }
-    // Round objects whose polyhedra have a common point overlap, whatever else.
+    // Round objects whose polyhedra have a common point overlap in any case.
     if most == 0.0 || (least <= 0.0 && !is_round) {
         check_position(polyhedra, poses, most)?;
     }
     Ok((Polyhedra::Meeting, allowed))
 }
 
-/// Bodies whose polyhedra are apart have a common point, and overlap if anything is said of that.
+/// Bodies whose polyhedra are apart have a common point, and overlap if an overlap is reported.
 fn check_swept_position(truth: &exact::ExactDistance, radii: &Radii, upper: f64) -> Result<()> {
     match (truth.compare_sum(&radii.each), upper > 0.0) {
         (Ordering::Greater, _) => Err(unverified("the objects have no common point".into())),
@@ -193,7 +193,7 @@ fn check_swept_position(truth: &exact::ExactDistance, radii: &Radii, upper: f64)
     }
 }
 
-/// Of ends of 0 the position is to be proved.
+/// If the ends are 0, the position must be proved.
 fn check_position(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], upper: f64) -> Result<()> {
     match exact::locate(polyhedra, poses, &[], Supports::OfAll) {
         Position::Separated(_) => Err(unverified("the objects have no common point".into())),
@@ -224,7 +224,7 @@ fn check_upper(facts: &Facts, normal: &Vector, upper: f64, allowed: f64) -> Resu
             return Err(apart());
         }
         if bounds.prove_overlap(&gap, normal, most) {
-            // An overlap that double-double arithmetic does not tell from a gap is left to the proof of the lower end.
+            // An overlap that double-double arithmetic cannot distinguish from a gap is left to the proof of the lower end.
             return Ok(());
         }
     }
@@ -290,7 +290,7 @@ fn is_closed(polytope: &[Triangle]) -> bool {
     edges.chunk_by(|a, b| (a.0, a.1) == (b.0, b.1)).all(|same| same.iter().map(|edge| edge.2).sum::<i32>() == 0)
 }
 
-/// Rays tried before a polytope is taken for one that does not surround the origin: one that meets an edge tells nothing.
+/// Rays tried before a polytope is assumed not to surround the origin: one that meets an edge proves nothing.
 const RAYS: usize = 16;
 
 /// Whether the polytope's degree about the origin is not 0: the sum of the signs with which a ray crosses it. No triangle holds the
@@ -315,7 +315,7 @@ fn surrounds_origin(facts: &Facts, polytope: &[Triangle]) -> bool {
 /// See [`Facts::clear_sign`].
 pub const CLEAR: f64 = 16.0 * U;
 
-/// What is known of vertex differences, for sure.
+/// Provable facts about vertex differences.
 struct Facts<'a> {
     polyhedra: [&'a Polyhedron; 2],
     poses: [&'a Pose; 2],
@@ -340,7 +340,7 @@ impl<'a> Facts<'a> {
 
     /// The sign of a determinant of positions and rays, where it is clear.
     ///
-    /// Where no column is shorter than its error over u each is right to 2u of itself: u by that, and u by its rounding. The
+    /// If no column is shorter than its error over u, each is right to 2u of itself: u by that, and u by its rounding. The
     /// determinant then changes by 6.1u of the product of the lengths. Products and sums err by 5u of the permanent of the
     /// magnitudes, which is at most √2 times that product. Together that is less than 14u of it. The lengths are off by a few u.
     /// Underflow, of less than 2⁻¹⁰⁰⁰, is nothing beside a product of three lengths over 2⁻¹²⁰ each.

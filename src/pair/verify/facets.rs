@@ -1,10 +1,10 @@
-//! A lower bound of the depth of small bodies by all facets of their Minkowski difference. Double-double arithmetic tells most,
+//! A lower bound of the depth of small bodies by all facets of their Minkowski difference. Double-double arithmetic decides most,
 //! integers what that leaves open. It knows nothing of the search by facets: it walks the triangles of the exact hulls. Their
 //! normals are nodes and their edges are arcs of the exact normal fans (`solve/facets/` has the lemma; of exact fans nothing is
 //! lost).
 //!
 //! Every direction of a facet of C = {x − y} is the normal of a triangle or is perpendicular to an edge of each body. An arc
-//! between two normals is done with where one vertex of the other body is deep enough below both planes. Of the edges left, both
+//! between two normals is done with where one vertex of the other body is deep enough below both planes. For the edges left, both
 //! directions across each pair are tried over all vertices, whether the arcs cross or not: h is at least the depth everywhere.
 //! Parallel edges have no facet between them.
 
@@ -100,9 +100,9 @@ impl<'a> Proof<'a> {
         Proof { polyhedra, points, exact, lower, needed, error, longest }
     }
 
-    /// The direction across two edges, in double-double arithmetic. Edges are off by 2e in each coordinate, e the error of a point,
-    /// their product by 8e(|a| + |b|) with its own rounding: it is turned by the part of its length that this is, and by as much
-    /// longer or shorter. Of edges that are nearly parallel the error is infinite.
+    /// The direction across two edges, in double-double arithmetic. Edges are off by 2e in each coordinate, e the error of a
+    /// point, their product by 8e(|a| + |b|) with its own rounding: it is turned by the part of its length that this is, and by
+    /// as much longer or shorter. For edges that are nearly parallel the error is infinite.
     fn across(&self, edges: [Edge; 2]) -> Direction {
         let [a, b] = edges.map(|(body, [tail, head])| {
             difference(&self.points[body][head as usize], &self.points[body][tail as usize])
@@ -110,7 +110,7 @@ impl<'a> Proof<'a> {
         let product = wide_cross(&a, &b);
         let length = narrow(&product).norm();
         let off = 8.0 * self.error * (narrow(&a).norm() + narrow(&b).norm()) / length;
-        // What is of second order is less than the slack of 8. False for a NaN.
+        // The second-order part is less than the slack of 8. False for a NaN.
         let error = if off < 1e-3 { 2.0 * self.longest * off + 8.0 * self.error } else { f64::INFINITY };
         let scale = DoubleDouble::from(1.0 / length);
         Direction { unit: product.map(|x| x * scale), error, edges: edges.map(pair_edge), exact: OnceCell::new() }

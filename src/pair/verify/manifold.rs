@@ -15,8 +15,8 @@ use crate::pair::placed::Placed;
 use crate::pair::radii::{Radii, sum_above, sum_below};
 use crate::polyhedron::{Face, Polyhedron};
 
-/// Of the size of the pair: how far a point may be off the surface that it is on, beside noise and rounding. Places up to 2⁻²⁷ of
-/// it apart are one; the incident patch is looked at along a normal that may be flat to it.
+/// Relative to the size of the pair: how far a point may be off the surface that it is on, beside noise and rounding. Places up
+/// to 2⁻²⁷ of it apart are one; the incident patch is looked at along a normal that may be flat to it.
 const NEAR: f64 = f64::from_bits((1023 - 25) << 52);
 
 /// The same of the thickness of contact faces.
@@ -91,7 +91,7 @@ fn check_counts(config: &ManifoldConfig, manifold: &Manifold) -> Result<()> {
     Err(unverified(format!("{point_count} points of {found_count} found")))
 }
 
-/// Proves verdict and interval, and checks the normal; returns what rounding may make of a length.
+/// Proves verdict and interval, and checks the normal; returns the rounding allowance for a length.
 fn check_contact(
     bodies: [Placed; 2],
     cache: &ManifoldCache,
@@ -122,14 +122,14 @@ fn check_contact(
     verify_disjoint(polyhedra, poses, radii, &apart)
 }
 
-/// What points are held against.
+/// The reference that points are checked against.
 struct Check<'a> {
     bodies: [Placed<'a>; 2],
     polyhedra: [&'a Polyhedron; 2],
     config: &'a ManifoldConfig,
     radii: Radii,
     manifold: &'a Manifold,
-    /// What rounding may make of a length.
+    /// The rounding allowance for a length.
     allowed: f64,
     /// How far a point may be off its surface.
     near: f64,
@@ -205,7 +205,7 @@ impl<'a> Check<'a> {
         Err(unverified(format!("its two places are {sideways:e} off a line along the normal")))
     }
 
-    /// The bodies have points with a gap in the interval: near those that are said, which may be out of them.
+    /// The bodies have points with a gap in the interval: near the reported ones, which may be out of them.
     fn check_attained(&self, witnesses: &[Witness; 2], gap: f64, [lower, upper]: [f64; 2]) -> Result<()> {
         let margin = (gap - lower).min(upper - gap) + self.allowed;
         let off = witnesses.each_ref().map(|witness| Some(witness.off(&witness.point_inside()?)));
@@ -223,8 +223,8 @@ impl<'a> Check<'a> {
         )))
     }
 
-    /// No points of the bodies have only gaps above the interval, or below. Ends may be negative: of a unit vector, up to rounding,
-    /// half of |n|² − 1 is |n| − 1 to 2⁻⁹⁹, which the error of lengths covers.
+    /// No points of the bodies have only gaps above the interval, or below. Ends may be negative: for a unit vector, up to
+    /// rounding, half of |n|² − 1 is |n| − 1 to 2⁻⁹⁹, which the error of lengths covers.
     fn check_reach(&self, normal: &Vector, [lower, upper]: [f64; 2]) -> Result<()> {
         let Some((bounds, [least, most])) = &self.reach else { return Ok(()) };
         let too_low = bounds.prove_lower(least, normal, sum_above(upper, self.radii.upper));
@@ -244,8 +244,8 @@ impl<'a> Check<'a> {
         }
     }
 
-    /// A point is on a face that does not look away from the other body, or as far behind one as the width of its gap allows:
-    /// a wide gap says that the point is not known to be where the bodies face each other. Of a body without interior all is
+    /// A point is on a face that does not look away from the other body, or as far behind one as the width of its gap allows: a
+    /// wide gap means that the point is not known to be where the bodies face each other. For a body without interior all is
     /// surface.
     fn check_facing(&self, witness: &Witness, towards: &Vector, width: f64) -> Result<()> {
         let (polyhedron, point) = (witness.polyhedron, witness.centred());
@@ -257,7 +257,7 @@ impl<'a> Check<'a> {
         }
         let normals = polyhedron.faces.iter().map(|face| (face, back.transpose() * face.normal));
         let mut facing = normals.filter(|(_, normal)| normal.dot(towards) >= AWAY * normal.norm()).peekable();
-        // A needle so thin that faces around it are merged may have none that looks there; its faces say nothing then.
+        // A needle so thin that faces around it are merged may have none that looks there; its faces prove nothing then.
         let is_told = facing.peek().is_some();
         let behind = self.near + width;
         let is_on =

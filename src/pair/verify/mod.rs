@@ -1,5 +1,6 @@
-//! The independent check of an answer, trusting nothing of the solver that made it: bounds of the distance over all vertices, the
-//! witness points on their features, an intersection's proof in integers, and so whatever rounding hides of a distance.
+//! The independent check of an answer, which trusts nothing of the solver that made it: bounds of the distance over all vertices,
+//! the witness points on their features, an intersection's proof in integers, and likewise anything that rounding hides of a
+//! distance.
 
 mod checks;
 mod numbers;
@@ -48,7 +49,7 @@ use witness::{Witness, difference_of};
 /// three are 0 for [`Outcome::Intersecting`].
 ///
 /// Every number that is set is finite, except an `upper` of +∞: of [`Outcome::Beyond`], of [`Outcome::Undecided`], of separated
-/// objects of which no points are said, and of objects farther apart than the largest double.
+/// objects with no points reported, and of objects farther apart than the largest double.
 ///
 /// The other members are rounded, so they hold up to an allowance a = 64u·(ρ₁ + ρ₂ + |Δ| + |c₁| + |c₂| + r₁ + r₂). There ρ is a
 /// body's radius about its centre c, Δ joins the centres in the world, and r is the swept radius.
@@ -62,11 +63,11 @@ use witness::{Witness, difference_of};
 /// | `feature1`, `feature2` | the object has it; of a separated answer the point is on it up to a + 64uρ + `upper` − `lower` |
 /// | a polygon that shares a face | none of the others that do is nearer to the point by more than that |
 ///
-/// Points and features are said together, or not at all. Outcomes that say no points, no normal or no proof may not have them.
-/// `decided_by` and the statistics tell of the search, and are not checked. Of a contact's normal only its length is checked.
-/// [`DecidedBy::InscribedSpheres`] and swept radii excuse an intersection from a proof: integers decide it anew. Points on a swept
-/// body are moved back by its radius along the normal, and checked on the polyhedron. All lengths are of the world, where the ball
-/// is round.
+/// Points and features are reported together, or not at all. Outcomes without points, normal or proof may not have them.
+/// `decided_by` and the statistics describe the search, and are not checked. For a contact's normal only its length is checked.
+/// [`DecidedBy::InscribedSpheres`] and swept radii excuse an intersection from a proof: integers decide it anew. Points on a
+/// swept body are moved back by its radius along the normal, and checked on the polyhedron. All lengths are of the world, where
+/// the ball is round.
 ///
 /// It takes time in proportion to the vertices: bounds in double-double arithmetic mostly prove the interval, else integers do.
 ///
@@ -102,7 +103,7 @@ fn check_answer(bodies: [Placed; 2], answer: &PairAnswer) -> Result<()> {
 fn verify_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, answer: &PairAnswer) -> Result<()> {
     let PairAnswer { lower, upper, distance, .. } = *answer;
     // A distance below the smallest double leaves `lower` at 0. Without an upper end is a distance above the largest, and one of
-    // which only a separating direction is known: that says no points.
+    // which only a separating direction is known: that has no points.
     let has_end = upper < f64::INFINITY || lower == f64::MAX || !are_points_said(&answer.into());
     if !(lower >= 0.0 && upper > 0.0 && lower <= distance && distance <= upper && has_end) {
         return Err(unverified(format!(
@@ -125,7 +126,7 @@ fn verify_beyond(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, 
     verify_disjoint(polyhedra, poses, radii, answer).map(|_| ())
 }
 
-/// An interval says no more than that the objects are not farther apart.
+/// An interval proves no more than that the objects are not farther apart.
 fn verify_undecided(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, answer: &PairAnswer) -> Result<()> {
     let PairAnswer { lower, upper, distance, .. } = *answer;
     if !(lower == 0.0 && 0.0 <= distance && distance <= upper) {

@@ -6,7 +6,7 @@ use crate::pair::answer::{Feature, FeatureKind, PairAnswer};
 use crate::pair::depth::DepthAnswer;
 use crate::pair::manifold::ManifoldPoint;
 
-/// What an answer says in numbers.
+/// The numbers of an answer.
 pub struct Numbers {
     /// Lower end, best estimate and upper end of the interval.
     interval: [f64; 3],
@@ -39,7 +39,7 @@ impl From<&DepthAnswer> for Numbers {
 }
 
 impl Numbers {
-    /// Of a point of a manifold with this normal: the interval is that of its gap.
+    /// The numbers of a manifold point with this normal: the interval is that of its gap.
     pub fn of_point(point: &ManifoldPoint, normal: &[f64; 3]) -> Numbers {
         Numbers {
             interval: [point.gap_lower, point.gap_lower, point.gap_upper],
@@ -79,7 +79,7 @@ pub fn check_numbers(numbers: &Numbers) -> Result<()> {
     Ok(())
 }
 
-/// Whether any witness point or feature is said.
+/// Whether any witness point or feature is reported.
 pub fn are_points_said(Numbers { points, features, .. }: &Numbers) -> bool {
     points.iter().flatten().any(|x| !x.is_nan()) || features.iter().any(|feature| feature.kind != FeatureKind::None)
 }

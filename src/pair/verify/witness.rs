@@ -1,4 +1,4 @@
-//! What an answer says of one object: its witness point, in both frames, and the feature that holds it. All is measured in the
+//! An answer's report on one object: its witness point, in both frames, and the feature that holds it. All is measured in the
 //! world: a pose may stretch the object, and does not stretch the ball that is swept over it.
 
 use super::bounds::PointInside;
@@ -13,19 +13,19 @@ use crate::pair::radii::Radii;
 use crate::polyhedron::{Face, Polyhedron};
 use crate::solve::exact::{self, Differences};
 
-/// A witness point as an answer says it.
+/// A witness point as reported by an answer.
 pub struct Witness<'a> {
     /// 1 or 2, for messages.
     pub object: usize,
     /// The object.
     pub polyhedron: &'a Polyhedron,
-    /// Where it is.
+    /// The pose of the object.
     pub pose: &'a Pose,
     /// The point in the object's frame.
     local: Vector,
     /// The same in the world.
     world: Vector,
-    /// The feature it is said to be on.
+    /// The feature that is reported to hold it.
     pub feature: Feature,
     /// The radius of the ball that is swept over the object.
     radius: f64,
@@ -34,8 +34,8 @@ pub struct Witness<'a> {
 }
 
 impl<'a> Witness<'a> {
-    /// Of both objects, from an answer of any kind: points that stand for those a swept radius off along a normal, or along zeros
-    /// for themselves.
+    /// The witnesses of both objects, from an answer of any kind. The points stand for those a swept radius off along a normal,
+    /// or along zeros for themselves.
     pub fn of_both(
         polyhedra: [&'a Polyhedron; 2],
         poses: [&'a Pose; 2],
@@ -67,7 +67,7 @@ impl<'a> Witness<'a> {
         said + self.pose.rotation().try_inverse().map_or(self.inwards, |back| back * self.inwards)
     }
 
-    /// A point that is in the object for sure, near the polyhedron's point on its feature; `None` if the object has no such
+    /// A point that is provably in the object, near the polyhedron's point on its feature; `None` if the object has no such
     /// feature.
     pub fn point_inside(&self) -> Option<PointInside> {
         self.point_of(&self.parts(f64::INFINITY)?)
@@ -86,14 +86,14 @@ impl<'a> Witness<'a> {
         each.map(|inside| (inside, self.off(&inside))).reduce(|a, b| if b.1 < a.1 { b } else { a }).map(|best| best.0)
     }
 
-    /// How far the polyhedron's point is from one that is in the object for sure, about.
+    /// The approximate distance of the polyhedron's point from one that is provably in the object.
     pub fn off(&self, inside: &PointInside) -> f64 {
         inside.distance(self.polyhedron, self.pose, &self.local, &self.inwards)
     }
 
-    /// The corners of the feature, and how far the surface may be from their hull, in the object's frame; of a face those of each
-    /// that the caller's polygon is part of, and where no other polygon there is nearer by more than `beyond`. `None` if the object
-    /// has none; any two vertices are taken for an edge.
+    /// The corners of the feature, and how far the surface may be from their hull, in the object's frame; for a face, those of
+    /// each that the caller's polygon is part of, and where no other polygon there is nearer by more than `beyond`. `None` if the
+    /// object has none; any two vertices are taken for an edge.
     fn parts(&self, beyond: f64) -> Option<Vec<(Vec<u32>, f64)>> {
         let polyhedron = self.polyhedron;
         let [first, second] = self.feature.ids;

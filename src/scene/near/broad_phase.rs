@@ -15,7 +15,7 @@ use crate::scene::world::object::ObjectId;
 use crate::scene::world::proxies::Proxies;
 use crate::scene::world::testing::{Decided, Rules, Testing};
 
-/// Above this part of all pieces, one in so many, all are refitted when some have left their boxes.
+/// Above this part of all pieces, one in this many, all are refitted when some have left their boxes.
 const MANY_ESCAPED: usize = 12;
 
 /// The list, and what it is found with.
@@ -23,27 +23,27 @@ const MANY_ESCAPED: usize = 12;
 pub(crate) struct BroadPhase {
     pub list: NearPairs,
     listing: Listing,
-    /// What was said on the testing of pairs and is not yet said to those of the list.
+    /// The news on the testing of pairs that the listed pairs have not received yet.
     news: News,
-    /// Of pieces that move and of fixed ones, which never meet each other.
+    /// The trees of moving pieces and of fixed ones, which never meet each other.
     trees: [Tree; 2],
-    /// What each piece hangs on in its tree, or [`NONE`].
+    /// The parent of each piece in its tree, or [`NONE`].
     parents: Vec<u32>,
     /// For all moving pieces at once.
     grid: Grid,
     candidates: Candidates,
     scratch: Scratch,
-    /// Whose pairs are looked for, of all pieces: less memory to read than their rows.
+    /// Which of all pieces need their pairs looked for: less memory to read than their rows.
     is_open: Vec<bool>,
     tolerance: ListTolerance,
-    /// All pairs of few pieces are listed, whatever the tolerance.
+    /// All pairs of few pieces are listed, regardless of the tolerance.
     lists_few: bool,
 }
 
-/// What the list holds.
+/// The content of the list.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum Listing {
-    /// Whatever it held before: the next update makes it and the trees anew.
+    /// Its earlier content does not matter: the next update makes it and the trees anew.
     OutOfDate,
     /// The pairs of boxes that overlap, except those of pieces that have escaped since.
     Overlaps,
@@ -51,13 +51,13 @@ enum Listing {
     Given,
 }
 
-/// What is to be said to the near pairs, the later including the earlier.
+/// The news for the near pairs, the later including the earlier.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) enum News {
     None,
     /// Activation has changed.
     Activation,
-    /// All are to be filtered anew.
+    /// All must be filtered anew.
     Filter,
 }
 
@@ -107,7 +107,7 @@ impl BroadPhase {
         }
     }
 
-    /// Something was said on the testing of pairs.
+    /// A setting on the testing of pairs was made.
     pub fn hear(&mut self, news: News) {
         self.news = self.news.max(news);
     }
@@ -152,7 +152,7 @@ impl BroadPhase {
         self.tolerance.value()
     }
 
-    /// What the filter has said of the pairs that are near.
+    /// The filter's decisions on the pairs that are near.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
@@ -175,7 +175,7 @@ impl BroadPhase {
     }
 
     /// Brings the list and both trees up to date, so that there are [fitted trees](BroadPhase::fitted_trees) and nothing has
-    /// escaped; of pairs that the program gives there are none.
+    /// escaped; for pairs that the program gives there are none.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory); the next call tries again.
@@ -224,7 +224,7 @@ impl BroadPhase {
         Ok(())
     }
 
-    /// Says to the near pairs what was said on their testing.
+    /// Applies the settings on the testing of near pairs to them.
     fn tell_news(&mut self, world: &mut World) {
         let (proxies, mut rules, _) = world.parts();
         match std::mem::replace(&mut self.news, News::None) {
@@ -243,7 +243,7 @@ impl BroadPhase {
     /// Makes the list hold the pairs that the program gives, if it does not.
     fn list_given(&mut self, world: &mut World) -> Result<()> {
         let (proxies, mut rules, given) = world.parts();
-        // Pieces that have moved or come stay in the list of escaped ones; of those gone the pairs have to go.
+        // Pieces that have moved or come stay in the list of escaped ones; the pairs of those gone have to go.
         if self.listing == Listing::Given && !proxies.has_news {
             return Ok(());
         }
@@ -264,7 +264,7 @@ impl BroadPhase {
 
     /// Makes the list hold the pairs of boxes that overlap.
     fn list_overlaps(&mut self, world: &mut World, tolerance: f64, workers: &Workers) -> Result<()> {
-        // What was kept of few objects must not be of many.
+        // A list kept for few objects must not serve many.
         let lists_few = std::mem::replace(&mut self.lists_few, world.has_few_pairs());
         if self.tolerance.value() == f64::INFINITY && (!world.is_small() || lists_few && !self.lists_few) {
             self.tolerance = ListTolerance::new(tolerance);
@@ -464,7 +464,7 @@ fn of_proxies<'a>(proxies: &'a Proxies, rules: &'a mut Rules<'_>) -> impl FnMut(
     |pair| rules.testing(pair.map(|proxy| &proxies.labels[proxy as usize]))
 }
 
-/// Whether a piece is to be in the tree of fixed ones, or in the other.
+/// Whether a piece belongs in the tree of fixed ones, or in the other.
 fn belongs(proxies: &Proxies, proxy: u32, fixed: bool) -> bool {
     let label = &proxies.labels[proxy as usize];
     (label.object != ObjectId::NULL) & (label.fixed == fixed)

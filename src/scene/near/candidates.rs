@@ -4,8 +4,8 @@ use crate::base::error::Result;
 use crate::base::memory::{extend, push, reserve};
 use crate::scene::world::proxies::Proxies;
 
-/// Where a pair stands in the order of results: by object 1, object 2, piece 1, piece 2. Of each proxy `firsts` knows the first of
-/// its object, which is a name for that.
+/// The rank of a pair in the order of results: by object 1, object 2, piece 1, piece 2. For each proxy `firsts` holds the first
+/// of its object, which serves as a name for that.
 #[inline(always)]
 pub(crate) fn order(firsts: &[u32], [proxy1, proxy2]: [u32; 2]) -> (u64, u64) {
     let [object1, object2] = [firsts[proxy1 as usize], firsts[proxy2 as usize]];
@@ -22,7 +22,7 @@ fn joined([high, low]: [u32; 2]) -> u64 {
 pub(crate) struct Candidates {
     pub pairs: Vec<[u32; 2]>,
     sorted: Vec<[u32; 2]>,
-    /// Where those of each object 1 begin.
+    /// The start of the pairs of each object 1.
     starts: Vec<u32>,
 }
 

@@ -1,4 +1,4 @@
-//! What pairs remember of contacts: the faces that met, and of pairs that intersect how deep, in a pool.
+//! The pairs' caches of contacts: the faces that met and, for pairs that intersect, the depth, in a pool.
 
 use std::sync::Mutex;
 
@@ -7,11 +7,12 @@ use crate::base::locks::{locked, unlocked};
 use crate::base::memory::{push, reserve, with_capacity};
 use crate::pair::{DepthCache, Reference};
 
-/// Of each near pair, by its place among the caches. It is empty until contacts are asked for more than answers.
+/// The contact cache of each near pair, by its place among the caches. It is empty until contacts are asked for more than
+/// answers.
 #[derive(Debug, Default)]
 pub(crate) struct ContactMemory {
     pairs: Vec<Remembered>,
-    /// Of pairs that intersected when they were last looked at, in no order.
+    /// The depths of pairs that intersected when they were last looked at, in no order.
     depths: Vec<Mutex<DepthCache>>,
     /// Depths without a pair; with room for all.
     free: Vec<u32>,
@@ -20,7 +21,7 @@ pub(crate) struct ContactMemory {
 #[derive(Debug, Clone, Copy)]
 struct Remembered {
     reference: Reference,
-    /// Where its depth is, or [`NO_DEPTH`].
+    /// The index of its depth, or [`NO_DEPTH`].
     depth: u32,
 }
 
@@ -29,7 +30,7 @@ const NO_DEPTH: u32 = u32::MAX;
 const NOTHING: Remembered = Remembered { reference: Reference::NONE, depth: NO_DEPTH };
 
 impl ContactMemory {
-    /// Room for so many pairs.
+    /// Room for this many pairs.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).

@@ -10,19 +10,19 @@ use crate::scene::world::boxes::Aabb;
 /// Fewer boxes are left to the tree.
 const FEWEST: usize = 64;
 
-/// Boxes up to so many times as large as half of all make the cells; larger ones are left to the tree.
+/// Boxes up to this many times as large as half of all make the cells; larger ones are left to the tree.
 const LARGE: f64 = 2.0;
 
-/// One box in so many may be larger.
+/// One box in this many may be larger.
 const FEW_LARGE: usize = 50;
 
-/// At most so many cells for each box: with more they are scattered in clusters.
+/// At most this many cells for each box: with more they are scattered in clusters.
 const MOST_CELLS: f64 = 8.0;
 
-/// At most so many boxes share a cell, seen from a box, on average.
+/// At most this many boxes share a cell, seen from a box, on average.
 const CROWD: usize = 8;
 
-/// Sides of so many boxes say which is the one in the middle of all.
+/// Sides of this many boxes determine the median of all.
 const ENOUGH_SIDES: usize = 1024;
 
 /// The cell of a box that is too large for the cells, of which there are fewer.
@@ -40,7 +40,7 @@ pub(crate) struct Grid {
     cells: Vec<u32>,
     /// The boxes of one cell after the other, with their proxies.
     sorted: Vec<(Aabb, u32)>,
-    /// Where the boxes of each cell begin, and where the last one's end.
+    /// The start of each cell's boxes, and the end of the last one's.
     starts: Vec<u32>,
     /// How many cells there are along each axis.
     counts: [usize; 3],
@@ -85,7 +85,7 @@ impl Grid {
         self.sort(boxes, proxies)
     }
 
-    /// Of all boxes, or of a thousand or two.
+    /// The median over all boxes, or over a thousand or two.
     fn median_side(&mut self, boxes: &[Aabb], proxies: &[u32]) -> Result<f64> {
         let some = proxies.iter().step_by(proxies.len().div_ceil(ENOUGH_SIDES));
         self.sides.clear();
@@ -180,7 +180,7 @@ fn side(bounds: &Aabb) -> f64 {
     (0..3).map(|k| f64::from(bounds.upper[k]) - f64::from(bounds.lower[k])).fold(0.0, f64::max)
 }
 
-/// Where the lower corners are, and the longest side.
+/// The extent of the lower corners, and the longest side.
 struct Extent {
     lower: [f64; 3],
     upper: [f64; 3],

@@ -1,9 +1,8 @@
-//! Which pairs of pieces are near, and what each of them remembers: a list over boxes that leave room for motion, kept from query
-//! to query.
+//! Which pairs of pieces are near, and the cache of each: a list over boxes that leave room for motion, kept from query to query.
 //!
-//! Every pair of pieces whose distance is at most the list's tolerance τ is in the list: along each axis the gap between the two is
-//! then at most τ, and each box is grown by at least τ/2. A query with a larger tolerance has all boxes fitted anew. What else the
-//! list holds depends on how the objects came to where they are; so no answer may depend on that.
+//! Every pair of pieces whose distance is at most the list's tolerance τ is in the list: along each axis the gap between the two
+//! is then at most τ, and each box is grown by at least τ/2. A query with a larger tolerance has all boxes fitted anew. The rest
+//! of the list's content depends on how the objects came to where they are; so no answer may depend on that.
 
 pub(crate) mod tree;
 mod grid;

@@ -1,5 +1,5 @@
-//! The pairs that are near, in the order of results, with what each remembers. They stay from query to query; a walk along the
-//! sorted candidates says which come and which go.
+//! The pairs that are near, in the order of results, with the cache of each. They stay from query to query; a walk along the
+//! sorted candidates tells which come and which go.
 
 use std::ops::Range;
 use std::sync::Mutex;
@@ -19,21 +19,21 @@ pub(crate) struct NearPair {
     pub proxies: [u32; 2],
     /// While both odometers together are below this by more than a tolerance, the pieces are farther apart than that.
     pub apart_until: f64,
-    /// Where its memory is.
+    /// The index of its cache.
     pub cache: u32,
     pub testing: Testing,
-    /// Of an error budget, as it was dealt out last.
+    /// Whether it takes a share of an error budget, as it was dealt out last.
     pub takes_share: bool,
 }
 
-/// What the last pass of one kind over the list found of a pair.
+/// The finding of the last pass of one kind over the list for a pair.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Mark {
-    /// Where in that pass's results its own is, or [`UNLISTED`].
+    /// The index of its own result in that pass's results, or [`UNLISTED`].
     pub result: u32,
     /// The pass looked at it and left nothing open.
     pub is_answered: bool,
-    /// Of a listed one, whether it intersects, …
+    /// For a listed pair, whether it intersects, …
     pub intersects: bool,
     /// … and where among [`SceneStatistics::by_level`](crate::scene::SceneStatistics::by_level) its answer counts.
     pub level: u8,
@@ -42,7 +42,7 @@ pub(crate) struct Mark {
 /// Passes of one kind give answers of the last one of their kind again.
 pub(crate) const KINDS_OF_PASSES: usize = 5;
 
-/// Of a pair that a pass does not list.
+/// The index for a pair that a pass does not list.
 pub(crate) const UNLISTED: u32 = u32::MAX;
 
 impl NearPair {
@@ -52,10 +52,10 @@ impl NearPair {
 }
 
 impl Mark {
-    /// Of a pair that no pass has looked at.
+    /// The mark of a pair that no pass has looked at.
     pub const NONE: Mark = Mark { result: UNLISTED, is_answered: false, intersects: false, level: 0 };
 
-    /// Its result, found among those of a part of the pairs, stands so many places later among all.
+    /// Its result, found among those of a part of the pairs, stands this many places later among all.
     pub fn shift_result(&mut self, places: u32) {
         if self.result != UNLISTED {
             self.result += places;
@@ -63,7 +63,7 @@ impl Mark {
     }
 }
 
-/// How many of sorted pairs come before another one; found the sooner the fewer come behind.
+/// The number of sorted pairs before another one; found faster the fewer come behind.
 fn count_before(pairs: &[NearPair], firsts: &[u32], proxies: [u32; 2]) -> usize {
     let place = order(firsts, proxies);
     let mut behind = 0;
@@ -80,9 +80,9 @@ fn count_before(pairs: &[NearPair], firsts: &[u32], proxies: [u32; 2]) -> usize 
 #[derive(Debug, Default)]
 pub(crate) struct NearPairs {
     pub pairs: Vec<NearPair>,
-    /// Of each kind of pass a mark for each pair, in their order; of kinds that were not made there are none.
+    /// For each kind of pass, a mark for each pair, in their order; kinds that were not made have none.
     pub marks: [Vec<Mark>; KINDS_OF_PASSES],
-    /// What each pair's queries remember, in no order: pairs move when others come and go, this does not. Several threads may
+    /// The caches of the pairs' queries, in no order: pairs move when others come and go, caches do not. Several threads may
     /// change theirs at once: [`locked`].
     pub caches: Vec<Mutex<PairCache>>,
     /// … and of contacts, at the same places.
@@ -94,8 +94,9 @@ pub(crate) struct NearPairs {
 }
 
 impl NearPairs {
-    /// Brings the list up to date: of the pairs that `is_open` those stay that are among the candidates, and candidates that were
-    /// not there come, `testing` saying whether they are tested. Candidates are sorted, and no more than a scratch afterwards.
+    /// Brings the list up to date: among the pairs that `is_open`, those stay that are among the candidates, and candidates that
+    /// were not there come, `testing` deciding whether they are tested. Candidates are sorted, and no more than a scratch
+    /// afterwards.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory); pairs may then be missing.
@@ -183,7 +184,7 @@ impl NearPairs {
         Ok(())
     }
 
-    /// Of the kinds of passes that were made.
+    /// The marks of the kinds of passes that were made.
     fn marks_made(&mut self) -> impl Iterator<Item = &mut Vec<Mark>> {
         self.marks.iter_mut().filter(|marks| !marks.is_empty())
     }
@@ -206,7 +207,7 @@ impl NearPairs {
         Ok(())
     }
 
-    /// Says anew of all whether they are tested, from what was said before.
+    /// Decides anew for all whether they are tested, from earlier settings.
     pub fn for_each_testing(&mut self, labels: &[Label], mut testing: impl FnMut(Testing, [&Label; 2]) -> Testing) {
         for pair in &mut self.pairs {
             pair.testing = testing(pair.testing, pair.proxies.map(|proxy| &labels[proxy as usize]));

@@ -1,6 +1,6 @@
 //! How far apart near pairs may be.
 
-/// After so many queries with smaller tolerances the list's follows.
+/// After this many queries with smaller tolerances, the list's tolerance follows.
 const PATIENCE: u32 = 16;
 
 /// τ: no pair is missing in the list that is so near.
@@ -26,7 +26,7 @@ impl ListTolerance {
         (self.value == tolerance) & (self.smaller == 0)
     }
 
-    /// Makes room for a query's; whether all boxes are to be fitted anew.
+    /// Makes room for a query's; whether all boxes must be fitted anew.
     pub fn follow(&mut self, tolerance: f64) -> bool {
         debug_assert!(tolerance >= 0.0);
         if tolerance >= self.value {

@@ -1,5 +1,5 @@
 //! A dynamic tree of boxes: leaves come, go and grow one at a time, all boxes are refitted at once, and it is built anew where it
-//! has become loose. Where a call lacks memory the tree is good for nothing but to be built anew.
+//! has become loose. If a call lacks memory, the tree can only be built anew.
 
 use std::ops::Range;
 
@@ -13,7 +13,7 @@ pub(crate) struct Scratch {
     branches: Vec<Branch>,
     pairs: Vec<[Branch; 2]>,
     ranges: Vec<(Range<usize>, Side)>,
-    /// The proxies over which a tree is to be built.
+    /// The proxies over which a tree should be built.
     pub proxies: Vec<u32>,
 }
 
@@ -23,17 +23,17 @@ pub(crate) const NONE: u32 = u32::MAX;
 /// The parent of the root.
 const TOP: u32 = u32::MAX - 1;
 
-/// A tree whose boxes have grown to so many times their girth when built is built anew.
+/// A tree whose boxes have grown to this many times their girth when built is built anew.
 const LOOSE: f32 = 1.5;
 
-/// So many leaves may come, go or grow before all boxes are refitted, or a quarter of all.
+/// This many leaves may come, go or grow before all boxes are refitted, or a quarter of all.
 const FEW_CHANGES: usize = 64;
 
-/// What has two children. Leaves need no node: they are proxies, and the caller keeps their boxes and parents.
+/// A node with two children. Leaves need no node: they are proxies, and the caller keeps their boxes and parents.
 #[derive(Debug, Clone, Copy)]
 struct Node {
     bounds: Aabb,
-    /// Of one out of use, the next to be used again.
+    /// For a node out of use, the next to be used again.
     parent: u32,
     children: [Branch; 2],
 }
@@ -47,7 +47,7 @@ enum Kind {
     Leaf(u32),
 }
 
-/// What a branch holds.
+/// The content of a branch.
 pub(crate) enum Held {
     Proxy(u32),
     Branches([Branch; 2]),
@@ -67,7 +67,7 @@ impl Branch {
     }
 }
 
-/// Where something hangs: the parent, and which of its children it is.
+/// The position of a node or leaf in the tree: the parent, and which of its children it is.
 type Side = (u32, usize);
 
 /// A binary tree over the boxes of proxies. Each call gets these boxes, and what changes the tree the leaves' parents: `parents`,
@@ -174,12 +174,12 @@ impl Tree {
         }
     }
 
-    /// Where a traversal begins.
+    /// The start of a traversal.
     pub fn root(&self) -> Option<Branch> {
         self.root
     }
 
-    /// What a branch holds.
+    /// The content of a branch.
     #[inline(always)]
     pub fn held(&self, branch: Branch) -> Held {
         match branch.kind() {
@@ -373,7 +373,7 @@ impl Tree {
         self.cross(other, boxes, scratch, found)
     }
 
-    /// Both trees at once, from their roots down. Of a tree against itself a branch meets itself, too.
+    /// Both trees at once, from their roots down. For a tree against itself, a branch meets itself, too.
     fn cross(
         &self,
         other: &Tree,

@@ -1,4 +1,4 @@
-//! What an answer said, in few bytes: enough to tell whether another one says the same.
+//! The digest of an answer, in few bytes: enough to tell whether another one reports the same.
 
 use crate::base::binary::{CHECKSUM_PRIME, EMPTY_CHECKSUM, Reader, Writer};
 use crate::base::error::{Error, Result};
@@ -6,19 +6,19 @@ use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::scene::search::query::{Contact, PairResult, SceneAnswer};
 use crate::scene::world::object::ObjectId;
 
-/// Of one answer.
+/// The digest of one answer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Digest {
     intersecting: bool,
     /// The query stopped at an intersecting pair, which is then the only one that is listed here.
     stopped: bool,
     count: u64,
-    /// Of which pairs are listed with which outcome.
+    /// The checksum of which pairs are listed with which outcome.
     listed: u64,
     /// Sums over the listed pairs: the true one lies in between.
     lower: f64,
     upper: f64,
-    /// Of all bits of distances, intervals, points, normals and depths.
+    /// The checksum of all bits of distances, intervals, points, normals and depths.
     bits: u64,
 }
 
@@ -32,7 +32,7 @@ impl Sum {
     }
 
     fn add_real(&mut self, x: f64) {
-        // Which NaN it is says nothing.
+        // Which NaN it is does not matter.
         self.add(if x.is_nan() { f64::NAN.to_bits() } else { x.to_bits() });
     }
 }
@@ -77,8 +77,8 @@ impl Digest {
         (intersecting, stopped, count, listed, bits) == other
     }
 
-    /// Refuses an answer that cannot be right if the other one is: wherever it was found, and whatever the scene had been asked
-    /// before.
+    /// Refuses an answer that cannot be right if the other one is, wherever it was found, and regardless of earlier questions to
+    /// the scene.
     ///
     /// # Errors
     /// [`Error::Unverified`].

@@ -15,7 +15,7 @@ use crate::scene::world::object::ObjectOptions;
 use crate::shape::Shape;
 use crate::shape::file::{from_bytes, to_bytes};
 
-/// What a recording begins with. The last byte keeps it from passing for text.
+/// The first bytes of a recording. The last byte keeps it from passing for text.
 pub(crate) const MAGIC: [u8; 8] = *b"SWFTREC\x1a";
 
 /// The version that is written, and the only one that is read.
@@ -266,7 +266,7 @@ fn write_change(change: &Change<Numbers>, to: &mut Writer) -> Result<()> {
     }
 }
 
-/// The change of a kind of record; other kinds stand for no change.
+/// The change of a kind of record; other kinds mean no change.
 fn read_change(kind: Kind, from: &mut Reader) -> Result<Change<'static, Numbers>> {
     Ok(match kind {
         Kind::Object => Change::Object {

@@ -1,6 +1,6 @@
-//! What is done to a scene, written down as it is done: a bug report and a benchmark in one file.
+//! A record of each change to a scene and each query, written as it is made: a bug report and a benchmark in one file.
 //!
-//! A recording begins with eight bytes that say what it is and a version. Records follow, all numbers little-endian:
+//! A recording begins with eight bytes that give its type and version. Records follow, all numbers little-endian:
 //!
 //! | bytes | what |
 //! |---|---|
@@ -10,8 +10,8 @@
 //! | n | the content |
 //! | 8 | the checksum of all bytes before |
 //!
-//! Checksums go on from record to record, so that one that is changed, lost or moved is found, and the checksum of a head is looked
-//! at before its length is believed. The last record says that the recording was ended; without it the program was.
+//! Checksums go on from record to record, so that one that is changed, lost or moved is found, and the checksum of a head is
+//! looked at before its length is believed. The last record tells that the recording was ended; without it the program was.
 //!
 //! Objects are numbered in order of creation, those that there were when the recording began first. Shapes are numbered, too, and
 //! stand in the recording as in a file of their own ([`shape::file`](crate::shape::file)). A question is written and handed to the
@@ -50,7 +50,7 @@ pub(crate) enum Recording {
 }
 
 impl Recording {
-    /// Begins with what a scene holds, whose filter has decided so of the pairs that are near.
+    /// Begins with the content of a scene, whose filter has decided so about the pairs that are near.
     ///
     /// # Errors
     /// See [`Scene::record`](crate::scene::Scene::record).
@@ -93,7 +93,7 @@ impl Recording {
         }
     }
 
-    /// What is to be written down of a change once it has been made: nothing of one that the scene will refuse for its ids.
+    /// The records to be written for a change once it has been made: nothing for one that the scene will refuse for its ids.
     #[inline]
     pub fn prepare(&mut self, change: &Change<Themselves>, objects: &ObjectTable) -> Option<Change<'static, Numbers>> {
         let Recording::On(recorder) = self else { return None };
@@ -115,7 +115,7 @@ impl Recording {
         }
     }
 
-    /// Writes down a query that is to be answered: it outlives the program.
+    /// Writes down a query before it is answered: it outlives the program.
     pub fn question(
         &mut self,
         subject: &Subject<ObjectId, Arc<Shape>>,
@@ -139,7 +139,7 @@ impl Recording {
         });
     }
 
-    /// Writes down what a filter has decided, or why that is not known.
+    /// Writes down the decisions of a filter, or why they are not known.
     pub fn decisions(&mut self, decided: Result<Vec<Decided>>, objects: &ObjectTable) {
         self.write(|recorder| write_decisions(&mut Numbering { recorder, objects }, &decided?));
     }
@@ -153,7 +153,7 @@ impl Recording {
         });
     }
 
-    /// Writes something down, if there is a recording; what cannot be written ends it.
+    /// Writes something down, if there is a recording; a record that cannot be written ends it.
     fn write(&mut self, write: impl FnOnce(&mut Recorder) -> Result<()>) {
         if let Recording::On(recorder) = self
             && let Err(error) = write(recorder)
@@ -170,7 +170,7 @@ impl Recording {
     }
 }
 
-/// Numbers for what is in a scene. A shape is written down when it first gets one.
+/// Numbers for the objects and shapes in a scene. A shape is written down when it first gets one.
 struct Numbering<'a> {
     recorder: &'a mut Recorder,
     objects: &'a ObjectTable,
@@ -188,7 +188,7 @@ impl Rename<Themselves, Numbers> for Numbering<'_> {
     fn filter(&mut self, _: &PairFilter) {}
 }
 
-/// What there is when a recording begins, except decisions.
+/// Writes the state in which a recording begins, except decisions.
 fn write_world(recorder: &mut Recorder, world: &World) -> Result<()> {
     let (rotation_limit, objects) = (world.rotation_limit, &world.objects);
     recorder.write(&Record::Scene { rotation_limit, is_whole: objects.created() == 0 })?;
@@ -213,7 +213,7 @@ fn write_world(recorder: &mut Recorder, world: &World) -> Result<()> {
         match word {
             Word::All => write(Change::AllActive(active))?,
             Word::Object(id) => write(Change::ObjectActive(id, active))?,
-            // Of objects removed since they are kept for a while.
+            // Words on objects removed since are kept for a while.
             Word::Pair(pair) if is_there(objects, &pair) => write(Change::PairActive(pair, active))?,
             Word::Pair(_) => {}
         }

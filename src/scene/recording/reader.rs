@@ -12,7 +12,7 @@ use crate::scene::recording::recorder::HEAD;
 /// Bytes before the first record.
 const OPENING: usize = 12;
 
-/// What is left of a recording.
+/// The rest of a recording.
 pub(crate) struct RecordReader {
     source: Box<dyn Read + Send + Sync>,
     /// The source's, in messages.
@@ -32,7 +32,7 @@ impl fmt::Debug for RecordReader {
     }
 }
 
-/// What stands next in a recording.
+/// The next item in a recording.
 pub(crate) enum Next {
     Record(Record<'static>),
     /// It ends within a record, or before the last one: the program did not end it.
@@ -43,7 +43,7 @@ impl RecordReader {
     /// From the beginning.
     ///
     /// # Errors
-    /// [`Error::File`] for what is no recording, or of another version.
+    /// [`Error::File`] for a file that is no recording, or of another version.
     pub fn new(source: Box<dyn Read + Send + Sync>, name: String) -> Result<RecordReader> {
         let (sum, content) = (EMPTY_CHECKSUM, Vec::new());
         let mut reader = RecordReader { source, name, sum, position: 0, count: 0, content };
@@ -72,7 +72,7 @@ impl RecordReader {
     /// The next record; no other comes after one that is cut off, [`Record::End`], or an error.
     ///
     /// # Errors
-    /// [`Error::File`] for what is damaged or cannot be read; the message says where. [`Error::Memory`].
+    /// [`Error::File`] for data that is damaged or cannot be read; the message tells where. [`Error::Memory`].
     pub fn next(&mut self) -> Result<Next> {
         let start = self.position;
         if !self.take(HEAD)? {
@@ -117,8 +117,8 @@ impl RecordReader {
         Error::File(format!("{}: the recording cannot be replayed {place}: {}", self.name, error.message()))
     }
 
-    /// Makes the next bytes the content, and says whether there are so many. No more room is asked for than for those that there
-    /// are.
+    /// Makes the next bytes the content, and returns whether there are so many. No more room is asked for than for those that
+    /// there are.
     fn take(&mut self, count: usize) -> Result<bool> {
         self.content.clear();
         let read = self.source.by_ref().take(count as u64).read_to_end(&mut self.content);

@@ -21,7 +21,7 @@ pub(crate) struct Recorder {
     sink: Box<dyn Write + Send + Sync>,
     /// The sink's, in messages.
     name: String,
-    /// What is not handed over yet.
+    /// The bytes that are not handed over yet.
     kept: Writer,
     /// The checksum of all that was written.
     sum: u64,
@@ -29,7 +29,7 @@ pub(crate) struct Recorder {
     shapes: HashMap<usize, (Weak<Shape>, u32)>,
     /// Places in the order of creation of the objects that there were at first: their numbers are those in here.
     serials: Vec<u64>,
-    /// Where the objects stand in the order of creation that came later.
+    /// The position in the order of creation of the objects that came later.
     first_new: u64,
 }
 
@@ -40,7 +40,7 @@ impl fmt::Debug for Recorder {
 }
 
 impl Recorder {
-    /// Of a scene with objects of these places in the order of creation, of `created` that it ever had.
+    /// A recorder for a scene with objects of these places in the order of creation, of `created` that it ever had.
     ///
     /// # Errors
     /// [`Error::Memory`].
@@ -111,7 +111,7 @@ impl Recorder {
         Ok(())
     }
 
-    /// Hands what is kept to the system: it outlives the program.
+    /// Hands the kept bytes to the system: they outlive the program.
     ///
     /// # Errors
     /// [`Error::File`].
@@ -121,9 +121,9 @@ impl Recorder {
         written.map_err(|e| Error::File(format!("{}: the recording ends, it cannot be written: {e}", self.name)))
     }
 
-    /// Writes nothing any more but what is kept.
+    /// Writes nothing any more but the kept bytes.
     pub fn give_up(&mut self) {
-        // Why it is given up is what counts.
+        // Only the reason for giving up counts.
         let _ = self.hand_over();
         self.sink = Box::new(std::io::sink());
     }

@@ -12,7 +12,7 @@ use crate::scene::search::findings::Findings;
 use crate::scene::search::narrow_phase::{BLOCK, Own, Pass};
 use crate::scene::world::testing::{Rules, Testing};
 
-/// As [`Pass::run`] over all pairs, a block at a time. What near pairs remember is used and kept, for others nothing is.
+/// As [`Pass::run`] over all pairs, a block at a time. The caches of near pairs are used and kept, those of others are not.
 ///
 /// # Errors
 /// [`Error::Memory`](crate::base::error::Error::Memory).

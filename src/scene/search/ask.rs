@@ -1,5 +1,5 @@
-//! A query from top to bottom: what is asked is checked, the near pairs are brought up to date and gone through, and what they
-//! answer is listed.
+//! A query from top to bottom: the request is checked, the near pairs are brought up to date and gone through, and their answers
+//! are listed.
 
 use std::sync::{Arc, Mutex};
 
@@ -26,38 +26,38 @@ use crate::scene::world::proxies::NewProxy;
 use crate::scene::world::rows::Label;
 use crate::shape::Shape;
 
-/// What is searched, and who shares in that.
+/// The scene that is searched, and the workers that share in that.
 pub(crate) struct Searched<'a> {
     pub world: &'a mut World,
     pub near: &'a mut BroadPhase,
     pub workers: &'a Workers,
 }
 
-/// What queries have found, each kind for itself: its answers stay good while queries of other kinds are made.
+/// The findings of queries, separately for each kind: its answers stay good while queries of other kinds are made.
 #[derive(Debug, Default)]
 pub(crate) struct Search {
     kept: [Kept; KINDS],
-    /// Of which kind the last query was.
+    /// The kind of the last query.
     latest: usize,
     /// It stopped at its last result.
     stopped: bool,
     /// The results that a pass gives again, or what is left of them.
     before: Before,
-    /// What each part of a pass found.
+    /// The findings of each part of a pass.
     parts: Vec<PartFindings>,
-    /// Who needs how much of an error budget.
+    /// The needs of pairs for an error budget.
     needs: Vec<Need>,
     events: Events,
     pub statistics: SceneStatistics,
 }
 
-/// What the last query of a kind found.
+/// The findings of the last query of a kind.
 #[derive(Debug, Default)]
 struct Kept {
     findings: Findings,
     /// The number of its pass over all near pairs, if that came to its end, …
     pass: Option<u64>,
-    /// … and what it asked.
+    /// … and its request.
     asked: Option<Request>,
 }
 
@@ -128,7 +128,7 @@ impl Search {
         }
     }
 
-    /// What the last query found.
+    /// The answer of the last query.
     pub fn answer(&self) -> SceneAnswer<'_> {
         let Findings { intersecting, contacts, .. } = self.findings();
         let results = self.findings().results();
@@ -136,10 +136,10 @@ impl Search {
         SceneAnswer { intersecting: *intersecting, pairs, found, contacts: contacts.view() }
     }
 
-    /// What has changed among the pairs of objects that the last query found.
+    /// The changes among the pairs of objects that the last query found.
     ///
     /// # Errors
-    /// [`Error::Memory`](crate::base::error::Error::Memory); what was near stays remembered.
+    /// [`Error::Memory`](crate::base::error::Error::Memory); the near pairs stay remembered.
     pub fn compare(&mut self, objects: &ObjectTable) -> Result<SceneEvents<'_>> {
         self.events.compare(self.kept[self.latest].findings.results(), objects)
     }
@@ -173,7 +173,7 @@ impl Search {
         self.pass_over_all(searched, &request.with_share(Some(share)))
     }
 
-    /// What each pair may take that has a share of a budget: while nothing moves, what it was.
+    /// The share of each pair that has one in a budget: while nothing moves, it stays the same.
     fn share(&mut self, searched: &mut Searched, request: &Request, budget: f64) -> Result<f64> {
         let (proxies, list) = (&searched.world.proxies, &mut searched.near.list);
         let Kept { pass, asked, .. } = &mut self.kept[self.latest];
@@ -198,7 +198,7 @@ impl Search {
         if searched.world.keeps_list(request.tolerance) {
             match self.bring_up_to_date(searched, request.tolerance) {
                 Ok(()) => return self.pass_over_list(searched, request),
-                // A list of all pairs saves time; without one they are gone through all the same.
+                // A list of all pairs saves time; without one they are gone through regardless.
                 Err(Error::Memory(_)) if request.tolerance == f64::INFINITY && searched.world.given.is_none() => {}
                 Err(error) => return Err(error),
             }
@@ -217,7 +217,7 @@ impl Search {
         searched.near.list.make_marks(self.latest)
     }
 
-    /// The same over the list. Where the last pass of the kind asked the same, it gives the answers of what rests again.
+    /// The same over the list. If the last pass of the kind asked the same, it repeats the answers of the pairs at rest.
     fn pass_over_list(&mut self, searched: &mut Searched, request: &Request) -> Result<bool> {
         let (kind, proxies, list) = (self.latest, &searched.world.proxies, &mut searched.near.list);
         let Kept { findings, pass: last_pass, asked } = &mut self.kept[kind];
@@ -244,7 +244,7 @@ impl Search {
             findings.join(&mut self.before, finds_contacts)?;
         }
         if !stopped {
-            // A request is large: one that is there is not written again, unless what it says of budgets may differ.
+            // A request is large: an existing one is not written again, unless its budgets may differ.
             if asked_same.is_none() || request.error_budget.is_some() {
                 *asked = Some(*request);
             }
@@ -302,7 +302,7 @@ impl Search {
         stopped
     }
 
-    /// Over pairs that remember nothing.
+    /// Over pairs without caches.
     fn pass_without_memory(&mut self, world: &World, pairs: &mut [NearPair], request: &Request) -> Result<bool> {
         let mut caches = collected(pairs.iter().map(|_| Mutex::default()))?;
         self.pass_over_few(world, pairs, Own { caches: &mut caches, contacts: None }, request)

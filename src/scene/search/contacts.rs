@@ -1,4 +1,4 @@
-//! How deep listed pairs are in each other and where they meet: what a query of contacts says beside its answers.
+//! How deep listed pairs are in each other and where they meet: the details of a query of contacts beside its answers.
 
 use crate::base::error::{Result, check_range};
 use crate::base::memory::with_capacity;
@@ -9,7 +9,7 @@ use crate::pair::{
 use crate::scene::search::query::{Contact, ContactDetail, SceneContacts, SceneQuery};
 use crate::scene::search::slots::{Run, Slots, Source};
 
-/// What is asked of each listed pair.
+/// The details asked of each listed pair.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Details {
     depth: DepthConfig,
@@ -17,7 +17,7 @@ pub(crate) struct Details {
 }
 
 impl Details {
-    /// What a query of contacts asks beside the answers.
+    /// The details that a query of contacts asks beside the answers.
     ///
     /// # Errors
     /// [`Error::Argument`](crate::base::error::Error::Argument) for a margin that is out of range. The other members have been
@@ -37,7 +37,7 @@ impl Details {
         Ok(Some(Details { depth, manifold }))
     }
 
-    /// Finds what is asked of two bodies whose distance has been answered, `cache` being there where they intersect.
+    /// Finds the requested details of two bodies whose distance has been answered, `cache` being there where they intersect.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory) where there is none for the points.
@@ -133,7 +133,7 @@ impl Contacts {
         Run { first: first.first_point, count: end - first.first_point, ..*run }
     }
 
-    /// Where contacts and points of all parts go that are still to be copied.
+    /// The room for the contacts and points of all parts that are still to be copied.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
@@ -151,7 +151,7 @@ impl Contacts {
         }))
     }
 
-    /// Of a query that stopped there is but the last.
+    /// For a query that stopped, only the last one exists.
     pub fn keep_last(&mut self) {
         let Some(last) = self.list.as_slice().last() else { return };
         self.points.keep_last(last.manifold.point_count as usize);

@@ -7,10 +7,10 @@ use crate::base::memory::{extend, push};
 use crate::scene::search::query::{ObjectPair, PairResult, SceneEvents};
 use crate::scene::world::object::ObjectTable;
 
-/// Where objects stand in the order of creation, for ever.
+/// The objects' permanent positions in the order of creation.
 type Serials = [u64; 2];
 
-/// What the last query about events found.
+/// The findings of the last query about events.
 #[derive(Debug, Default)]
 pub(crate) struct Events {
     near: Vec<(Serials, ObjectPair)>,
@@ -21,10 +21,10 @@ pub(crate) struct Events {
 }
 
 impl Events {
-    /// What has changed since the last call, now that these pairs of pieces are near.
+    /// The changes since the last call, now that these pairs of pieces are near.
     ///
     /// # Errors
-    /// [`Error::Memory`](crate::base::error::Error::Memory); what was near stays.
+    /// [`Error::Memory`](crate::base::error::Error::Memory); the near pairs stay.
     pub fn compare(&mut self, results: &[PairResult], objects: &ObjectTable) -> Result<SceneEvents<'_>> {
         self.list_objects(results, objects)?;
         self.compare_lists()?;
@@ -45,10 +45,10 @@ impl Events {
         Ok(())
     }
 
-    /// Compares what is near, in `before`, with what was, and puts it in its place. Both are in order.
+    /// Compares the near pairs, in `before`, with the earlier ones, and puts them in their place. Both are in order.
     ///
     /// # Errors
-    /// [`Error::Memory`](crate::base::error::Error::Memory); what was near stays.
+    /// [`Error::Memory`](crate::base::error::Error::Memory); the near pairs stay.
     fn compare_lists(&mut self) -> Result<()> {
         let Events { near: was, before: is, began, ended } = self;
         began.clear();

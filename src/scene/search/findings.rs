@@ -1,7 +1,7 @@
-//! What a pass over pairs found: new results, and results of the pass before that are listed again.
+//! The findings of a pass over pairs: new results, and results of the pass before that are listed again.
 //!
-//! Where few pieces have moved most results are those of before, next to each other. They stay in their array, and move within it
-//! by as many places as others have come or gone before them; the new ones are put between them at the end.
+//! If few pieces have moved, most results are those of the pass before, next to each other. They stay in their array, and move
+//! within it by as many places as others have come or gone before them. The new ones are put between them at the end.
 
 use crate::base::error::Result;
 use crate::base::memory::{extend, push};
@@ -13,8 +13,8 @@ use crate::scene::search::statistics::SceneStatistics;
 use crate::scene::world::proxies::Proxies;
 use crate::scene::world::testing::Testing;
 
-/// Above this part of all pieces, one in so many, all pairs are answered anew: new results are then written where they belong, and
-/// pairs of two that have not moved are few.
+/// Above this part of all pieces, one in this many, all pairs are answered anew: new results are then written where they belong,
+/// and pairs of two that have not moved are few.
 const MANY_MOVED: usize = 2;
 
 /// So many pairs of which neither piece has moved take as long as one that is looked at, …
@@ -23,11 +23,11 @@ const UNMOVED_A_LOOK: usize = 16;
 /// … and a look that finds contacts as long as so many others.
 const LOOKS_A_CONTACT: usize = 8;
 
-/// So many looks of a pass that gives answers again are worth sharing as much as one of a pass that gives none: to put new results
+/// This many looks of a pass that repeats answers are worth sharing as much as one of a pass that gives none: to put new results
 /// between those of before, and to find out what has moved, is left to the caller's thread.
 const LOOKS_OF_AGAIN: usize = 4;
 
-/// What a pass found, when another has begun.
+/// The findings of a pass, when another has begun.
 #[derive(Debug, Default)]
 pub(crate) struct Before {
     /// Its results, with what is left of earlier ones behind, while a pass gives them again.
@@ -66,7 +66,7 @@ impl Before {
     }
 }
 
-/// What came of a part of the pairs.
+/// The findings of a part of the pairs.
 #[derive(Debug, Default)]
 pub(crate) struct Findings {
     /// New results, …
@@ -159,7 +159,7 @@ impl Findings {
         Ok(listed as u32)
     }
 
-    /// Where the results and contacts of all parts go that have been added.
+    /// The room for the results and contacts of all parts that have been added.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
@@ -178,7 +178,7 @@ impl Findings {
     }
 }
 
-/// Room for what a part has found among what all have.
+/// Room for the findings of a part among those of all.
 pub(crate) struct Room<'a> {
     results: &'a mut [PairResult],
     contacts: contacts::Room<'a>,

@@ -1,4 +1,4 @@
-//! Pairs of one body: of an object of the scene, or of one that is put somewhere for the question alone.
+//! Pairs of one body: an object of the scene, or one that is put somewhere for the question alone.
 
 use crate::base::error::Result;
 use crate::base::memory::{collected, push};
@@ -66,7 +66,7 @@ pub(crate) fn pairs_of_last(
     Ok(pairs)
 }
 
-/// One more pair, with a memory of its own.
+/// One more pair, with a cache of its own.
 fn add(pairs: &mut Vec<NearPair>, [a, b]: [usize; 2]) -> Result<()> {
     let cache = pairs.len() as u32;
     push(pairs, NearPair { cache, ..NearPair::new([a as u32, b as u32]) })

@@ -1,5 +1,5 @@
-//! What a listener hears: which pairs and contact points are listed that were not when it last asked, which still are, and which
-//! are no more. Each listener remembers for itself.
+//! The events for a listener: which pairs and contact points are newly listed since it last asked, which still are, and which are
+//! no longer listed. Each listener has its own memory.
 
 use std::cmp::Ordering;
 
@@ -21,7 +21,7 @@ pub enum EventState {
     Ended = 3,
 }
 
-/// What stands in the place of a result or a point of what has ended: C's SIZE_MAX.
+/// The placeholder for a result or a point of an event that has ended: C's SIZE_MAX.
 const NO_PLACE: usize = usize::MAX;
 
 /// A pair of convex pieces that is listed, or was when the listener last asked.
@@ -68,7 +68,7 @@ pub struct PointEvent {
     pub state: EventState,
 }
 
-/// What a listener has heard. Owned by the listener until it asks again.
+/// The events that a listener has received. Owned by the listener until it asks again.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ListenerEvents<'a> {
     /// All pairs that the query lists, and those that were listed and are not, in the scene's order.
@@ -89,7 +89,7 @@ impl<'a> ListenerEvents<'a> {
 #[derive(Debug, Default)]
 pub struct Listener {
     was: Listed,
-    /// What is listed now, until it is compared.
+    /// The current listing, until it is compared.
     is: Listed,
     pairs: Vec<PairEvent>,
     points: Vec<PointEvent>,
@@ -105,18 +105,18 @@ struct Listed {
 
 #[derive(Debug, Clone, Copy)]
 struct ListedPair {
-    /// Where its objects stand in the order of creation, for ever.
+    /// Its objects' permanent positions in the order of creation.
     serials: [u64; 2],
     objects: [ObjectId; 2],
     user_data: [u64; 2],
     pieces: [u32; 2],
     piece_user_data: [u64; 2],
-    /// Where its ids end; they begin where those of the pair before end.
+    /// The end of its ids; they begin where those of the pair before end.
     ids_end: usize,
 }
 
 impl ListedPair {
-    /// The scene's order. Of objects of two scenes the serials may be the same.
+    /// The scene's order. For objects of two scenes, the serials may be the same.
     fn order(&self, other: &ListedPair) -> Ordering {
         let key = |pair: &ListedPair| (pair.serials, pair.objects.map(ObjectId::to_bits), pair.pieces);
         key(self).cmp(&key(other))
@@ -124,7 +124,7 @@ impl ListedPair {
 }
 
 impl Listed {
-    /// Takes what an answer lists.
+    /// Takes the listing of an answer.
     fn take(&mut self, answer: &SceneAnswer, world: &World) -> Result<()> {
         self.pairs.clear();
         self.ids.clear();
@@ -169,10 +169,10 @@ impl Listener {
         Ok(())
     }
 
-    /// What has changed, now that the scene answers this.
+    /// Computes the changes, now that the scene answers this.
     ///
     /// # Errors
-    /// [`Error::Memory`]; what was listed before stays remembered, and no events are said.
+    /// [`Error::Memory`]; the earlier listing stays remembered, and no events are reported.
     pub(crate) fn hear(&mut self, answer: &SceneAnswer, world: &World) -> Result<()> {
         self.pairs.clear();
         self.points.clear();
@@ -186,7 +186,7 @@ impl Listener {
         Ok(())
     }
 
-    /// What the last query said.
+    /// The events of the last query.
     pub fn events(&self) -> ListenerEvents<'_> {
         ListenerEvents { pairs: &self.pairs, points: &self.points }
     }
@@ -220,7 +220,7 @@ impl Listener {
         self.tell(self.was.pairs[old], EventState::Ended, NO_PLACE, first_point)
     }
 
-    /// Of a pair that is listed, and was if it has an old place.
+    /// Reports a pair that is listed, and was listed before if it has an old place.
     fn tell_listed(&mut self, answer: &SceneAnswer, old: Option<usize>, new: usize) -> Result<()> {
         let Listener { was, is, points, .. } = self;
         let (before, now) = (old.map_or(&[][..], |old| was.ids_of(old)), is.ids_of(new));

@@ -1,4 +1,4 @@
-//! From near pairs to results: what a first look at rows of numbers settles, and the pair layer for what is left.
+//! From near pairs to results: a first look at rows of numbers settles some, and the pair layer the rest.
 //!
 //! | first look | settles |
 //! |---|---|
@@ -50,13 +50,13 @@ const INSCRIBED: PairAnswer = PairAnswer {
     ..PairAnswer::UNSAID
 };
 
-/// One pass over pairs: what is asked of each, of which pieces.
+/// One pass over pairs: the request to each, and its pieces.
 pub(crate) struct Pass<'a> {
     request: &'a Request,
     solver: Solver,
-    /// What pairs with a share of an error budget are asked.
+    /// The query for pairs with a share of an error budget.
     of_share: Option<PairConfig>,
-    /// Of the request, which every look needs.
+    /// Copied from the request, since every look needs it.
     is_verdict: bool,
     tolerance: f64,
     pub proxies: &'a Proxies,
@@ -64,7 +64,7 @@ pub(crate) struct Pass<'a> {
     before: Option<&'a Before>,
 }
 
-/// What pairs remember, by place.
+/// The caches of the pairs, by place.
 pub(crate) trait Caches {
     /// Asks for the memory of one.
     fn prefetch(&self, place: u32);
@@ -120,7 +120,7 @@ impl Caches for Own<'_> {
     }
 }
 
-/// What the first look says.
+/// The result of the first look.
 #[derive(Debug, Clone, Copy)]
 enum Look {
     Settled,
@@ -130,7 +130,7 @@ enum Look {
     Test,
 }
 
-/// Of one block of pairs those that the first look has not settled, in order; a byte tells which.
+/// For one block of pairs, those that the first look has not settled, in order; a byte tells which.
 struct Left {
     pairs: [(u8, Look); BLOCK],
     count: usize,
@@ -207,7 +207,7 @@ impl<'a> Pass<'a> {
         Ok(false)
     }
 
-    /// Does what a look says; true if the query is to stop at this pair.
+    /// Carries out the result of a look; true if the query is to stop at this pair.
     #[inline(always)]
     fn follow<C: Caches + ?Sized>(
         &self,
@@ -241,7 +241,7 @@ impl<'a> Pass<'a> {
         }
     }
 
-    /// Looks at a pair, at what the pass before said of it first.
+    /// Looks at a pair, first at its result in the pass before.
     #[inline(always)]
     fn look_again(&self, pair: &NearPair, mark: &mut Mark, statistics: &mut SceneStatistics) -> Look {
         if self.is_unmoved(pair, mark) {
@@ -385,14 +385,14 @@ impl<'a> Pass<'a> {
         };
         (self.solver)([placed(a), placed(b)], cache, config, answer)?;
         pair.apart_until = self.apart_until(answer, a, b);
-        // What a budget left open may go on the next time.
+        // Pairs that a budget left open may go on the next time.
         if answer.decided_by == DecidedBy::Budget {
             mark.is_answered = false;
         }
         Ok(())
     }
 
-    /// What is asked beside the answer that was written last.
+    /// Finds the details asked for beside the answer that was written last.
     #[inline(never)]
     fn find_details<C: Caches + ?Sized>(
         &self,
@@ -416,7 +416,7 @@ impl<'a> Pass<'a> {
         Ok(())
     }
 
-    /// Whose result it is.
+    /// Writes the objects, user data and pieces of the pair into its result.
     #[inline(always)]
     fn sign(&self, pair: &NearPair, result: &mut PairResult) {
         let [label1, label2] = pair.proxies.map(|proxy| &self.proxies.labels[proxy as usize]);

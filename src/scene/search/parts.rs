@@ -1,5 +1,5 @@
-//! The near pairs of one pass in parts, for several threads. Each pair's answer rests on its poses and its own memory alone, so
-//! results, their order and what pairs remember are bit for bit those of one thread.
+//! The near pairs of one pass in parts, for several threads. Each pair's answer rests on its poses and its own cache alone, so
+//! results, their order and the caches are bit for bit those of one thread.
 
 use std::sync::Mutex;
 
@@ -14,18 +14,18 @@ use crate::scene::near::near_pairs::{Mark, NearPair, NearPairs};
 use crate::scene::search::findings::Findings;
 use crate::scene::search::narrow_phase::{BLOCK, Caches, Pass};
 
-/// What a part found, kept from pass to pass.
+/// The findings of a part, kept from pass to pass.
 #[derive(Debug, Default)]
 pub(crate) struct PartFindings {
     findings: Findings,
     written: Written,
 }
 
-/// What a part has changed of contacts, by places: put there once no other part reads them.
+/// The contacts that a part has changed, by places: put there once no other part reads them.
 #[derive(Debug, Default)]
 struct Written {
     references: Vec<(u32, Reference)>,
-    /// Of pairs that had none.
+    /// The depths of pairs that had none.
     depths: Vec<(u32, DepthCache)>,
 }
 
@@ -46,7 +46,7 @@ impl Written {
     }
 }
 
-/// What pairs remember while several threads look at them. Each pair is looked at by one: no lock is waited for.
+/// The caches of pairs while several threads look at them. Each pair is looked at by one: no lock is waited for.
 struct Together<'a> {
     caches: &'a [Mutex<PairCache>],
     contacts: &'a ContactMemory,

@@ -1,4 +1,4 @@
-//! What a query over a scene is asked for, and what it says.
+//! The options and the answer of a query over a scene.
 
 use std::borrow::Cow;
 
@@ -9,24 +9,24 @@ use crate::pair::{
 };
 use crate::scene::world::object::ObjectId;
 
-/// What a query over a scene is asked for.
+/// The options of a query over a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneQuery {
     /// Stop at the first intersecting pair in the order of results, and then list no pairs at all: [`SceneAnswer::found`] is it.
     pub early_exit: bool,
     /// List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
     /// to +∞ (the default: all pairs, which takes time in proportion to their number).
-    /// [`query_intersection`](crate::scene::Scene::query_intersection) does without it, but refuses one out of range.
+    /// [`query_intersection`](crate::scene::Scene::query_intersection) needs none, but refuses one out of range.
     pub distance_tolerance: f64,
     /// [Approximate queries](crate::scene::Scene::query_approximate): `upper − lower` of a pair may be as large as this …
     pub absolute_error: f64,
     /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
     pub relative_error: f64,
-    /// [Approximate queries](crate::scene::Scene::query_approximate): finite, it is what `upper − lower` of all listed
-    /// pairs together may come to, whatever the two errors say, beside what exact answers take. Pairs that maps of support
-    /// functions or levels of detail may answer with a share of it take one, all the same; others are answered as by exact
-    /// queries, and so are all where the scene does not keep all pairs
-    /// ([`set_kept_pair_limit`](crate::scene::Scene::set_kept_pair_limit)). Default: +∞.
+    /// [Approximate queries](crate::scene::Scene::query_approximate): finite, it is what `upper − lower` of all listed pairs
+    /// together may come to, whatever the two errors say, beside what exact answers take. Pairs that maps of support functions or
+    /// levels of detail may answer with a share of it take one, regardless; others are answered as by exact queries, and so are
+    /// all where the scene does not keep all pairs ([`set_kept_pair_limit`](crate::scene::Scene::set_kept_pair_limit)). Default:
+    /// +∞.
     pub error_budget: f64,
     /// [Approximate queries](crate::scene::Scene::query_approximate): as
     /// [`PairConfig::step_budget`](crate::pair::PairConfig::step_budget), of each pair.
@@ -35,9 +35,9 @@ pub struct SceneQuery {
     pub levels: Levels,
     /// How they go from level to level.
     pub refinement: Refinement,
-    /// Where marching starts in each pair.
+    /// The start of marching in each pair.
     pub start: Start,
-    /// [Contacts](crate::scene::Scene::query_contact): what is said of each pair beside its answer. `absolute_error`,
+    /// [Contacts](crate::scene::Scene::query_contact): the details of each pair beside its answer. `absolute_error`,
     /// `relative_error` and `step_budget` are then those of the depths.
     pub detail: ContactDetail,
     /// [Contacts](crate::scene::Scene::query_contact): pairs farther apart have no manifold, and points with a larger gap do not
@@ -45,13 +45,13 @@ pub struct SceneQuery {
     pub margin: f64,
 }
 
-/// What a query is about.
+/// The subject of a query.
 #[derive(Debug, Clone)]
 pub(crate) enum Subject<'a, Object, Shape: Clone> {
     AllPairs,
     Object(Object),
     Placed(PlacedBody<'a, Shape>),
-    /// What has changed since the last query of this kind; its distance is the query's tolerance.
+    /// The changes since the last query of this kind; its distance is the query's tolerance.
     Events,
 }
 
@@ -146,10 +146,10 @@ pub struct Contact {
     pub first_point: usize,
 }
 
-/// What a query of contacts says beside its answers.
+/// The details of a query of contacts beside its answers.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SceneContacts<'a> {
-    /// One for each of the pairs, in their order; of a query that stopped that of [`SceneAnswer::found`]. Empty where none were
+    /// One for each of the pairs, in their order; for a query that stopped, that of [`SceneAnswer::found`]. Empty where none were
     /// asked for.
     pub contacts: &'a [Contact],
     /// The points of their manifolds.
@@ -163,7 +163,7 @@ impl<'a> SceneContacts<'a> {
     }
 }
 
-/// What a query over a scene found.
+/// The answer of a query over a scene.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneAnswer<'a> {
     /// Whether any tested pair intersects.
@@ -174,7 +174,7 @@ pub struct SceneAnswer<'a> {
     /// the scene's order, with what the query says of such pairs. (A step budget may leave an earlier one undecided.) Owned as
     /// `pairs` are.
     pub found: Option<&'a PairResult>,
-    /// What was asked for beside the answers. Owned as `pairs` are.
+    /// The details asked for beside the answers. Owned as `pairs` are.
     pub contacts: SceneContacts<'a>,
 }
 
@@ -212,7 +212,7 @@ pub struct ObjectPair {
     pub user_data2: u64,
 }
 
-/// What has changed, in order of creation.
+/// The changes, in order of creation.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct SceneEvents<'a> {
     /// Pairs that are near and were not. Owned by the scene until its next query about events.

@@ -1,4 +1,4 @@
-//! What is asked of pairs: a query, checked once.
+//! The request to pairs: a query, checked once.
 
 use crate::base::error::{Result, check_range};
 use crate::pair::{self, PairAnswer, PairCache, PairConfig, Placed, Query};
@@ -18,7 +18,7 @@ fn check(query: &SceneQuery) -> Result<()> {
     check_range("error_budget", query.error_budget, 0.0..=f64::INFINITY)
 }
 
-/// What is asked of each pair, and of all together.
+/// The request to each pair, and to all together.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Request {
     pub kind: Query,
@@ -27,11 +27,12 @@ pub(crate) struct Request {
     pub tolerance: f64,
     /// Stop behind the first intersecting pair.
     pub early_exit: bool,
-    /// What `upper − lower` of all listed pairs together may come to, if that is asked for.
+    /// The upper limit on the sum of `upper − lower` over all listed pairs, if that is asked for.
     pub error_budget: Option<f64>,
-    /// Of that budget what each pair may take that [has a share](NearPair::takes_share); the others are asked for exact distances.
+    /// The part of that budget that each pair may take that [has a share](NearPair::takes_share); the others are asked for exact
+    /// distances.
     pub share: Option<f64>,
-    /// What is asked of listed pairs beside their answers.
+    /// The details asked of listed pairs beside their answers.
     pub details: Option<Details>,
 }
 
@@ -49,7 +50,7 @@ impl Request {
         if !is_sound {
             check(query)?;
         }
-        // A verdict is asked for whatever the distance, and lists what intersects.
+        // A verdict is asked for at any distance, and lists what intersects.
         let (reach, tolerance) = match kind {
             Query::Intersection => (f64::INFINITY, 0.0),
             Query::Distance | Query::Contact | Query::Approximate => {
@@ -83,7 +84,7 @@ impl Request {
         Request { config: PairConfig { absolute_error: 0.0, relative_error: 0.0, ..self.config }, share, ..*self }
     }
 
-    /// What pairs are asked that have a share.
+    /// The query for pairs that have a share.
     pub fn of_share(&self) -> Option<PairConfig> {
         self.share.map(|share| PairConfig { absolute_error: share, ..self.config })
     }
@@ -100,12 +101,12 @@ impl Request {
         self.kind == Query::Intersection
     }
 
-    /// Who answers for one pair.
+    /// The solver that answers for one pair.
     pub fn solver(&self) -> Solver {
         match self.kind {
             Query::Intersection => pair::intersection,
             Query::Distance => pair::distance,
-            // The depth says the rest.
+            // The depth gives the rest.
             Query::Contact if self.details.is_some() => pair::distance,
             Query::Contact => pair::contact,
             Query::Approximate => pair::approximate,

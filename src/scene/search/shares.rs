@@ -14,17 +14,17 @@ use crate::scene::world::proxies::Proxies;
 use crate::scene::world::rows::are_far_apart;
 use crate::scene::world::testing::Testing;
 
-/// What came of dealing.
+/// The result of dealing.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Deal {
-    /// What `upper − lower` of each pair with a share may come to: a power of two, so that it stays while little changes.
+    /// The upper limit on `upper − lower` of each pair with a share: a power of two, so that it stays while little changes.
     pub share: f64,
     /// The budget sufficed for all that maps or levels may answer. Else which pairs take shares depends on all others, and answers
     /// of another deal are not given again.
     pub is_for_all: bool,
 }
 
-/// What the maps or the levels of a pair need, and its place in the list.
+/// The need of the maps or the levels of a pair, and its place in the list.
 pub(crate) type Need = (f64, u32);
 
 /// Says of each pair whether it takes a share. `marks` are those of the last pass that asked the same.

@@ -20,7 +20,7 @@ pub(crate) struct Run {
     pub count: usize,
 }
 
-/// Where rows come from.
+/// The source of rows.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Source {
     Before,
@@ -81,7 +81,7 @@ impl<T: Copy + Default> Slots<T> {
         Ok(())
     }
 
-    /// Where the next row is written, for which there is room.
+    /// The slot in which the next row is written, for which there is room.
     #[inline(always)]
     pub fn next(&mut self) -> &mut T {
         &mut self.rows[self.count]
@@ -113,7 +113,7 @@ impl<T: Copy + Default> Slots<T> {
         Ok(())
     }
 
-    /// Room for what each of several parts has written, so many rows a part, behind what is there.
+    /// Room for the rows that each of several parts has written, this many rows a part, behind the existing ones.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
@@ -129,7 +129,8 @@ impl<T: Copy + Default> Slots<T> {
         }))
     }
 
-    /// Becomes what `runs` say of its own rows and of new ones, in their order. Its own move within their array, each once at most.
+    /// Becomes the sequence of its own rows and of new ones that `runs` describe, in their order. Its own move within their
+    /// array, each once at most.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
@@ -137,8 +138,8 @@ impl<T: Copy + Default> Slots<T> {
         let count: usize = runs.iter().map(|run| run.count).sum();
         self.make_room(count.saturating_sub(self.count))?;
         let joined = &mut self.rows;
-        // What goes to earlier places goes before anything is put behind it, what goes to later ones the other way round: then
-        // nothing is overwritten that has still to go.
+        // Rows that go to earlier places move before anything is put behind them, rows that go to later ones the other way round.
+        // Thus no row that has still to move is overwritten.
         let mut place = 0;
         for run in runs {
             if run.source == Source::Before && run.first > place {

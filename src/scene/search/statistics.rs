@@ -1,4 +1,4 @@
-//! What the queries of a scene did.
+//! The statistics of a scene's queries.
 
 #[cfg(doc)]
 use crate::pair::Outcome;
@@ -48,7 +48,7 @@ pub struct SceneStatistics {
     pub out_of_reach: u64,
 }
 
-/// What settled a pair that is not listed.
+/// The step that settled a pair that is not listed.
 pub(crate) enum Settled {
     BoundingSpheres,
     OutOfReach,
@@ -75,7 +75,7 @@ impl SceneStatistics {
         self.by_level[usize::from(level_of(answer))] += 1;
     }
 
-    /// Pairs of which neither piece has moved; `level` is that of their answers, as [`level_of`] says it.
+    /// Pairs of which neither piece has moved; `level` is that of their answers, as [`level_of`] gives it.
     #[inline(always)]
     pub(crate) fn count_unmoved(&mut self, count: u64, level: u8) {
         self.pairs += count;
@@ -94,7 +94,7 @@ impl SceneStatistics {
         } += 1;
     }
 
-    /// What a part of a query did, except the queries themselves and the error, which are no sums over parts.
+    /// Adds the statistics of a part of a query, except the queries themselves and the error, which are no sums over parts.
     pub(crate) fn add(&mut self, part: &SceneStatistics) {
         self.pairs += part.pairs;
         self.marched += part.marched;
@@ -119,7 +119,7 @@ impl SceneStatistics {
 /// The last entry of [`SceneStatistics::by_level`].
 const LAST_LEVEL: u16 = 7;
 
-/// Where an answer counts among [`SceneStatistics::by_level`].
+/// The level under which an answer counts in [`SceneStatistics::by_level`].
 pub(crate) fn level_of(answer: &PairAnswer) -> u8 {
     let [level1, level2] = answer.statistics.levels;
     level1.max(level2).min(LAST_LEVEL) as u8

@@ -7,7 +7,7 @@ use crate::scene::world::rows::{Spheres, TINY};
 /// Squares beyond this may be infinite sums: no bound is taken from them.
 const LARGEST_SQUARE: f64 = 1e300;
 
-/// Two bodies in their spheres are at least this far apart; negative or 0 says nothing.
+/// Two bodies in their spheres are at least this far apart; negative or 0 proves nothing.
 ///
 /// The square is off by less than 8u of itself, its root by 5u, the sum of the radii by 2u; below [`TINY`] squares underflow.
 #[inline(always)]

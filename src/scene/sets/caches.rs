@@ -1,4 +1,4 @@
-//! What pairs of a question's pieces remember from one question to the next.
+//! The caches of pairs of a question's pieces from one question to the next.
 
 use crate::base::error::Result;
 use crate::base::memory::filled;
@@ -7,7 +7,7 @@ use crate::pair::PairCache;
 /// Pairs whose cache is kept, a power of two: those of an arm and what is around it.
 const SLOTS: usize = 1024;
 
-/// Caches of pairs, each at the place that its pair's numbers say: of two pairs at one place the later has it. Whatever a cache
+/// Caches of pairs, each at the place given by its pair's numbers: of two pairs at one place the later has it. Whatever a cache
 /// holds, it is safe for any pair.
 #[derive(Debug, Default)]
 pub(crate) struct Caches {
@@ -32,7 +32,7 @@ impl Caches {
         Ok(())
     }
 
-    /// What a pair of pieces remembers; there is room.
+    /// The cache of a pair of pieces; there is room.
     pub fn of(&mut self, pair: [u32; 2]) -> &mut PairCache {
         let [a, b] = pair.map(u64::from);
         // By the golden ratio (Knuth 1998, §6.4): numbers of neighbours come far apart.

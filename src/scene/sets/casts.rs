@@ -1,4 +1,4 @@
-//! When moving objects first meet others: boxes around what they sweep over say whom they may meet, and each such pair is cast up
+//! When moving objects first meet others: boxes around what they sweep over select the candidates, and each such pair is cast up
 //! to the earliest time that is known.
 
 use crate::base::error::{Error, Result};
@@ -44,7 +44,7 @@ impl Default for SceneCastAnswer {
     }
 }
 
-/// What is asked.
+/// The question.
 #[derive(Clone, Copy)]
 pub(crate) struct Question<'a> {
     pub others: Others<'a>,
@@ -53,7 +53,7 @@ pub(crate) struct Question<'a> {
     pub config: &'a CastConfig,
 }
 
-/// Where it is worked in.
+/// The room that the question is worked in.
 pub(crate) struct Room<'a> {
     pub movers: &'a mut Vec<Mover>,
     pub boxes: &'a mut Vec<SweptBox>,
@@ -69,7 +69,7 @@ pub(crate) struct Mover {
     proxy: u32,
     /// Which object of the set it is of.
     of: u32,
-    /// Of a piece that has a pose of its own.
+    /// The pose of a piece that has one of its own.
     place: Option<Pose>,
     /// The first of its boxes, and the one behind its last.
     boxes: [u32; 2],
@@ -102,7 +102,7 @@ enum Target {
 ///
 /// # Errors
 /// [`Error::Handle`] for an id that names no object of the scene; [`Error::Argument`] unless there is one motion or one for each
-/// object, and as of [`crate::motion::cast`]; [`Error::Pose`], [`Error::Memory`].
+/// object, and same as for [`crate::motion::cast`]; [`Error::Pose`], [`Error::Memory`].
 pub(crate) fn cast(question: Question, room: &mut Room) -> Result<SceneCastAnswer> {
     question.config.check()?;
     room.caches.make_room()?;
@@ -153,7 +153,7 @@ fn list_movers(question: &Question, room: &mut Room) -> Result<()> {
     Ok(())
 }
 
-/// Boxes around what one piece sweeps over, grown by the margin.
+/// Boxes around the region that one piece sweeps over, grown by the margin.
 fn list_boxes(body: Carried, config: &CastConfig, boxes: &mut Vec<SweptBox>) -> Result<()> {
     let swept = Swept::new(body, config.range())?;
     let mut before = None;
@@ -190,7 +190,7 @@ fn list_approaches(question: &Question, room: &mut Room) -> Result<()> {
             }
         }
     }
-    // Of a pair the earliest counts.
+    // For each pair, the earliest counts.
     approaches.sort_unstable_by(|a, b| (a.mover, a.target).cmp(&(b.mover, b.target)).then(a.from.total_cmp(&b.from)));
     approaches.dedup_by_key(|approach| (approach.mover, approach.target));
     approaches.sort_unstable_by(|a, b| a.from.total_cmp(&b.from).then((a.mover, a.target).cmp(&(b.mover, b.target))));

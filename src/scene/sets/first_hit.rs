@@ -35,18 +35,18 @@ pub struct FirstHit {
     pub pair: PairResult,
 }
 
-/// What is asked.
+/// The question.
 #[derive(Clone, Copy)]
 pub(crate) struct Question<'a> {
     pub others: Others<'a>,
     /// Those of all objects at the first time, then at the second, and so on.
     pub poses: &'a [Pose],
     pub order: PoseOrder,
-    /// What is no farther apart hits.
+    /// Pieces no farther apart than this hit.
     pub margin: f64,
 }
 
-/// Where it is worked in.
+/// The room that the question is worked in.
 pub(crate) struct Room<'a> {
     pub members: &'a mut Vec<Member>,
     pub open: &'a mut Vec<Branch>,
@@ -125,7 +125,7 @@ fn hit(others: &Others, room: &mut Room, margin: f64) -> Result<Option<PairResul
     Ok(None)
 }
 
-/// What says of two bodies that they are no farther apart than the margin, if they are not.
+/// The answer for two bodies if they are no farther apart than the margin; otherwise none.
 fn answer_if_hit(bodies: [Placed; 2], margin: f64, cache: &mut PairCache) -> Result<Option<PairAnswer>> {
     let mut answer = PairAnswer::default();
     let distance_tolerance = if margin > 0.0 { margin } else { f64::INFINITY };

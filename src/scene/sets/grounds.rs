@@ -1,4 +1,5 @@
-//! Where objects of a scene meet what is in no scene, a ground or a half-space: piece by piece what the pair layer says.
+//! The contacts of objects in a scene with what is in no scene, a ground or a half-space: piece by piece the answer of the pair
+//! layer.
 
 use crate::base::error::Result;
 use crate::base::math::ROTATION_LIMIT;
@@ -43,23 +44,23 @@ pub struct SceneGroundContact {
     pub contact: GroundContact,
 }
 
-/// What objects of a scene have to do with a ground or a half-space.
+/// The contacts of a scene's objects with a ground or a half-space.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SceneGroundContacts<'a> {
     /// By object, piece and triangle.
     pub contacts: &'a [SceneGroundContact],
-    /// Of each contact its points together.
+    /// The points, those of each contact together.
     pub points: &'a [ManifoldPoint],
 }
 
-/// What objects may meet.
+/// The ground or half-space that objects may meet.
 #[derive(Debug, Clone, Copy)]
 pub(crate) enum Floor<'a> {
     Ground(PlacedGround<'a>),
     HalfSpace(&'a HalfSpace),
 }
 
-/// What is asked: of all objects, or of a set, which `others` leave out.
+/// The question: about all objects, or about a set, which `others` leave out.
 #[derive(Clone, Copy)]
 pub(crate) struct Question<'a> {
     pub others: Others<'a>,
@@ -69,7 +70,7 @@ pub(crate) struct Question<'a> {
     pub filter: GroupFilter,
 }
 
-/// Where it is worked in, and what is found.
+/// The room that the question is worked in, and the findings.
 pub(crate) struct Room<'a> {
     pub members: &'a mut Vec<Member>,
     pub open: &'a mut Vec<Branch>,
@@ -114,7 +115,7 @@ pub(crate) fn find(question: Question, room: &mut Room) -> Result<()> {
     Ok(())
 }
 
-/// What is certainly not within the margin of a ground or a half-space.
+/// A test for pieces that are provably not within the margin of a ground or a half-space.
 enum Within<'a> {
     /// The ground is in this box, grown by the margin.
     Box(Aabb),
@@ -126,7 +127,7 @@ enum Within<'a> {
 
 impl<'a> Within<'a> {
     /// # Errors
-    /// Of what is asked.
+    /// The test for the floor and margin that are asked for.
     fn new(floor: Floor<'a>, config: &ManifoldConfig) -> Result<Within<'a>> {
         config.check()?;
         Ok(match floor {
@@ -147,13 +148,13 @@ impl<'a> Within<'a> {
         match self {
             Within::Box(grown) => bounds.overlaps(grown),
             Within::HalfSpace { half_space, margin } => {
-                // A NaN says nothing.
+                // A NaN proves nothing.
                 !(half_space.gap_of_box(bounds.lower.map(f64::from), bounds.upper.map(f64::from)) > *margin)
             }
         }
     }
 
-    /// The same of a ball, closer than its box. Of a ground a walk down its tree says as much.
+    /// The same of a ball, closer than its box. For a ground, a walk down its tree tells as much.
     fn may_reach_ball(&self, spheres: &Spheres) -> bool {
         match self {
             Within::Box(_) => true,

@@ -14,7 +14,7 @@ use crate::scene::world::rows::{Spheres, grown_box, placed};
 pub struct ObjectSet<'a> {
     /// Which, in any order.
     pub ids: &'a [ObjectId],
-    /// Where each is for this question; `None`: where the scene has them.
+    /// The pose of each for this question; `None`: the scene's own poses.
     pub poses: Option<&'a [Pose]>,
     /// Pairs of two objects of the set are asked about, too.
     pub among: bool,

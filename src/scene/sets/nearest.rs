@@ -1,5 +1,5 @@
-//! The nearest pair of two sets, best first: lower bounds by boxes and spheres say which pair is asked next, and what is known so
-//! far is the tolerance of the next query. It ends where no bound is less than that.
+//! The nearest pair of two sets, best first: lower bounds by boxes and spheres select the pair to ask next, and the distance
+//! known so far is the tolerance of the next query. It ends where no bound is less than that.
 
 use std::cmp::Ordering;
 use std::collections::BinaryHeap;
@@ -35,7 +35,7 @@ impl Default for LeastDistance {
     }
 }
 
-/// What may hold a nearer pair than is known.
+/// A candidate that may hold a nearer pair than the nearest known.
 #[derive(Debug, Clone, Copy, PartialEq)]
 struct Candidate {
     /// No pair of it is nearer.
@@ -45,7 +45,7 @@ struct Candidate {
     target: Target,
 }
 
-/// What the piece of the first set makes a pair with.
+/// The partner of the first set's piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 enum Target {
     /// All pieces of a branch of one of the trees.
@@ -78,11 +78,11 @@ impl Ord for Candidate {
 pub(crate) struct Candidates {
     heap: BinaryHeap<Candidate>,
     row: Vec<Candidate>,
-    /// Pieces that no tree says where they are.
+    /// Pieces that are in no tree.
     loose: Vec<u32>,
 }
 
-/// What the first set is asked against.
+/// The opposite side of the question to the first set.
 #[derive(Clone, Copy)]
 pub(crate) enum Against<'a> {
     /// All that is not in the first set.
@@ -91,7 +91,7 @@ pub(crate) enum Against<'a> {
     Set(&'a [Member]),
 }
 
-/// What is asked.
+/// The question.
 #[derive(Clone, Copy)]
 pub(crate) struct Question<'a> {
     pub world: &'a World,
@@ -139,7 +139,7 @@ pub(crate) fn least_distance(
 }
 
 impl<'a> Search<'a> {
-    /// What there is to ask about at first: pairs with what is listed, and the trees.
+    /// Collects the first candidates: pairs with what is listed, and the trees.
     fn begin(&mut self) -> Result<()> {
         let Question { world, members, against, among, .. } = self.question;
         let mut loose = std::mem::take(&mut self.candidates.loose);
@@ -210,7 +210,7 @@ impl<'a> Search<'a> {
         if candidate.bound <= self.enough { push_to_heap(&mut self.candidates.heap, candidate) } else { Ok(()) }
     }
 
-    /// Asks the pairs of least bound until none is less than what is known.
+    /// Asks the pairs of least bound until none is less than the known distance.
     fn finish(&mut self) -> Result<()> {
         while let Some(candidate) = self.candidates.heap.pop()
             && candidate.bound <= self.enough
@@ -224,7 +224,7 @@ impl<'a> Search<'a> {
         Ok(())
     }
 
-    /// What a branch holds in its place.
+    /// Replaces a branch by its content.
     fn open(&mut self, member: u32, tree: usize, branch: Branch) -> Result<()> {
         let Question { world, members, against: Against::Others(others), .. } = self.question else { return Ok(()) };
         let Some(fitted) = others.trees.map(|trees| &trees[tree]) else { return Ok(()) };
@@ -265,7 +265,7 @@ impl<'a> Search<'a> {
         Ok(true)
     }
 
-    /// The distance of a pair, if it is less than what is known.
+    /// The distance of a pair, if it is less than the known distance.
     fn learn(&mut self, pair: [u32; 2], bodies: [Placed; 2]) -> Result<()> {
         let mut answer = PairAnswer::default();
         let config = PairConfig { distance_tolerance: self.enough, ..PairConfig::default() };
@@ -273,7 +273,7 @@ impl<'a> Search<'a> {
         if answer.outcome == Outcome::Beyond {
             return Ok(());
         }
-        // Of intervals that overlap any may be that of the nearest.
+        // If intervals overlap, any of them may be that of the nearest.
         self.best.lower = self.best.lower.min(answer.lower);
         if answer.upper < self.best.upper {
             self.enough = answer.upper;
@@ -284,7 +284,7 @@ impl<'a> Search<'a> {
     }
 }
 
-/// Whose answer it is.
+/// Labels an answer with the objects, user data and pieces of its pair.
 pub(crate) fn signed(world: &World, pair: [u32; 2], answer: PairAnswer) -> PairResult {
     let [label1, label2] = pair.map(|proxy| &world.proxies.labels[proxy as usize]);
     PairResult {

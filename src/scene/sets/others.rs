@@ -28,7 +28,7 @@ impl<'a> Others<'a> {
         !self.world.proxies.motions[proxy].has_escaped && self.has(proxy)
     }
 
-    /// Those that no tree says where they are: some that have escaped, or all.
+    /// Those that are in no tree: some that have escaped, or all.
     pub fn loose(&self) -> impl Iterator<Item = usize> + use<'a> {
         let others = *self;
         let escaped = others.trees.map_or(&[][..], |_| &others.world.proxies.escaped);

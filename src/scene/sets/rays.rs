@@ -1,5 +1,5 @@
-//! What a ray meets in a scene: the trees' boxes say what it may, and each body's own cast what it does. Where intervals do not
-//! tell which of two comes first, both are cast again in integers.
+//! The pieces that a ray meets in a scene: the trees' boxes select candidates, and each body's own cast decides. If intervals do
+//! not tell which of two comes first, both are cast again in integers.
 
 use crate::base::error::Result;
 use crate::base::math::UNIT_ROUNDOFF as U;
@@ -40,7 +40,7 @@ pub struct SceneRayHit {
     pub answer: RayAnswer,
 }
 
-/// What is asked.
+/// The question.
 #[derive(Clone, Copy)]
 pub(crate) struct Question<'a> {
     pub others: Others<'a>,
@@ -50,7 +50,7 @@ pub(crate) struct Question<'a> {
     pub mask: u32,
 }
 
-/// Where it is worked in.
+/// The room that the question is worked in.
 pub(crate) struct Room<'a> {
     pub open: &'a mut Vec<Branch>,
     pub found: &'a mut Vec<u32>,
@@ -65,7 +65,7 @@ pub(crate) struct Nearing {
     row: u32,
 }
 
-/// Lists what the ray meets, as far as is asked.
+/// Lists what the ray meets, as far as requested.
 ///
 /// # Errors
 /// [`Error::Argument`](crate::base::error::Error::Argument) for a ray that is refused, as in [`cast_ray`],
@@ -105,7 +105,7 @@ pub(crate) fn cast(question: Question, room: &mut Room) -> Result<()> {
     put_in_order(&others, ray, hits)?;
     if wanted == RayHits::First {
         hits.truncate(1);
-        // Where it leaves that was not looked at.
+        // The exit of the ray was not looked at yet.
         for first in &mut **hits {
             let again = cast_ray(others.placed(first.row as usize), ray)?;
             first.answer.exit = again.exit;
@@ -125,7 +125,7 @@ fn put_in_order(others: &Others, ray: &Ray, hits: &mut [SceneRayHit]) -> Result<
     hits.sort_unstable_by(order);
     let mut first = 0;
     while first < hits.len() {
-        // What overlaps it, what overlaps that, and so on.
+        // Finds the pieces that overlap it, those that overlap them, and so on.
         let (mut last, mut until) = (first + 1, hits[first].answer.entry[1]);
         while last < hits.len() && hits[last].answer.entry[0] <= until {
             until = until.max(hits[last].answer.entry[1]);
@@ -148,9 +148,9 @@ fn put_in_order(others: &Others, ray: &Ray, hits: &mut [SceneRayHit]) -> Result<
 /// Covers quotients that underflow.
 const TINIEST: f64 = f64::MIN_POSITIVE;
 
-/// Where a ray may come into a box, rounded down, if it may meet it.
+/// The earliest point where a ray may enter a box, rounded down, if it may meet it.
 ///
-/// The difference of an end and the origin is off by u of itself, its quotient by the direction by u more: 4u cover both. Where the
+/// The difference of an end and the origin is off by u of itself, its quotient by the direction by u more: 4u cover both. If the
 /// direction has no component, the origin decides, exactly.
 fn entry(ray: &Ray, bounds: &Aabb) -> Option<f64> {
     let (mut from, mut to) = (0.0_f64, ray.t_max);
@@ -165,7 +165,7 @@ fn entry(ray: &Ray, bounds: &Aabb) -> Option<f64> {
         }
         let ends = [(lower - origin) / direction, (upper - origin) / direction];
         let [near, far] = if direction > 0.0 { ends } else { [ends[1], ends[0]] };
-        // What is infinite or none bounds nothing: a comparison with a NaN is false.
+        // An infinite value or a NaN bounds nothing: a comparison with a NaN is false.
         let (near, far) = (near - (4.0 * U * near.abs() + TINIEST), far + (4.0 * U * far.abs() + TINIEST));
         if near > from {
             from = near;

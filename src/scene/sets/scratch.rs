@@ -1,4 +1,4 @@
-//! What a question about a set works in.
+//! The scratch memory of a question about a set.
 
 use crate::ground::GroundContacts;
 use crate::scene::near::tree::Branch;
@@ -9,30 +9,30 @@ use crate::scene::sets::members::Member;
 use crate::scene::sets::nearest::Candidates;
 use crate::scene::sets::rays::{Nearing, SceneRayHit};
 
-/// Room to work in for questions that threads ask a scene at once: about sets of objects, and of rays, grounds and half-spaces. One
-/// thread at a time uses it, for any scenes.
+/// Scratch memory for questions that threads ask a scene at once: about sets of objects, and about rays, grounds and half-spaces.
+/// One thread at a time uses it, for any scenes.
 ///
-/// Of sets it keeps what pairs of objects remember, which changes how fast an answer comes and which of several nearest points it
-/// gives, never a verdict. Of rays, grounds and half-spaces it keeps nothing but the room and the last answer: whatever it has
+/// For sets it keeps the caches of pairs of objects. These change how fast an answer comes and which of several nearest points it
+/// gives, never a verdict. For rays, grounds and half-spaces it keeps nothing but the room and the last answer. Whatever it has
 /// seen, they are answered bit for bit as with a new one.
 #[derive(Debug, Default)]
 pub struct SetScratch {
     pub(crate) members: Vec<Member>,
-    /// Of the second set.
+    /// The members of the second set.
     pub(crate) second: Vec<Member>,
     pub(crate) candidates: Candidates,
     pub(crate) caches: Caches,
-    /// Branches of a tree that are to be looked at.
+    /// Branches of a tree that still must be looked at.
     pub(crate) open: Vec<Branch>,
     /// Pieces whose boxes came into question.
     pub(crate) found: Vec<u32>,
     pub(crate) nearing: Vec<Nearing>,
-    /// What the last ray met.
+    /// The hits of the last ray.
     pub(crate) hits: Vec<SceneRayHit>,
     pub(crate) movers: Vec<Mover>,
     pub(crate) boxes: Vec<SweptBox>,
     pub(crate) approaches: Vec<Approach>,
-    /// Where the last piece meets a ground, and the points of all pieces.
+    /// The contacts of the last piece with a ground, and the points of all pieces.
     pub(crate) ground: GroundContacts,
     pub(crate) contacts: Vec<SceneGroundContact>,
 }

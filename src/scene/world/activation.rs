@@ -1,8 +1,8 @@
-//! Which pairs of objects are tested: the latest word on a pair holds, whether it was said of the pair, of one of its
-//! objects or of all.
+//! Which pairs of objects are tested: the latest word on a pair holds, whether it was on the pair, on one of its objects or on
+//! all.
 //!
-//! Nothing is enumerated. Every word gets a stamp, and a pair's state is the greatest of the four stamps that concern
-//! it: each call costs O(1) whatever the number of objects, and a pair of which nothing was said needs no entry.
+//! Nothing is enumerated. Every word gets a stamp, and a pair's state is the greatest of the four stamps that concern it. Each
+//! call costs O(1) whatever the number of objects, and a pair without any word needs no entry.
 
 use std::collections::HashMap;
 
@@ -13,7 +13,7 @@ use crate::scene::world::object::{ObjectId, Stamp};
 /// So many words on pairs are kept without a look at whether their objects are still there.
 const LEAST_CROWD: usize = 64;
 
-/// Of which pairs something was said.
+/// The pairs that a setting applies to.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Word {
     All,
@@ -21,7 +21,7 @@ pub(crate) enum Word {
     Pair([ObjectId; 2]),
 }
 
-/// What was said of all pairs and of single ones; what was said of an object is its own stamp.
+/// The settings for all pairs and for single ones; the setting for an object is its own stamp.
 #[derive(Debug, Default)]
 pub(crate) struct Activation {
     latest: Stamp,
@@ -43,28 +43,29 @@ impl Activation {
         self.latest
     }
 
-    /// Of all pairs that there are.
+    /// Sets all existing pairs.
     pub(crate) fn set_all(&mut self, active: bool) {
         self.all = self.say(active);
         self.pairs.clear();
     }
 
-    /// Of all pairs of one object that there are. A new object must be set active: its pairs are, whatever was said before.
+    /// Sets all existing pairs of one object. A new object must be set active: its pairs are active, regardless of earlier
+    /// settings.
     pub(crate) fn set_object(&mut self, stamp: &mut Stamp, active: bool) {
         *stamp = self.say(active);
     }
 
-    /// Of one pair, the earlier created object first. `is_there` tells the objects that have not been removed.
+    /// Sets one pair, the earlier created object first. `is_there` tells the objects that have not been removed.
     ///
     /// # Errors
-    /// [`Error::Memory`](crate::base::error::Error::Memory); nothing is said then.
+    /// [`Error::Memory`](crate::base::error::Error::Memory); nothing is set then.
     pub(crate) fn set_pair(
         &mut self,
         pair: [ObjectId; 2],
         active: bool,
         is_there: impl Fn(ObjectId) -> bool,
     ) -> Result<()> {
-        // Looking through all words each time there may be twice as many as were kept costs no more than saying them did.
+        // Looking through all words each time there may be twice as many as were kept costs no more than recording them did.
         if self.pairs.len() >= self.crowded {
             self.pairs.retain(|pair, _| pair.iter().all(|id| is_there(*id)));
             self.crowded = 2 * self.pairs.len() + LEAST_CROWD;
@@ -75,7 +76,8 @@ impl Activation {
         Ok(())
     }
 
-    /// What was said and may hold still, in the order in which it was: said again of these objects it makes the same pairs active.
+    /// The settings that may still hold, in the order in which they were made: repeated for these objects they make the same
+    /// pairs active.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
@@ -108,7 +110,7 @@ mod tests {
     use crate::scene::world::object::ObjectTable;
     use swiftprox::random::Random;
 
-    /// Against the plain model, one flag for each pair, set by whatever is said: random words, objects that come and go.
+    /// Against the plain model, one flag for each pair, set by every word: random words, objects that come and go.
     #[test]
     fn the_latest_word_holds() {
         let mut random = Random::new(1);

@@ -15,13 +15,13 @@ use crate::scene::world::rows::Label;
 use crate::scene::world::testing::{Decided, PairFilter, Rules, is_tested};
 use crate::shape::Shape;
 
-/// Without a tolerance all pairs are near: so many are kept with what they remember, unless the program says otherwise.
+/// Without a tolerance all pairs are near: so many are kept with their caches, unless the program sets another limit.
 pub(crate) const DEFAULT_KEPT_PAIRS: u64 = 1 << 20;
 
 /// So few pairs of pieces are all near.
 const FEW_PAIRS: u64 = 16;
 
-/// Objects, where they are, and what was said on the testing of their pairs.
+/// Objects, where they are, and the settings on the testing of their pairs.
 #[derive(Debug)]
 pub(crate) struct World {
     pub objects: ObjectTable,
@@ -35,7 +35,7 @@ pub(crate) struct World {
     pub rotation_limit: f64,
     /// How many times queries have looked at pairs: what moves is stamped with it.
     pub passes: u64,
-    /// Of more pairs of pieces than this not all are kept.
+    /// Above this number of pairs of pieces, not all are kept.
     pub kept_pair_limit: u64,
 }
 
@@ -59,7 +59,7 @@ impl World {
         Objects { table: &self.objects, proxies: &self.proxies, piece_data: &self.piece_data }
     }
 
-    /// The pieces, what says which pairs of them are tested, and which pairs the program gives.
+    /// The pieces, the settings for which pairs of them are tested, and which pairs the program gives.
     pub fn parts(&mut self) -> (&mut Proxies, Rules<'_>, Option<&[[ObjectId; 2]]>) {
         let World { objects, proxies, activation, filter, given, .. } = self;
         (proxies, Rules { objects, activation, filter: filter.as_mut() }, given.as_deref())
@@ -229,7 +229,7 @@ impl World {
         is_given && is_tested(objects, activation, filter.as_ref(), labels)
     }
 
-    /// Whether a pair is tested when it is near, whatever the filter says.
+    /// Whether a pair is tested when it is near, regardless of the filter.
     ///
     /// # Errors
     /// As [`World::ordered_pair`].
@@ -278,7 +278,7 @@ impl World {
         Ok(())
     }
 
-    /// The rows of an object; of one that is gone there are none.
+    /// The rows of an object; for one that is gone there are none.
     pub fn rows_of(&self, id: ObjectId) -> Range<usize> {
         self.objects.rows_of(id)
     }
@@ -293,12 +293,12 @@ impl World {
         self.pair_count() <= self.kept_pair_limit
     }
 
-    /// Whether pairs are so few that all are kept whatever is asked.
+    /// Whether pairs are so few that all are kept for any question.
     pub fn has_few_pairs(&self) -> bool {
         self.pair_count() <= FEW_PAIRS.min(self.kept_pair_limit)
     }
 
-    /// Of two pieces, whether they may meet or not.
+    /// The number of pairs of two pieces, whether they may meet or not.
     fn pair_count(&self) -> u64 {
         // At most 2³¹: the product fits.
         let count = (self.proxies.len() - self.proxies.gone) as u64;

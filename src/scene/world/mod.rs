@@ -1,4 +1,4 @@
-//! What a scene holds: objects, their pieces, where these are and how far they have moved, and which pairs are tested.
+//! The content of a scene: objects, their pieces, where these are and how far they have moved, and which pairs are tested.
 
 pub mod object;
 pub(crate) mod activation;

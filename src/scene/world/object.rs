@@ -68,7 +68,7 @@ impl fmt::Display for ObjectId {
 /// How an object begins.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ObjectOptions {
-    /// Where it stands: world point = R·(local point) + T.
+    /// The pose: world point = R·(local point) + T.
     pub pose: Pose,
     /// Two fixed objects are never tested against each other. A fixed object may still be moved on its own.
     pub fixed: bool,
@@ -87,7 +87,7 @@ impl Default for ObjectOptions {
     }
 }
 
-/// When a word on the activation of pairs was said, and which: of two stamps the greater is the later.
+/// The time of a word on the activation of pairs, and its kind: of two stamps the greater is the later.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Default)]
 pub(crate) struct Stamp(u64);
 
@@ -103,7 +103,7 @@ impl Stamp {
     }
 }
 
-/// What the table knows of an object. The rest is in the rows of its pieces.
+/// The table's entry for an object. The rest is in the rows of its pieces.
 #[derive(Debug)]
 pub(crate) struct Entry {
     /// The first of its rows among the scene's proxies, one for each piece.
@@ -117,7 +117,7 @@ pub(crate) struct Entry {
     pub arrangement: Option<Box<Arrangement>>,
 }
 
-/// Where an object is, and each of its pieces in it.
+/// The pose of an object, and of each of its pieces in it.
 #[derive(Debug, Clone)]
 pub(crate) struct Arrangement {
     pub pose: Pose,
@@ -125,7 +125,7 @@ pub(crate) struct Arrangement {
 }
 
 impl Entry {
-    /// Its place in the order of creation, for ever.
+    /// Its permanent place in the order of creation.
     pub fn serial(&self) -> u64 {
         self.serial
     }
@@ -136,7 +136,7 @@ impl Entry {
         first..first + self.piece_count.get() as usize
     }
 
-    /// Where it is from now on, if its pieces have poses of their own; else those of the pieces say so.
+    /// Sets the pose from now on, if its pieces have poses of their own; else the poses of the pieces give it.
     pub fn stand_at(&mut self, pose: &Pose) {
         if let Some(arrangement) = &mut self.arrangement {
             arrangement.pose = *pose;
@@ -282,7 +282,7 @@ impl ObjectTable {
         }
     }
 
-    /// The rows of an object; of one that is gone there are none.
+    /// The rows of an object; for one that is gone there are none.
     pub(crate) fn rows_of(&self, id: ObjectId) -> Range<usize> {
         self.get(id).map_or(0..0, Entry::proxies)
     }

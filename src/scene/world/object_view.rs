@@ -59,7 +59,7 @@ impl<'a> Object<'a> {
         self.entry.proxies()
     }
 
-    /// Where it stands.
+    /// The pose of the object.
     pub fn pose(&self) -> &'a Pose {
         match &self.entry.arrangement {
             Some(arrangement) => &arrangement.pose,
@@ -67,7 +67,7 @@ impl<'a> Object<'a> {
         }
     }
 
-    /// Where a piece is in the object.
+    /// The pose of a piece in the object.
     ///
     /// # Panics
     /// Without such a piece.
@@ -76,7 +76,7 @@ impl<'a> Object<'a> {
         self.piece_poses().get(piece).unwrap_or(&Pose::IDENTITY)
     }
 
-    /// Where a piece is in the world: the pose for which queries answer.
+    /// The pose of a piece in the world: the pose for which queries answer.
     ///
     /// # Panics
     /// Without such a piece.
@@ -100,12 +100,12 @@ impl<'a> Object<'a> {
         assert!(piece < count, "piece {piece} of {count}");
     }
 
-    /// Where each piece is in the object; none where all are at its origin.
+    /// The pose of each piece in the object; none if all are at its origin.
     pub(crate) fn piece_poses(&self) -> &'a [Pose] {
         self.entry.arrangement.as_ref().map_or(&[], |arrangement| &arrangement.piece_poses)
     }
 
-    /// What it was made of, except the pieces.
+    /// The options it was made with, except the pieces.
     pub(crate) fn options(&self) -> ObjectOptions {
         let Label { fixed, user_data, groups, mask, .. } = *self.label();
         ObjectOptions { pose: *self.pose(), fixed, user_data, groups, mask }

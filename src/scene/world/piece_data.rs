@@ -49,7 +49,7 @@ impl PieceData {
         Ok(numbers)
     }
 
-    /// Gives an object what [`PieceData::copy_of`] has made.
+    /// Gives an object the result of [`PieceData::copy_of`].
     pub fn put(&mut self, id: ObjectId, numbers: Option<Vec<u64>>) {
         if let Some(numbers) = numbers {
             self.of_objects.insert(id, numbers);

@@ -152,7 +152,7 @@ impl World {
     }
 }
 
-/// Objects and where each is to go, some of `count`, of which number `first` is the first.
+/// Objects and where each is to go, some of `count`; number `first` is the first of them.
 struct Batch<'a> {
     ids: &'a [ObjectId],
     poses: &'a [Pose],
@@ -174,7 +174,7 @@ impl<'a> Batch<'a> {
         (first..).step_by(size).zip(parts).map(move |(first, (ids, poses))| Batch { ids, poses, first, count })
     }
 
-    /// Refuses what is not accepted; gives the rows of all objects if these are in order of creation.
+    /// Refuses poses that are not accepted; gives the rows of all objects if these are in order of creation.
     fn check(&self, objects: &ObjectTable, limit: f64) -> Result<Option<Range<usize>>> {
         let mut rows = None;
         let mut are_in_order = true;

@@ -93,7 +93,7 @@ impl Proxies {
         self.firsts.truncate(first);
     }
 
-    /// It may meet others than before: its pairs are to be looked for anew.
+    /// It may meet others than before: its pairs must be looked for anew.
     pub fn look_for_pairs_of(&mut self, proxy: usize) {
         self.has_news = true;
         if self.motions[proxy].escape() {

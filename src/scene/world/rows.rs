@@ -1,4 +1,4 @@
-//! What the scene knows of a placed convex piece, one row of several arrays, and how it moves. Spheres, boxes and bounds of motion
+//! The scene's data on a placed convex piece, one row of several arrays, and how it moves. Spheres, boxes and bounds of motion
 //! err on the safe side.
 
 use std::sync::Arc;
@@ -10,14 +10,14 @@ use crate::shape::Shape;
 
 const U: f64 = UNIT_ROUNDOFF;
 
-/// Rotations of which no entry of RᵀR − I exceeds this count as rigid in bounds of motion.
+/// Rotations with no entry of RᵀR − I above this count as rigid in bounds of motion.
 const RIGID: f64 = 16.0 * U;
 
-/// So many steps of motion a box leaves room for …
+/// A box leaves room for this many steps of motion …
 const STEPS_OF_ROOM: f32 = 4.0;
 /// … but no more than this part of the radius …
 const MOST_ROOM: f32 = 0.5;
-/// … and this part of it before the first step, which would else leave the box.
+/// … and this part of it before the first step, which would otherwise leave the box.
 const FIRST_ROOM: f32 = 0.04;
 
 /// The limit of a piece that has no box yet, or none that leaves room.
@@ -45,8 +45,8 @@ pub(crate) struct Motion {
     pub limit: f64,
     /// The number of passes over the pairs before the last move.
     pub moved: u64,
-    /// How far it goes in a step, smoothed, jumps left out; 0 before the first. What brings it to where it gets its first box is
-    /// no step.
+    /// How far it goes in a step, smoothed, jumps left out; 0 before the first. The move to where it gets its first box is no
+    /// step.
     rate: f32,
     /// No entry of RᵀR − I is above [`RIGID`].
     rigid: bool,
@@ -55,7 +55,7 @@ pub(crate) struct Motion {
 }
 
 impl Motion {
-    /// Of a piece that has no box yet.
+    /// The motion of a piece that has no box yet.
     pub fn new(rigid: bool) -> Motion {
         Motion { odometer: 0.0, limit: NO_BOX, moved: 0, rate: 0.0, rigid, has_escaped: false }
     }
@@ -66,7 +66,7 @@ impl Motion {
     }
 }
 
-/// Whose piece it is.
+/// The owner of a piece.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Label {
     /// Null: the piece is gone.
@@ -86,7 +86,7 @@ impl Label {
     }
 }
 
-/// Some rows next to each other: whoever has them may move their pieces.
+/// Some rows next to each other: their holder may move their pieces.
 pub(crate) struct Rows<'a> {
     /// The number of the first.
     pub first: usize,
@@ -151,7 +151,7 @@ impl<'a> Rows<'a> {
         let way = way_bound(&old, pose, lever, motion.rigid & rigid);
         motion.rigid = rigid;
         motion.moved = passes;
-        // Never below the exact sum; infinite sums say that nothing is known.
+        // Never below the exact sum; infinite sums mean that nothing is known.
         motion.odometer = (motion.odometer + way).next_up();
         motion.rate = match (motion.rate, way as f32) {
             _ if motion.limit == NO_BOX => 0.0,
@@ -185,7 +185,8 @@ impl<'a> Rows<'a> {
             rate => (STEPS_OF_ROOM * rate).min(most),
         };
         let limit = motion.odometer + f64::from(room);
-        // The limit is rounded: it, not the room, says how far the piece may go. ∞ − ∞ is no room, and every move is then too far.
+        // The limit is rounded: it, not the room, decides how far the piece may go. ∞ − ∞ is no room, and every move is then too
+        // far.
         let room = (limit - motion.odometer).next_up();
         let is_counted = room < f64::INFINITY;
         let grown = 0.5 * tolerance + if is_counted { room } else { 0.0 };
@@ -198,7 +199,7 @@ impl<'a> Rows<'a> {
     }
 }
 
-/// A box around a placed shape and whatever is no farther from it than this; `spheres` are those of [`placed`].
+/// A box around a placed shape and everything no farther from it than this; `spheres` are those of [`placed`].
 pub(crate) fn grown_box(shape: &Shape, pose: &Pose, spheres: &Spheres, grown: f64) -> Aabb {
     let reach = shape.extent().reach(pose, spheres.outer.into());
     Aabb::around(spheres.centre, &reach, grown + centre_error(shape, pose) + shape.swept_radius())
@@ -292,7 +293,7 @@ mod tests {
                 let point = random.direction() * 2.0 * (1.0 - 4.0 * U);
                 longest = longest.max((new.transform(&point) - old.transform(&point)).norm());
             }
-            // What is compared is rounded itself, by a few u of 12.
+            // The compared value is rounded itself, by a few u of 12.
             assert!(longest <= way + 1e-14, "{longest:e} {way:e}");
             assert!(way <= 3.0 * longest + 1e-13, "{longest:e} {way:e}");
         }

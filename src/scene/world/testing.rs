@@ -16,7 +16,7 @@ pub(crate) enum Testing {
     Active,
     /// Deactivated for now.
     Inactive,
-    /// The program's filter said no.
+    /// The program's filter rejected the pair.
     Rejected,
 }
 
@@ -24,7 +24,7 @@ pub(crate) enum Testing {
 pub struct PairFilter {
     /// Behind a lock for questions that several threads ask at once.
     filter: Mutex<Box<Filter>>,
-    /// What it has decided and is not yet written down, of a scene that is recorded.
+    /// The decisions that are not yet written down, for a scene that is recorded.
     decided: Option<Result<Vec<Decided>>>,
 }
 
@@ -44,7 +44,7 @@ impl PairFilter {
         self.decided = watched.then(|| Ok(Vec::new()));
     }
 
-    /// What it has decided since it is watched; an error if not all is known.
+    /// The decisions since it is watched; an error if not all are known.
     pub(crate) fn decided(&mut self) -> Result<Vec<Decided>> {
         self.decided.take().unwrap_or(Ok(Vec::new()))
     }
@@ -61,7 +61,7 @@ impl PairFilter {
         accepts
     }
 
-    /// What it says of a pair, for a question that is not written down.
+    /// The filter's decision on a pair, for a question that is not written down.
     fn asked(&self, [object1, object2]: [ObjectId; 2]) -> bool {
         let mut filter = locked(&self.filter);
         with_callers(|| filter(object1, object2))
@@ -74,7 +74,7 @@ impl std::fmt::Debug for PairFilter {
     }
 }
 
-/// What was said on the testing of pairs.
+/// The rules on the testing of pairs.
 pub(crate) struct Rules<'a> {
     pub objects: &'a ObjectTable,
     pub activation: &'a Activation,
@@ -91,7 +91,7 @@ impl Rules<'_> {
         self.active(labels)
     }
 
-    /// The same, whatever the filter says.
+    /// The same, regardless of the filter.
     pub fn active(&self, labels: [&Label; 2]) -> Testing {
         if !self.activation.says_no() {
             return Testing::Active;

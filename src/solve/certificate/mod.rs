@@ -31,14 +31,14 @@ pub struct Interval {
 }
 
 impl Interval {
-    /// Whether it proves separation and is as tight as answers are to be: 2e-14·max(ρ₁ + ρ₂, distance).
+    /// Whether it proves separation and is as tight as answers must be: 2e-14·max(ρ₁ + ρ₂, distance).
     #[inline(always)]
     pub fn is_tight(&self, size: f64) -> bool {
         let scale = if self.lower > size { self.lower } else { size };
         self.lower > 0.0 && self.upper - self.lower <= 2e-14 * scale
     }
 
-    /// Whether it is wholly on one side of a distance tolerance: then no other start would say otherwise.
+    /// Whether it is wholly on one side of a distance tolerance: then no other start would change the answer.
     #[inline(always)]
     pub fn settles(&self, distance_tolerance: f64) -> bool {
         (self.lower > distance_tolerance) | (self.upper <= distance_tolerance)
@@ -66,7 +66,7 @@ pub struct Minimum<L> {
     /// The difference projected on the unit direction.
     pub projection: f64,
     /// An upper bound of how far the bodies reach beyond the points, both together, along the unit direction; +∞ where only a
-    /// closer look tells.
+    /// closer look decides.
     pub support_excess: f64,
     /// How far the points may lie out of their bodies, both together; holds where `support_excess` is finite.
     pub point_error: f64,
@@ -75,14 +75,14 @@ pub struct Minimum<L> {
 }
 
 impl<L: Lanes> Minimum<L> {
-    /// What follows from it, as far as a quick look tells.
+    /// The gap that follows from it, as far as a quick look tells.
     #[inline(always)]
     pub fn gap(&self, frame: &Frame<L>) -> Gap {
         self.gap_with(frame, self.support_excess, self.point_error)
     }
 
-    /// What follows from it by a closer look, for what the quick one leaves open: ties, directions on the boundary of a cone,
-    /// skewed rotations.
+    /// The gap that follows from it by a closer look, for the cases that the quick one leaves open: ties, directions on the
+    /// boundary of a cone, skewed rotations.
     #[inline(always)]
     fn gap_closely(&self, frame: &Frame<L>, state: State) -> Gap {
         let towards = [
@@ -136,7 +136,7 @@ impl<L: Lanes> Minimum<L> {
     }
 }
 
-/// What becomes of a minimum that marching finds. It is called where the kinds of the features are known to the compiler.
+/// Processes a minimum that marching finds. It is called where the kinds of the features are known to the compiler.
 pub trait Certify<L: Lanes> {
     /// Across which plane marching goes on where several are violated.
     const RULE: Rule = Rule::Most;
@@ -197,10 +197,11 @@ pub fn edge_rounding(polyhedron: &Polyhedron) -> f64 {
     8.0 * U * polyhedron.radius
 }
 
-/// A quick δ/|U| of an edge's point, for g = RᵀU in the cone of its two normals up to `misfit`·|U|, an upper bound of all rounding:
-/// g = c₁n₁ + c₂n₂ + r with |r| ≤ misfit·|U| and c₁ + c₂ ≤ √2|g|, as the normals are at most a right angle apart; the cone of a
-/// sharp edge is halved by its bevel, whose normal then stands for one of them. |g| ≤ 1.02|U| for any R, less than 1.06·√2 = 1.5.
-/// What an edge that leans out of its faces' planes misses their normals' cone by is part of its slack.
+/// A quick δ/|U| of an edge's point, for g = RᵀU in the cone of its two normals up to `misfit`·|U|, an upper bound of all
+/// rounding: g = c₁n₁ + c₂n₂ + r with |r| ≤ misfit·|U| and c₁ + c₂ ≤ √2|g|, as the normals are at most a right angle apart; the
+/// cone of a sharp edge is halved by its bevel, whose normal then stands for one of them. |g| ≤ 1.02|U| for any R, less than
+/// 1.06·√2 = 1.5. The slack of an edge that leans out of its faces' planes includes how far the edge misses the cone of their
+/// normals.
 #[inline(always)]
 pub fn of_edge_in_cone(polyhedron: &Polyhedron, edge: &Edge, misfit: f64) -> f64 {
     1.5 * (edge.slack + edge_rounding(polyhedron)) + 2.0 * polyhedron.radius * misfit
@@ -232,8 +233,8 @@ pub struct Gap {
     pub interval: Interval,
 }
 
-/// Square of the shortest direction that proves anything, 2⁻⁸⁰⁰: what underflows in a product with a direction of 2⁻⁴⁰⁰ or more is
-/// less than 2⁻⁶⁰⁰ of it, far below the error bound of any [in-range](Frame::in_range) pair.
+/// Square of the shortest direction that proves anything, 2⁻⁸⁰⁰: the loss to underflow in a product with a direction of 2⁻⁴⁰⁰ or
+/// more is less than 2⁻⁶⁰⁰ of it, far below the error bound of any [in-range](Frame::in_range) pair.
 const SHORTEST_SQUARE: f64 = f64::from_bits((1023 - 800) << 52);
 
 /// 1/|U| from U·U; NaN, which proves nothing, for a direction too short for products with it.
@@ -330,10 +331,10 @@ fn of_edge<L: Lanes>(polyhedron: &Polyhedron, edge: &Edge, g: L) -> f64 {
         + 2.0 * polyhedron.radius * (remainder.norm1() + REMAINDER * (length + c1 + c2) + DIRECTION_ERROR * length)
 }
 
-/// What rounding makes of the remainder of a direction beside two normals or one, over the lengths of all parts.
+/// The rounding error of the remainder of a direction beside two normals or one, over the lengths of all parts.
 pub const REMAINDER: f64 = 3.0 * U;
 
-/// The second coefficient, and what is left of g.
+/// The second coefficient, and the remainder of g.
 #[inline(always)]
 pub fn beside<L: Lanes>(g: L, [first, second]: [L; 2], c1: f64) -> (f64, L) {
     let rest = first.negated_mul_add(L::splat(c1), g);
@@ -413,8 +414,8 @@ fn of_face(polyhedron: &Polyhedron, face: u32, g: &Vector, point: &Vector, heigh
     Defect { support_excess, point_error }
 }
 
-/// Whether a point q of a face's plane surely lies inside all its sides. Left of every line from corner to corner it lies in the
-/// corners' hull, convex polygon or not, as the sides then go around it.
+/// Whether a point q of a face's plane provably lies inside all its sides. Left of every line from corner to corner it lies in
+/// the corners' hull, convex polygon or not, as the sides then go around it.
 ///
 /// The margin, 64u·max(ρ, |q|₁), covers every rounding of the sides' planes: their normals are right to 8.5u, twice that where
 /// a side leans out of the face's plane by 60°, which q feels over at most ρ + |q|; offsets to 3u·ρ, values at q to 4u·|q|. The

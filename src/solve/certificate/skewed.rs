@@ -1,6 +1,6 @@
-//! Minima of pairs whose rotations are not orthonormal: marching measures in a body's own frame, where the transpose stands for the
-//! inverse, and its nearest points are off by as much as the rotations are. Here they are put right in world axes. All is in line:
-//! so it is compiled for the vector units of whoever asks; out of line every operation on lanes would be a call.
+//! Minima of pairs whose rotations are not orthonormal: marching measures in a body's own frame, where the transpose stands for
+//! the inverse, and its nearest points are off by as much as the rotations are. Here they are put right in world axes. Everything
+//! is inlined: so it is compiled for the caller's vector units; out of line every operation on lanes would be a call.
 
 use super::{Minimum, edge_rounding, reciprocal_length};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
@@ -19,7 +19,7 @@ impl<L: Lanes> Minimum<L> {
                 let [world1, world2] = [self.along(frame, 0, edge1), self.along(frame, 1, edge2)];
                 let normal = world1.cross(world2);
                 let (cosine, square) = (world1.dot(world2), normal.dot(normal));
-                // Of parallel edges no two points are nearest, and 0/0 is not computed.
+                // For parallel edges no two points are nearest, and 0/0 is not computed.
                 if !(square > 0.0) {
                     return None;
                 }
@@ -86,7 +86,7 @@ impl<L: Lanes> Minimum<L> {
         let part = self.direction.dot(self.difference) / self.direction.dot(self.direction);
         let aside = self.direction.negated_mul_add(L::splat(part), self.difference);
         let aside = if i == 0 { aside.negate() } else { aside };
-        // In the face's plane up to rounding, whatever the inverse leaves.
+        // In the face's plane up to rounding, regardless of the inverse's error.
         let shift = inverse(body, aside);
         let shift = normal.negated_mul_add(L::splat(normal.dot(shift)), shift);
         let mut moved = *self;

@@ -1,4 +1,4 @@
-//! What integers found, in doubles where they do.
+//! The results of integers, in doubles where they fit.
 
 use super::dyadic::{bounds_of_quotient_by_root, decode, dot, fraction_to_double, leading_bits, magnitude};
 use super::simplex::{Simplex, VertexPair};
@@ -11,7 +11,7 @@ use std::cmp::Ordering;
 /// Bits to which a difference of roots is computed before it is rounded to the 53 of a double, and a few for its estimate.
 const DIFFERENCE_BITS: usize = 72;
 
-/// What integer arithmetic found, for the objects R·v + T exactly as the doubles give them.
+/// The result of integer arithmetic, for the objects R·v + T exactly as the doubles give them.
 #[derive(Debug, Clone, PartialEq)]
 pub struct ExactAnswer {
     /// Whether the closed sets have a common point (touching included).
@@ -33,7 +33,7 @@ pub struct ExactAnswer {
 }
 
 impl ExactAnswer {
-    /// What a simplex that holds the nearest point says.
+    /// The answer of a simplex that holds the nearest point.
     pub(super) fn new(simplex: &Simplex, iterations: u32) -> ExactAnswer {
         let total: IBig = simplex.weights.iter().sum();
         let intersecting = simplex.holds_origin();
@@ -67,7 +67,7 @@ pub struct ExactDistance {
 }
 
 impl ExactDistance {
-    /// Of the nearest point P, which a simplex holds.
+    /// The distance of the nearest point P, which a simplex holds.
     pub(super) fn of_nearest(simplex: Simplex) -> ExactDistance {
         let square = dot(&simplex.direction, &simplex.direction);
         ExactDistance { exponent: simplex.exponent(), square, height: simplex.height }
@@ -83,7 +83,7 @@ impl ExactDistance {
         self.compare_sum(&[other])
     }
 
-    /// The same against a sum of doubles, of which +∞ may be one.
+    /// The same against a sum of doubles, one of which may be +∞.
     pub fn compare_sum(&self, parts: &[f64]) -> Ordering {
         debug_assert!(parts.iter().all(|part| *part > f64::NEG_INFINITY), "{parts:?}");
         if parts.contains(&f64::INFINITY) {
@@ -112,8 +112,8 @@ impl ExactDistance {
         if own <= others {
             return None;
         }
-        // With h and s over one power of two and q the square, it is (√(q·h²) − q·s)/q, and √(q·h²) − q·s is at least
-        // √q·(h² − q·s²)/2h. So many further bits of the root leave more of the difference than a double has, whatever cancels.
+        // With h and s over one power of two and q the square, it is (√(q·h²) − q·s)/q, and √(q·h²) − q·s is at least √q·(h² −
+        // q·s²)/2h. So many further bits of the root leave more of the difference than a double has, after any cancellation.
         let common = self.exponent.min(exponent);
         let height = &self.height << (self.exponent - common) as usize;
         let sum = sum << (exponent - common) as usize;

@@ -11,7 +11,7 @@ use super::simplex::{DifferenceVertex, Simplex, VertexPair};
 use crate::base::math::Pose;
 use crate::polyhedron::Polyhedron;
 
-/// A place on a line: so many times its direction from its origin, mantissa · 2^exponent. Exponents may leave those of doubles.
+/// A place on a line: this many times its direction from its origin, mantissa · 2^exponent. Exponents may leave those of doubles.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Place {
     pub mantissa: i64,
@@ -25,7 +25,7 @@ pub(crate) struct BesideLine<'a> {
     direction: DyadicVector,
 }
 
-/// What of the body is nearest to a stretch of the line.
+/// The part of the body that is nearest to a stretch of the line.
 pub(crate) struct NearestToLine {
     /// Differences of the body's vertices and the stretch's ends.
     simplex: Simplex,
@@ -34,7 +34,7 @@ pub(crate) struct NearestToLine {
 }
 
 impl<'a> BesideLine<'a> {
-    /// Of any finite numbers.
+    /// Accepts any finite numbers.
     pub fn new(polyhedron: &'a Polyhedron, pose: &Pose, origin: [f64; 3], direction: [f64; 3]) -> BesideLine<'a> {
         BesideLine {
             body: Body::new(polyhedron, pose),

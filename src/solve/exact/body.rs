@@ -11,7 +11,7 @@ use crate::polyhedron::Polyhedron;
 /// Sums of differences from here, 2⁻⁸⁰⁰ …
 const SMALLEST_FOR_DOUBLES: f64 = f64::from_bits((1023 - 800) << 52);
 
-/// … to here, 2⁸⁰⁰, are compared in doubles where these tell.
+/// … to here, 2⁸⁰⁰, are compared in doubles where these decide.
 const LARGEST_FOR_DOUBLES: f64 = f64::from_bits((1023 + 800) << 52);
 
 /// The objects' exact description: world vertex = R·(centre + position) + T.
@@ -59,8 +59,8 @@ impl<'a> Body<'a> {
         rotated.sum(self.translation.clone())
     }
 
-    /// Rᵀ·d, up to a positive factor: the world direction d mapped *into* the body. d·(R·o + T) and (Rᵀd)·o differ by a
-    /// constant, whatever R is.
+    /// Rᵀ·d, up to a positive factor: the world direction d mapped *into* the body. d·(R·o + T) and (Rᵀd)·o differ by a constant,
+    /// for any R.
     pub fn local_direction(&self, d: &IntVector) -> LocalDirection {
         let r = &self.rotation;
         let exact = [0, 1, 2].map(|k| &r[0][k] * &d[0] + &r[1][k] * &d[1] + &r[2][k] * &d[2]);
@@ -70,8 +70,8 @@ impl<'a> Body<'a> {
     /// A vertex of largest value along `direction`, by hill climbing from `start` over the triangulated exact hull.
     ///
     /// Every comparison is exact, so the climb ends. It ends at a global maximum: at an extreme vertex and inside an edge the
-    /// neighbours span the cone of the hull; inside a face they span its plane, so that all of them tie only if the
-    /// direction is perpendicular to the face, outward (a maximum) or inward (the *minimum*: any vertex off the plane tells).
+    /// neighbours span the cone of the hull; inside a face they span its plane, so that all of them tie only if the direction is
+    /// perpendicular to the face, outward (a maximum) or inward (the *minimum*: any vertex off the plane decides).
     pub fn support(&self, start: u32, direction: &LocalDirection) -> u32 {
         let mut vertex = start;
         loop {
@@ -100,7 +100,7 @@ impl<'a> Body<'a> {
         }
     }
 
-    /// A vertex of largest value along `direction`, of all.
+    /// The vertex of largest value along `direction`, among all.
     pub fn support_of_all(&self, direction: &LocalDirection) -> u32 {
         let higher = |best: u32, vertex: u32| if self.rise(best, vertex, direction).is_gt() { vertex } else { best };
         (0..self.vertex_count() as u32).fold(0, higher)
@@ -116,9 +116,9 @@ impl<'a> Body<'a> {
         let t = p - o;
         let spread = t.x.abs() + t.y.abs() + t.z.abs();
         if (SMALLEST_FOR_DOUBLES..=LARGEST_FOR_DOUBLES).contains(&spread) {
-            // With |g| ≤ 2⁶³ a component: each rounded g misses by 1 + v|g|, each difference by v, each product by v, the two sums
-            // by 2v, together less than (6.1v·2⁶³ + 1)Σ|t| < 12500 Σ|t|, in whatever direction results are rounded, with v = 2u. In
-            // this range nothing overflows, to +∞ or the largest double; what is flushed to 0 changes a product by 2⁶³·2⁻¹⁰²² at
+            // With |g| ≤ 2⁶³ a component: each rounded g misses by 1 + v|g|, each difference by v, each product by v, the two
+            // sums by 2v, together less than (6.1v·2⁶³ + 1)Σ|t| < 12500 Σ|t|, in any rounding direction, with v = 2u. In this
+            // range nothing overflows, to +∞ or the largest double; the part flushed to 0 changes a product by 2⁶³·2⁻¹⁰²² at
             // most.
             let value = direction.rounded.dot(&t);
             if value.abs() > 16384.0 * spread {

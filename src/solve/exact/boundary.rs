@@ -1,4 +1,4 @@
-//! Where the origin is: outside the Minkowski difference, on its boundary or inside, in integers.
+//! The position of the origin: outside the Minkowski difference, on its boundary or inside, in integers.
 //!
 //! The carrier of the origin, a simplex of differences that has it in its relative interior, spans a linear space to which every
 //! supporting plane at the origin is perpendicular. So what is left is the same question one to three dimensions lower, across that
@@ -15,7 +15,7 @@ use crate::base::memory::listed;
 use crate::polyhedron::Polyhedron;
 use dashu_int::IBig;
 
-/// Where two bodies are relative to each other.
+/// The relative position of two bodies.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Position {
     /// Apart.
@@ -24,7 +24,7 @@ pub enum Position {
     Touching {
         /// From body 2 to body 1, the plane's unit normal, rounded.
         normal: Vector,
-        /// What [`super::solve`] says.
+        /// The answer of [`super::solve`].
         common: ExactAnswer,
     },
     /// They have common inner points.
@@ -36,11 +36,11 @@ pub enum Position {
 pub enum Supports {
     /// From neighbour to neighbour.
     Climbed,
-    /// All, whatever their neighbours.
+    /// All, regardless of their neighbours.
     OfAll,
 }
 
-/// Where two bodies are relative to each other, exactly, for any finite poses. `start` as of [`super::solve`].
+/// The relative position of two bodies, exactly, for any finite poses. `start` is the same as for [`super::solve`].
 pub fn locate(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], start: &[VertexPair], supports: Supports) -> Position {
     let difference = MinkowskiDifference::new(polyhedra, poses);
     let (mut simplex, mut iterations) = difference.descend(start);
@@ -58,8 +58,8 @@ pub fn locate(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], start: &[VertexPai
     }
 }
 
-/// An upper bound of the least overlap, whatever the magnitudes: of those along the world's axes the least. And the unit vector
-/// from body 2 to body 1 along which that is.
+/// An upper bound of the least overlap, for any magnitudes: the least of those along the world's axes. And the unit vector from
+/// body 2 to body 1 along which that is.
 pub fn overlap_along_axes(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> (f64, Vector) {
     let difference = MinkowskiDifference::new(polyhedra, poses);
     let mut least = (f64::INFINITY, Vector::x());

@@ -1,4 +1,4 @@
-//! Facts about the differences of vertex pairs, in integers: what a proof of depth rests on, looked at one by one.
+//! Facts about the differences of vertex pairs, in integers: the basis of a proof of depth, looked at one by one.
 
 use std::cmp::Ordering;
 

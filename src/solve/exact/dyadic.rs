@@ -18,7 +18,7 @@ struct Format {
     least: i64,
     /// That of the first power of two beyond the largest number.
     end: i64,
-    /// A quotient or a root is computed to so many bits more than it is rounded to; right from 0 on.
+    /// A quotient or a root is computed to this many bits more than it is rounded to; right from 0 on.
     spare: i64,
 }
 
@@ -288,7 +288,7 @@ mod tests {
         }
     }
 
-    /// Of doubles what has edges: ties, carries into the next power of two, subnormal ones, both ends. By exact comparisons.
+    /// For doubles, the edge cases: ties, carries into the next power of two, subnormal ones, both ends. By exact comparisons.
     #[test]
     fn doubles_are_next_to_what_is_rounded() {
         let order = |double: f64, value: &UBig, exponent: i64| {

@@ -14,7 +14,7 @@ pub struct OverPlane<'a> {
     offset: f64,
 }
 
-/// Where a vertex is.
+/// The height of a vertex.
 pub struct Height {
     /// Whether it is below the plane, where the product is less than the offset.
     pub is_below: bool,

@@ -14,7 +14,7 @@ pub(super) struct MinkowskiDifference<'a> {
 }
 
 impl<'a> MinkowskiDifference<'a> {
-    /// Of two placed bodies, for any finite poses.
+    /// The difference of two placed bodies, for any finite poses.
     pub(super) fn new(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2]) -> MinkowskiDifference<'a> {
         MinkowskiDifference { a: Body::new(polyhedra[0], poses[0]), b: Body::new(polyhedra[1], poses[1]) }
     }
@@ -57,7 +57,7 @@ impl<'a> MinkowskiDifference<'a> {
         self.corner([vertex_a, vertex_b])
     }
 
-    /// The same of all vertices, whatever their neighbours.
+    /// The same for all vertices, regardless of their neighbours.
     pub(super) fn support_of_all(&self, simplex: &Simplex) -> DifferenceVertex {
         let along = &simplex.direction;
         let against = [0, 1, 2].map(|k| -&along[k]);

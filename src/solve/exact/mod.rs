@@ -40,8 +40,8 @@ pub fn solve(a: &Polyhedron, pose_a: &Pose, b: &Polyhedron, pose_b: &Pose, start
     ExactAnswer::new(&simplex, iterations)
 }
 
-/// The distance of a pair, proved over all vertices: which of them are neighbours only guides the search. Arguments as of
-/// [`solve`]. Time in proportion to the vertices, once the descent has come to the nearest point.
+/// The distance of a pair, proved over all vertices: which of them are neighbours only guides the search. Arguments same as for
+/// [`solve`]. Time in proportion to the vertices, once the descent has reached the nearest point.
 pub fn distance(a: &Polyhedron, pose_a: &Pose, b: &Polyhedron, pose_b: &Pose, start: &[VertexPair]) -> ExactDistance {
     let difference = MinkowskiDifference::new([a, b], [pose_a, pose_b]);
     let (mut simplex, _) = difference.descend(start);

@@ -58,8 +58,8 @@ impl Simplex {
         self.corners[0].position.exponent
     }
 
-    /// Adds `corner` when it lies strictly on the origin's side of the plane through P perpendicular to P (P·w < P·P), and
-    /// takes the nearest point anew; says whether it did. |P| falls strictly if it did: the segment from P to the corner starts
+    /// Adds `corner` when it lies strictly on the origin's side of the plane through P perpendicular to P (P·w < P·P), and takes
+    /// the nearest point anew; returns whether it did. |P| falls strictly if it did: the segment from P to the corner starts
     /// towards the origin. Otherwise the corner brings nothing: P·w ≥ P·P.
     pub fn improve(&mut self, corner: &DifferenceVertex) -> bool {
         if self.holds_origin() {
@@ -188,7 +188,7 @@ struct Face {
 }
 
 /// The nearest point of the hull of a few corners: the same descent, with the corners themselves as the support. They may
-/// coincide or be coplanar; what brings nothing is never added.
+/// coincide or be coplanar; a corner that brings nothing is never added.
 pub(super) fn nearest_of_hull(first: DifferenceVertex, corners: &[DifferenceVertex]) -> Simplex {
     let mut simplex = Simplex::new(first);
     while corners.iter().any(|corner| simplex.improve(corner)) {}

@@ -5,8 +5,8 @@ use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::simd::Lanes;
 use crate::polyhedron::fan::Fan;
 
-/// Of each face of a body the corners w of the other with S(f, w) ≥ T. A face without any lowers T: then its least deep corner is
-/// in the mask.
+/// For each face of a body, the corners w of the other with S(f, w) ≥ T. A face without any lowers T: then its least deep corner
+/// is in the mask.
 #[inline(always)]
 pub fn find_masks<L: Lanes, const C: usize, const F: usize>(
     search: &mut Search<L, C, F>,
@@ -61,9 +61,10 @@ impl<const C: usize> Survivors<C> {
 /// A lower bound of h on an arc between faces a and b by two corners of the other body: one below the plane of a, the other below
 /// that of b.
 ///
-/// On the chord n(s) = (1 − s)a + s·b both S are linear, l and m. Where l(s) ≥ T|n(s)| is an interval from s = 0 on, as l − T|n|
-/// is concave for T ≥ 0; where m(s) is, one to s = 1. If both hold at one s, they cover the chord. Any computed s will do. There l
-/// and m are off by what [`NODE`] says and |n| by [`NORMAL`], both over |n|; what is computed of s, l, m and |n| adds less than 4u.
+/// On the chord n(s) = (1 − s)a + s·b both S are linear, l and m. The set where l(s) ≥ T|n(s)| is an interval from s = 0 on, as l
+/// − T|n| is concave for T ≥ 0; where m(s) is, one to s = 1. If both hold at one s, they cover the chord. Any computed s will do.
+/// There l and m are off by the bound of [`NODE`] and |n| by [`NORMAL`], both over |n|; the computation of s, l, m and |n| adds
+/// less than 4u.
 #[inline(always)]
 pub fn proved_by_two_corners<L: Lanes, const C: usize, const F: usize>(
     search: &Search<L, C, F>,

@@ -1,8 +1,8 @@
 //! Crossings of arcs: directions in which an edge of one body faces an edge of the other.
 //!
-//! Where an arc of an edge along e crosses the turned arc of an edge along g, the unit vector n* there is all but perpendicular to
-//! both: |n*·e| and |n*·g| are at most the edges' leans. The computed e and g are off by 12.5u each, their product by 5.3u more.
-//! So n* is within θ of the computed ±(e × g)/|e × g|, θ = (32u + leans)/|e × g|.
+//! At a crossing of an arc of an edge along e with the turned arc of an edge along g, the unit vector n* is all but perpendicular
+//! to both: |n*·e| and |n*·g| are at most the edges' leans. The computed e and g are off by 12.5u each, their product by 5.3u
+//! more. So n* is within θ of the computed ±(e × g)/|e × g|, θ = (32u + leans)/|e × g|.
 
 use super::arcs::{Survivors, proved_by_two_corners};
 use super::search::{Facet, NORMAL, Search};
@@ -13,23 +13,23 @@ use crate::base::simd::Lanes;
 const CROSS: f64 = 32.0 * U;
 const STRETCH: f64 = 1.05;
 
-/// What rounding does to n·(l + r) − (1 + l·r)|n| for a unit vector along n on the arc between the normals l and r. With δl and δr
-/// off it is δl·(n − r) + δr·(n − l), and |n − l| + |n − r| ≤ 2√2 on the arc: 2√2·37u, see [`NORMAL`]. Computed, the length of n
-/// errs by 2.5u, its product with l + r by 3u, l + r by u, all times 2; 1 + l·r and its product by 7u, the sum with this by 2u:
+/// The rounding error of n·(l + r) − (1 + l·r)|n| for a unit vector along n on the arc between the normals l and r. With δl and
+/// δr off it is δl·(n − r) + δr·(n − l), and |n − l| + |n − r| ≤ 2√2 on the arc: 2√2·37u, see [`NORMAL`]. Computed, the length of
+/// n errs by 2.5u, its product with l + r by 3u, l + r by u, all times 2; 1 + l·r and its product by 7u, the sum with this by 2u:
 /// 22u.
 pub const ON_ARC: f64 = 2.9 * NORMAL + 23.0 * U;
 
 /// Edges with a greater θ are as good as parallel.
 const MOST_TILT: f64 = 1e-6;
 
-/// What rounding does to a product of n* with a difference of corners, over M: the difference 10u, product and length of the
-/// computed vector 6u, what of it is along the edges 4u.
+/// The rounding error of a product of n* with a difference of corners, over M: the difference 10u, product and length of the
+/// computed vector 6u, its part along the edges 4u.
 const PLANE: f64 = 24.0 * U;
 
 /// A bound this far below the threshold, over M, is worth another look.
 const LOOSE: f64 = 48.0 * U;
 
-/// What is proved of crossings.
+/// The proved facts about crossings.
 pub struct Crossings {
     /// A lower bound of h at all of those looked at.
     pub least: f64,

@@ -1,14 +1,14 @@
 //! How deep two small bodies are in each other, by all facets of their Minkowski difference; nearly none of them is looked at.
 //!
-//! C = {x − y: x in body 1, y in body 2} has the support h(n) in a direction n. Of intersecting bodies the depth is the least h(n)
-//! over all unit vectors. Both bodies have a fan of directions ([`Fan`]): nodes, arcs and cells. Those of body 1 as placed and
-//! those of body 2, turned round, are laid over each other.
+//! C = {x − y: x in body 1, y in body 2} has the support h(n) in a direction n. For intersecting bodies the depth is the least
+//! h(n) over all unit vectors. Both bodies have a fan of directions ([`Fan`]): nodes, arcs and cells. Those of body 1 as placed
+//! and those of body 2, turned round, are laid over each other.
 //!
 //! *Lemma.* If h ≥ T ≥ 0 at all nodes of both fans and wherever an arc of one crosses an arc of the other, then h ≥ T − s
-//! everywhere, where s is the sum of both bodies' [`cell_slack`](Fan::cell_slack). Let n be in the cell of corner v and in that of
-//! corner w. There l(n) = n·(v − w) ≤ h(n) is linear, and l ≥ h − s|n| by the meaning of the slack. Where l ≥ (T − s)|n| is a
-//! convex cone. It holds the ends of each stretch of an arc that runs in the other's cell, nodes and crossings, and so the
-//! stretch; n is between two points of such stretches. □
+//! everywhere, where s is the sum of both bodies' [`cell_slack`](Fan::cell_slack). Let n be in the cell of corner v and in that
+//! of corner w. There l(n) = n·(v − w) ≤ h(n) is linear, and l ≥ h − s|n| by the meaning of the slack. The set where l ≥ (T −
+//! s)|n| is a convex cone. It holds the ends of each stretch of an arc that runs in the other's cell, nodes and crossings, and so
+//! the stretch; n is between two points of such stretches. □
 //!
 //! *Nodes.* At the normal n of face f h(n) = max S(f, w) over the other body's corners w, S(f, w) being how deep w is below the
 //! face's plane. One w with S(f, w) ≥ T is enough; the set of all is a mask.
@@ -41,10 +41,10 @@ use search::{Best, Search};
 pub use search::{NODE, NORMAL, SUPPORT};
 pub use witness::Witness;
 
-/// What all facets tell. (What they tell of is written in its place: R1, R5.)
+/// The result of all facets. (The facet that they find is written in its place: R1, R5.)
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Outcome {
-    /// The bodies are apart along the direction, from body 1 to body 2; it is the facet's normal. Nothing else is said.
+    /// The bodies are apart along the direction, from body 1 to body 2; it is the facet's normal. Nothing else is reported.
     Separated,
     /// They overlap.
     Overlapping,
@@ -65,7 +65,7 @@ pub struct Overlap {
     pub direction: Vector,
     /// The nearest facet.
     pub facet: Facet,
-    /// Where it is.
+    /// The place of the facet.
     pub witness: Witness,
 }
 
@@ -81,13 +81,13 @@ impl Overlap {
     };
 }
 
-/// The product that tells what looking at all facets takes: planes of one body times corners of the other.
+/// The product that gives the cost of looking at all facets: planes of one body times corners of the other.
 #[inline(always)]
 pub fn work([fan1, fan2]: [&Fan; 2]) -> usize {
     4 * (fan1.planes.len() * fan2.corners.len() + fan2.planes.len() * fan1.corners.len())
 }
 
-/// Room for blocks of points and of planes: of 8 corners and 12 faces, as of boxes; of 24 and 44; of all that have a fan. It is
+/// Room for blocks of points and of planes: for 8 corners and 12 faces, as in boxes; of 24 and 44; for all that have a fan. It is
 /// zeroed, and all of it takes longer than two boxes do.
 const TINY_POINTS: usize = 2;
 const TINY_PLANES: usize = 3;
@@ -126,7 +126,7 @@ fn is_there<L: Lanes>(frame: &Frame<L>, facet: Facet) -> bool {
     }
 }
 
-/// A search with room for so many blocks of points and planes.
+/// A search with room for this many blocks of points and planes.
 struct InRoom<'a, L, const C: usize, const F: usize> {
     frame: &'a Frame<'a, L>,
     fans: [&'a Fan; 2],
@@ -210,7 +210,7 @@ impl<L: Lanes, const C: usize, const F: usize> Search<'_, L, C, F> {
         }
     }
 
-    /// Of each body the face under which the other's origin is least deep.
+    /// For each body, the face under which the other's origin is least deep.
     #[inline(always)]
     fn begin(&mut self) {
         for body in 0..2 {

@@ -5,7 +5,7 @@ use crate::base::simd::Lanes;
 use crate::polyhedron::fan::{FaceBlock, Fan, PointBlock};
 use crate::solve::frame::Body;
 
-/// A fan in the world, with room for so many blocks of points and of planes.
+/// A fan in the world, with room for this many blocks of points and of planes.
 #[derive(Clone, Copy)]
 pub struct PlacedFan<const C: usize, const F: usize> {
     points: [PointBlock; C],

@@ -1,4 +1,4 @@
-//! What a search among facets knows while it goes on.
+//! The state of a search among facets while it goes on.
 
 use super::placed::PlacedFan;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
@@ -9,22 +9,22 @@ use crate::solve::frame::{Frame, RIGID_DEFECT};
 /// A facet of the Minkowski difference, by indices of the polyhedra.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Facet {
-    /// Of a face of body 1 (0) or body 2 (1).
+    /// A face of body 1 (0) or body 2 (1).
     Face(usize, u32),
-    /// Of an edge of each.
+    /// An edge of each.
     Edges([u32; 2]),
 }
 
-/// What ties may differ by, over M: a node this much below the least bound found counts as proved. Computed supports of equal
-/// facets differ by less.
+/// The amount by which ties may differ, over M: a node this much below the least bound found counts as proved. Computed supports
+/// of equal facets differ by less.
 pub(super) const TIE: f64 = 12.0 * U;
 
-/// What rounding does to a placed face's normal: RᵀR − I turns it, [`RIGID_DEFECT`]; the product R·n makes 5.3u, the length of n
+/// The rounding error of a placed face's normal: RᵀR − I turns it, [`RIGID_DEFECT`]; the product R·n makes 5.3u, the length of n
 /// 2.5u.
 pub const NORMAL: f64 = RIGID_DEFECT + 8.0 * U;
 
-/// What rounding does to S(f, w), over M = 1.02(ρ₁ + ρ₂) + |Δ|, in units of u, for a face of body 1; body 2's are
-/// alike except for Δ.
+/// The rounding error of S(f, w), over M = 1.02(ρ₁ + ρ₂) + |Δ|, in units of u, for a face of body 1; body 2's are alike except
+/// for Δ.
 ///
 /// | | ρ₁ | ρ₂ | \|Δ\| |
 /// |---|--:|--:|--:|
@@ -36,11 +36,11 @@ pub const NORMAL: f64 = RIGID_DEFECT + 8.0 * U;
 /// | its product with the normal | | 3.1 | 0 |
 ///
 /// At most 46.4 of 1.02ρ (of body 1's corners below a plane of body 2 the sum with Δ is one more); the comparison with the
-/// threshold is one more of M. Of skewed poses normals are by the cofactors of R and normalised, 3 + 5.3 + 3.
+/// threshold is one more of M. For skewed poses normals are by the cofactors of R and normalised, 3 + 5.3 + 3.
 pub const NODE: f64 = 48.0 * U;
 
-/// What rounding does to a support along a computed unit vector, over M: vertices 5.3ρ and their sum with Δ 1 + 2, products 3, the
-/// difference 1, the vector's length 3.
+/// The rounding error of a support along a computed unit vector, over M: vertices 5.3ρ and their sum with Δ 1 + 2, products 3,
+/// the difference 1, the vector's length 3.
 pub const SUPPORT: f64 = 16.0 * U;
 
 /// The least support so far, as computed over the corners.
@@ -69,7 +69,7 @@ impl<L: Lanes, const C: usize, const F: usize> Search<'_, L, C, F> {
         self.best.value < -SUPPORT * self.longest
     }
 
-    /// What is proved of nodes and arcs: T.
+    /// The proved bound on nodes and arcs: T.
     #[inline(always)]
     pub(super) fn threshold(&self) -> f64 {
         self.best.value - TIE * self.longest

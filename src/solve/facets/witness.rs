@@ -1,4 +1,4 @@
-//! Where the nearest facet is: points of both bodies, one over the other along the direction of least overlap.
+//! The witness points of the nearest facet: points of both bodies, one over the other along the direction of least overlap.
 
 use super::search::{Facet, SUPPORT, Search, TIE};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector, clamp};
@@ -13,7 +13,7 @@ pub struct Witness {
     pub points: [Vector; 2],
     /// The same in world axes, relative to body 2's origin.
     world: [Vector; 2],
-    /// What holds them.
+    /// The features that hold them.
     pub features: [FeatureId; 2],
 }
 
@@ -101,7 +101,7 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
         self.search.frame.bodies[body].polyhedron
     }
 
-    /// A point on the face, and one of the other body below it: of one corner, of an edge, or of a face that is parallel. Whether
+    /// A point on the face, and one of the other body below it: on one corner, on an edge, or on a face that is parallel. Whether
     /// there are such points.
     #[inline(always)]
     fn find(&self, witness: &mut Witness) -> bool {

@@ -1,4 +1,4 @@
-//! What the memory is asked for before it is known to be needed.
+//! The memory that is requested before it is known to be needed.
 
 use crate::base::simd::Lanes;
 use crate::polyhedron::{Edge, NONE, Polyhedron};

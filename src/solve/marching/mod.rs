@@ -4,7 +4,7 @@
 //! all planes of a state being tested in one short vector chain. In a minimum the optimality conditions hold: each nearest
 //! point lies in its feature, and the direction between them in the normal cones of both features.
 //!
-//! Marching proposes. What it finds is accepted by the certificate alone, which is fused with the last step; what it cannot
+//! Marching proposes. Its results are accepted by the certificate alone, which is fused with the last step; a case that it cannot
 //! finish (a suspected penetration, a cycle, the step limit) is decided elsewhere.
 
 mod step;
@@ -24,7 +24,7 @@ pub use states::{
 use states::{edge_edge, vertex_edge, vertex_face, vertex_vertex};
 pub use step::{Step, Transition};
 
-/// What marching came to.
+/// The result of marching.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum March {
     /// A minimum at this state; the certifier has seen it.

@@ -1,9 +1,8 @@
-//! Short cuts: where the tests of a state tell more than the next feature of one body, the states between are left out. That saves
-//! a tenth of them and more where a motion passes several features.
+//! Short cuts: where the tests of a state determine more than the next feature of one body, the states between are left out. That
+//! saves a tenth of them and more where a motion passes several features.
 //!
-//! They only propose, as all marching does. Where a state is left out some test of it would have led on, or its features are
-//! parts of those that marching goes on with, from which it comes back to them; what goes round in circles all the same is met by
-//! the cycle detection.
+//! They only propose, as all marching does. If a state is left out, some test of it would have led on, or its features are parts
+//! of those that marching goes on with, from which it comes back to them; the cycle detection catches any remaining cycle.
 
 use crate::base::simd::Lanes;
 use crate::polyhedron::{Face, NONE, Polyhedron, clear_slope};
@@ -71,7 +70,7 @@ pub(super) fn past_the_end<L: Lanes, C: Certify<L>, const NEAR: usize>(
     })
 }
 
-/// A vertex lies off a side of the far body's face. Where it leaves towards the face's plane, the edge along which it does and the
+/// A vertex lies off a side of the far body's face. If it leaves towards the face's plane, the edge along which it does and the
 /// side are next; where it lies off the side's own region, what lies across that.
 #[inline(always)]
 pub(super) fn over_another_feature<L: Lanes, C: Certify<L>, const NEAR: usize>(

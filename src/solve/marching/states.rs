@@ -1,4 +1,4 @@
-//! The states: tests of one pair of features, and where to go from there or what minimum it is. Where a state has a vertex, that is
+//! The states: tests of one pair of features, and where to go from there or what minimum it is. If a state has a vertex, that is
 //! a vertex of the body NEAR, and the other body is "far".
 
 use super::ahead::{prefetch_across, prefetch_edges, prefetch_ends};
@@ -160,8 +160,8 @@ pub(super) fn vertex_edge<L: Lanes, C: Certify<L>, const NEAR: usize>(
     let inverse = reciprocal_length(square);
     let projection = direction.dot(difference) * inverse;
     // Far enough inside all four planes the foot lies on the edge and RᵀU in the cone of its normals, except for a part along the
-    // edge: of 10.3u·|x − tail| + 6.4u|U| by rounding, the length of x − tail being at most |U| + t; 12u are for what the planes of
-    // a feature miss each other by.
+    // edge: of 10.3u·|x − tail| + 6.4u|U| by rounding, the length of x − tail being at most |U| + t; 12u allow for how much the
+    // planes of a feature miss each other.
     let is_plain = frame.rigid & (inside == 0b1111);
     let misfit = misfit_across_edge(leaning, inverse);
     let support_excess = if is_plain { of_edge_in_cone(far.polyhedron, record, misfit) } else { f64::INFINITY };
@@ -262,13 +262,13 @@ pub(super) fn vertex_face<L: Lanes, C: Certify<L>, const NEAR: usize>(
     Step::minimum(at)
 }
 
-/// A point as many tolerances, 96u·(ρ₁ + ρ₂ + |Δ|) in all, inside the planes of a feature counts as inside for sure.
+/// A point as many tolerances, 96u·(ρ₁ + ρ₂ + |Δ|) in all, inside the planes of a feature counts as provably inside.
 ///
-/// Over a triangle, whose sides do not lean: its foot q has to be inside by 24u·max(ρ, |q|), see [`is_inside_sides`]; the
-/// foot's values differ from the point's by a few u of the height and of both points' magnitudes. By an edge: with x seen from
-/// the far body as p = Rᵀx and U = x − R·foot, RᵀU = p − foot − E·foot, E = RᵀR − I. What the planes say of p differs from what
-/// they would say of RᵀU + foot by 29u·ρ for E, 8u(|p| + ρ) for planes and their values, 6u|p| for the product and, for x,
-/// 8u(ρ₁ + ρ₂) + 2u|Δ| + 2u|p|: at most 62u·(ρ₁ + ρ₂ + |Δ|) in all.
+/// Over a triangle, whose sides do not lean: its foot q has to be inside by 24u·max(ρ, |q|), see [`is_inside_sides`]; the foot's
+/// values differ from the point's by a few u of the height and of both points' magnitudes. By an edge: with x seen from the far
+/// body as p = Rᵀx and U = x − R·foot, RᵀU = p − foot − E·foot, E = RᵀR − I. The planes' values for p differ from those for RᵀU +
+/// foot by 29u·ρ for E, 8u(|p| + ρ) for planes and their values, 6u|p| for the product and, for x, 8u(ρ₁ + ρ₂) + 2u|Δ| + 2u|p|:
+/// at most 62u·(ρ₁ + ρ₂ + |Δ|) in all.
 const MARGIN: f64 = 3.0;
 
 #[inline(always)]
@@ -333,9 +333,9 @@ pub(super) fn edge_edge<L: Lanes, C: Certify<L>>(frame: &Frame<L>, indices: [u32
             walk_along_edge::<L, 0>(frame, indices, s, face, (&record2.planes, lane))
         };
     }
-    // Of g = RᵀU, |U| = sine, the part along the edge is U·Rê: Rê errs by 5.3u, the cross product by u|U| and 2.1u. Across it
-    // the slopes, found not negative, err by 5.3u|U| for RᵀU and 3.1u|U| for the products; 12u are for what the planes of a
-    // feature miss each other by.
+    // For g = RᵀU, |U| = sine, the part along the edge is U·Rê: Rê errs by 5.3u, the cross product by u|U| and 2.1u. Across it
+    // the slopes, found not negative, err by 5.3u|U| for RᵀU and 3.1u|U| for the products; 12u allow for how much the planes of a
+    // feature miss each other.
     let inverse = reciprocal_length(sine_squared);
     let misfit = misfit_between_edges(inverse);
     let is_plain = L::splat(0.0).greater(across) == 0;
@@ -412,13 +412,13 @@ pub fn misfit_between_edges<S: Scalar>(inverse: S) -> S {
     constant::<S>(UNIT_ROUNDOFF) * (constant::<S>(28.0) + constant::<S>(3.0) * inverse)
 }
 
-/// What points on edges add to the error of a difference: they are so far from the tails, in all.
+/// The error that points on edges add to a difference: they are so far from the tails, in all.
 #[inline(always)]
 pub fn error_along<S: Scalar>(along: S, distance: S) -> S {
     constant::<S>(10.0 * UNIT_ROUNDOFF) * (along + distance)
 }
 
-/// What belongs to body NEAR and what to the other, in the order of the bodies.
+/// The NEAR body's part and the other's, in the order of the bodies.
 #[inline(always)]
 fn in_order<L: Lanes, const NEAR: usize>(near: L, far: L) -> [L; 2] {
     if NEAR == 0 { [near, far] } else { [far, near] }
@@ -430,7 +430,7 @@ fn signed<L: Lanes, const NEAR: usize>(direction: L) -> L {
     if NEAR == 0 { direction } else { direction.negate() }
 }
 
-/// δ of a vertex: 0 if all neighbours lie strictly behind; otherwise a closer look has to tell.
+/// δ of a vertex: 0 if all neighbours lie strictly behind; otherwise a closer look must decide.
 #[inline(always)]
 fn excess_at_vertex(test: VertexTest) -> f64 {
     if matches!(test, VertexTest::Strict) { 0.0 } else { f64::INFINITY }

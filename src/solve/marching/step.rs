@@ -1,8 +1,8 @@
-//! What the tests of one state say.
+//! The results of one state's tests.
 
 use crate::solve::state::State;
 
-/// What one state's tests say. No enum that holds the state (R5).
+/// The results of one state's tests. No enum that holds the state (R5).
 pub struct Step {
     /// How to go on.
     pub transition: Transition,

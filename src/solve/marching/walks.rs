@@ -24,7 +24,7 @@ pub(super) fn walk_over_face<L: Lanes, const NEAR: usize>(
 ) -> Step {
     let (body, far) = (&frame.bodies[NEAR], &frame.bodies[1 - NEAR]);
     // The far end of the edge, which need not be the neighbour: a vertex within the edge is a neighbour, too. From such a vertex
-    // only the neighbour is surely ahead, and from a flat vertex the edge may not lead there.
+    // only the neighbour is guaranteed to be ahead, and from a flat vertex the edge may not lead there.
     let edge_at = |v: u32| body.polyhedron.vertices[v as usize].neighbours.edge[0];
     let (end, leaving) = match body.polyhedron.edges.get(leaving as usize) {
         Some(record) if record.tail() == vertex => (record.head(), leaving),
@@ -53,11 +53,11 @@ pub(super) fn walk_over_face<L: Lanes, const NEAR: usize>(
     })
 }
 
-/// Faces of so many sides are wide enough for a vertex to descend over them by several edges. Each takes a step of marching, and
-/// two searches among the sides.
+/// Faces of this many sides are wide enough for a vertex to descend over them by several edges. Each takes a step of marching,
+/// and two searches among the sides.
 pub(super) const WIDE_FACE: u32 = 8;
 
-/// Edges of a descent; what is longer is gone down in several.
+/// Edges of a descent; a longer one is gone down in several.
 const LONGEST_DESCENT: usize = 64;
 
 /// A vertex of a body over a wide face of the other body goes down the steepest edges, and not over the boundary.

@@ -1,4 +1,4 @@
-//! Whether the degree of a polytope about the origin is positive for sure.
+//! Whether the degree of a polytope about the origin is provably positive.
 //!
 //! It is the sum of the signs with which a ray from the origin crosses triangles. The proof is about the computed corners; the
 //! exact ones are off by no more than the difference's error, and every triangle is farther from the origin than that, so that

@@ -14,21 +14,21 @@ use crate::solve::frame::Frame;
 /// Steps made with a polytope of an earlier query before it is given up for a first one.
 const WARM_STEPS: u32 = 48;
 
-/// Steps in all, whatever the budget; on the hard cases 231 were the most.
+/// Steps in all, regardless of the budget; on the hard cases 231 were the most.
 const MOST_STEPS: u32 = 400;
 
-/// A polytope with more triangles than this that are nearer than they should be is given up at once: so many expansions take as
+/// A polytope with more triangles than this that are nearer than they should be is given up at once: this many expansions take as
 /// long as a first polytope.
 const MOST_STALE: usize = 8;
 
-/// A polytope with more triangles than this, and than half as many again as the last first polytope came to, is given up, too: each
+/// A polytope with more triangles than this, and than half as many again as the last first polytope had, is given up, too: each
 /// query takes time in proportion to them.
 const MOST_KEPT: usize = 56;
 
 /// The first polytope is still so coarse that the tables know better where to climb from.
 const COARSE: usize = 16;
 
-/// What a search is to come to.
+/// The goal of a search.
 #[derive(Debug, Clone, Copy)]
 pub struct Wanted {
     /// How wide the interval may be; at least [`Rounding::provable`] counts.
@@ -37,18 +37,18 @@ pub struct Wanted {
     pub relative: f64,
     /// How many steps it may take.
     pub steps: u32,
-    /// What the lower end is to come to, if it can: 0 except in a search for a proof.
+    /// The value that the lower end must reach, if it can: 0 except in a search for a proof.
     pub lower: f64,
 }
 
-/// Where a search begins.
+/// The start of a search.
 #[derive(Debug, Clone, Copy)]
 pub struct SearchStart {
     /// The triangle of the polytope whose normal was the direction of least overlap, if there is a polytope.
     pub triangle: Option<usize>,
     /// A direction of small overlap, where no polytope is known.
     pub direction: Option<Vector>,
-    /// Triangles that the last first polytope came to.
+    /// Triangles of the last first polytope.
     pub first_triangles: usize,
     /// Whether there is a better way than a first polytope where the one that is known is not worth going on with.
     pub only_known: bool,
@@ -67,16 +67,16 @@ pub enum Ending {
     Stuck,
     /// The differences are flat as far as rounding lets one see.
     Flat,
-    /// What was known was not worth going on with, and nothing else was to be tried.
+    /// The known state was not worth going on with, and nothing else was to be tried.
     Outdated,
 }
 
-/// What a search found.
+/// The result of a search.
 #[derive(Debug, Clone, Copy)]
 pub struct Expansion {
     /// How it ended.
     pub ending: Ending,
-    /// The depth of intersecting bodies is at least this; more than 0 only if they intersect for sure.
+    /// The depth of intersecting bodies is at least this; more than 0 only if they provably intersect.
     pub lower: f64,
     /// Along `direction` the bodies overlap by at most this; negative: they are so far apart at least.
     pub upper: f64,
@@ -84,7 +84,7 @@ pub struct Expansion {
     pub direction: Vector,
     /// The vertices that reach farthest along it.
     pub farthest: VertexPair,
-    /// Triangles that the last first polytope came to.
+    /// Triangles of the last first polytope.
     pub first_triangles: usize,
     /// Whether the polytope is the one that the search began with.
     pub is_as_kept: bool,
@@ -136,7 +136,7 @@ pub fn expand<L: Lanes, const V: usize, const T: usize>(
 /// The least upper bound so far.
 struct Best {
     upper: f64,
-    /// What of it is owed to ties at the support vertices, which no expansion makes less.
+    /// The part of it that is due to ties at the support vertices, which no expansion reduces.
     excess: f64,
     direction: Vector,
     farthest: VertexPair,
@@ -165,7 +165,7 @@ fn nearer_than<const V: usize, const T: usize>(polytope: &Polytope<V, T>, distan
     polytope.distances[..polytope.triangle_count].iter().filter(|other| **other < distance).count()
 }
 
-/// What a step came to.
+/// The result of a step.
 enum Advance {
     /// Go on.
     On,
@@ -214,7 +214,8 @@ impl<L: Lanes> Expander<'_, L> {
         }
     }
 
-    /// Upper bounds of differences too flat for a search: across what there is of a polytope, and along the axes of the world.
+    /// Upper bounds of differences too flat for a search: across the part of a polytope that exists, and along the axes of the
+    /// world.
     #[cold]
     fn measure_flat<const V: usize, const T: usize>(&mut self, polytope: &Polytope<V, T>) -> Ending {
         if polytope.triangle_count > 0 {
@@ -263,8 +264,8 @@ impl<L: Lanes> Expander<'_, L> {
             && polytope.is_closed()
     }
 
-    /// What the nearest triangle's distance has to be: so near to the upper bound, and more than 0, which proves the verdict, where
-    /// that can be proved.
+    /// The target for the nearest triangle's distance: so near to the upper bound, and more than 0, which proves the verdict,
+    /// where that can be proved.
     #[inline(always)]
     fn target(&self) -> f64 {
         // Nothing bounds it yet, and no share of infinity is 0.
@@ -277,12 +278,12 @@ impl<L: Lanes> Expander<'_, L> {
         let provable = value - self.rounding.provable;
         let least = if provable > 0.0 { f64::MIN_POSITIVE } else { provable };
         let target = if target > least { target } else { least };
-        // Where the bounds meet the planes' error still is between the distance of a triangle and the support beyond it, twice.
+        // If the bounds meet, the planes' error still is between the distance of a triangle and the support beyond it, twice.
         let lower = self.lower.min(value - 2.0 * self.rounding.plane);
         if target > lower { target } else { lower }
     }
 
-    /// Asks for a support, or a pair that comes to `enough`, and takes its direction if the bodies overlap less along it.
+    /// Asks for a support, or a pair that reaches `enough`, and takes its direction if the bodies overlap less along it.
     #[inline(always)]
     fn ask(&mut self, direction: &Vector, from: Option<VertexPair>, enough: f64) -> Support {
         self.supports += 1;
@@ -342,7 +343,8 @@ impl<L: Lanes> Expander<'_, L> {
             let highest_value = height(&highest);
             let is_coarse = !is_warm && polytope.triangle_count < COARSE;
             let from = (!is_coarse).then_some(polytope.pairs[usize::from(highest)]);
-            // Beyond the plane, and no less bound than is known: then it is a vertex to insert, be it the farthest or not.
+            // Beyond the plane, and no less bound than is known: then it is a vertex to insert, whether it is the farthest or
+            // not.
             let beyond = highest_value + 2.0 * self.rounding.plane;
             let found = self.ask(&normal, from, if self.best.upper > beyond { self.best.upper } else { beyond });
             if self.best.upper < 0.0 {
@@ -444,7 +446,7 @@ impl Ring {
                 break;
             }
         }
-        // Where the surface is pinched there are more triangles than around one side of it.
+        // If the surface is pinched, there are more triangles than around one side of it.
         (ring.count >= 3 && ring.count == usize::from(polytope.uses[usize::from(vertex)])).then_some(ring)
     }
 }

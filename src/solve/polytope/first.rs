@@ -141,7 +141,7 @@ fn tetrahedron<L: Lanes, const V: usize, const T: usize>(
     if !(normal.norm() > SHORTEST_NORMAL) {
         return None;
     }
-    // … and what is farthest from its plane.
+    // … and the vertex farthest from its plane.
     let normal = normal.normalize();
     let height = |found: &Support| normal.dot(&(position(found) - first));
     let [above, below] = both(&normal);

@@ -1,19 +1,19 @@
 //! How deep two bodies are in each other, by a closed polytope of triangles inside their Minkowski difference around the origin.
 //!
-//! C = {x − y: x in body 1, y in body 2}. Of intersecting bodies the origin lies in C, and the least translation that parts them is
-//! as long as the origin is far from the boundary of C.
+//! C = {x − y: x in body 1, y in body 2}. For intersecting bodies the origin lies in C, and the least translation that parts them
+//! is as long as the origin is far from the boundary of C.
 //!
-//! *From below*: a closed oriented cycle of triangles with corners in C, of degree other than 0 about the origin, encloses the ball
-//! around the origin that meets no triangle. For a point outside C is parted from it by a plane, so that the cycle has degree 0
-//! about it, and the degree does not change along a way that meets no triangle. Neither convexity nor a manifold is asked for. The
-//! ball's radius is the least distance of a triangle from the origin, and of each that is at least min m·v/|m| over its corners v,
-//! for whatever vector m.
+//! *From below*: a closed oriented cycle of triangles with corners in C, of degree other than 0 about the origin, encloses the
+//! ball around the origin that meets no triangle. For a point outside C is parted from it by a plane, so that the cycle has
+//! degree 0 about it, and the degree does not change along a way that meets no triangle. Neither convexity nor a manifold is
+//! asked for. The ball's radius is the least distance of a triangle from the origin, and of each that is at least min m·v/|m|
+//! over its corners v, for any vector m.
 //!
 //! *From above*: the support h(n) of C in any direction n.
 //!
-//! The polytope grows where it is nearest, by the support vertex beyond that triangle, as in the expanding polytope algorithm (van
-//! den Bergen 2001), until both bounds meet; kept from query to query it needs few new vertices, or none. Being no hull it can be
-//! moved on with the bodies: the certificate is checked anew in each query. Of bodies at rest a [`Pyramid`] is enough.
+//! The polytope grows where it is nearest, by the support vertex beyond that triangle, as in the expanding polytope algorithm
+//! (van den Bergen 2001), until both bounds meet; kept from query to query it needs few new vertices, or none. Being no hull it
+//! can be moved on with the bodies: the certificate is checked anew in each query. For bodies at rest a [`Pyramid`] is enough.
 
 mod storage;
 mod planes;
@@ -40,7 +40,7 @@ pub use storage::{NO_TWIN, Polytope, triangle_of};
 pub use support::{HEIGHTS, farthest, heights, support};
 pub use witness::{Witness, witness};
 
-/// What rounding does to the numbers of one pair.
+/// The rounding errors of the numbers of one pair.
 ///
 /// With M = 1.02(ρ₁ + ρ₂) + |Δ| no difference of vertices is longer than M (‖R‖ ≤ 1.015), nor off by more than e, see
 /// [`Frame::difference_error`].
@@ -56,12 +56,12 @@ pub struct Rounding {
     /// |e||g|: each component of the cross product errs by 3u of its permanent and u of itself, which makes 5.3u·|e||g|, the
     /// product with v by 3u more, all times M.
     pub determinant: f64,
-    /// What an interval is surely as wide as: `plane` at each end, and what is lost where both meet.
+    /// The guaranteed width of an interval: `plane` at each end, and the loss where both meet.
     pub provable: f64,
 }
 
 impl Rounding {
-    /// Of a pair.
+    /// The rounding of a pair.
     #[inline(always)]
     pub fn of<L: Lanes>(frame: &Frame<L>) -> Rounding {
         let [difference, plane, determinant, provable] = rounding(frame.size, frame.separation);

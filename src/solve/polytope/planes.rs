@@ -8,7 +8,7 @@ use crate::base::simd::Lanes;
 /// The least values over some triangles.
 #[derive(Debug, Clone, Copy)]
 pub struct Least {
-    /// Of [`Polytope::distances`].
+    /// The distance from [`Polytope::distances`].
     pub distance: f64,
     /// How high the centre is below its plane, as computed.
     pub height: f64,
@@ -27,7 +27,7 @@ pub fn evaluate<L: Lanes, const V: usize, const T: usize>(
     let [centre_x, centre_y, centre_z] = [L::splat(centre.x), L::splat(centre.y), L::splat(centre.z)];
     let (shortest, none, one) = (L::splat(SHORTEST_NORMAL), L::splat(NO_PLANE), L::splat(1.0));
     let [mut least_distance, mut least_height] = [L::splat(f64::INFINITY); 2];
-    // Four at a time: the last stands in for what is missing.
+    // Four at a time: the last stands in for missing ones.
     let last = polytope.corners[to - 1];
     polytope.corners[to..to + 3].fill(last);
     let mut first = from;
@@ -56,7 +56,7 @@ pub fn evaluate<L: Lanes, const V: usize, const T: usize>(
         // The determinant is length·(over_p + …), see `Rounding::determinant`; the distance has been lessened by its rounding.
         let edges = ex.mul_add(ex, ey.mul_add(ey, ez.mul(ez))).mul(gx.mul_add(gx, gy.mul_add(gy, gz.mul(gz))));
         let certain = distance.mul(length).greater(determinant_error.mul(edges.sqrt()));
-        // What is written beyond the last is overwritten before it is used.
+        // Values written beyond the last are overwritten before they are used.
         polytope.normals[0][first..first + 4].copy_from_slice(&ux.to_array());
         polytope.normals[1][first..first + 4].copy_from_slice(&uy.to_array());
         polytope.normals[2][first..first + 4].copy_from_slice(&uz.to_array());

@@ -1,20 +1,20 @@
-//! The smallest polytopes that prove a depth: of pairs at rest, where from step to step the facet of least overlap stays.
+//! The smallest polytopes that prove a depth: for pairs at rest, where from step to step the facet of least overlap stays.
 //!
-//! A *pyramid* has a base in that facet, of three to eight corners, and an apex deep in the Minkowski difference. Where the side
+//! A *pyramid* has a base in that facet, of three to eight corners, and an apex deep in the Minkowski difference. If the side
 //! over an edge of the base would be nearer to the origin than the base is, as at the rim of a plate, the base has a further
 //! triangle across that edge, or one in a notch between two such triangles. So around the base and its further triangles runs a
-//! *ring* of at most eight corners, and each edge of the ring has a side up to the apex. It proves a depth just as a large polytope
-//! does, see the [module](super):
+//! *ring* of at most eight corners, and each edge of the ring has a side up to the apex. It proves a depth just as a large
+//! polytope does, see the [module](super):
 //!
-//! 1. *It is closed*, whatever the indices are: the fan of the base has the base's edges as its boundary, a further triangle over
-//!    an edge of the ring puts two edges in its place, one in a notch an edge in the place of two, and the sides close the ring.
-//!    Only the range of the indices is looked at.
+//! 1. *It is closed*, for any indices: the fan of the base has the base's edges as its boundary, a further triangle over an edge
+//!    of the ring puts two edges in its place, one in a notch an edge in the place of two, and the sides close the ring. Only the
+//!    range of the indices is looked at.
 //! 2. *The base is far enough*: with the normal m of three of its corners, which may be any vector, all of it is at least min m·v
 //!    from the origin, less the error of a [plane](Rounding::plane); that is the lower end.
 //! 3. *So are the sides and further triangles*: with a triangle's normal N, however rounded, min N·v ≥ |N|·(min m·v) over its
 //!    corners. Both are positive, so their squares are compared, and no root is taken. The products err by 3u·|N|M and the
 //!    differences by e; squares and |N|² by a few u of themselves, so the height by 3u of itself. The plane's error is 10u·M and e.
-//! 4. *It goes around the origin once*: all determinants are positive for sure, so that solid angles sum up to more than 0. A
+//! 4. *It goes around the origin once*: all determinants are provably positive, so that solid angles sum up to more than 0. A
 //!    determinant is N·v for a corner v, and errs by less than [`Rounding::determinant`] times both edges' lengths.
 //! 5. *The bodies overlap by no more along m* than both reach along it, see [`reach`]; that is the upper end.
 //! 6. *The ends have met*, up to what is provable. Otherwise the pyramid proves nothing.
@@ -35,7 +35,7 @@ pub const MOST_CORNERS: usize = 8;
 /// from a ring of eight, of which three stay.
 const MOST_FURTHER: u8 = 10;
 
-/// Triangles of a pyramid: a closed surface of so many corners and an apex has no more.
+/// Triangles of a pyramid: a closed surface of this many corners and an apex has no more.
 const MOST_TRIANGLES: usize = 2 * MOST_CORNERS - 2;
 
 /// Which triangles of how many are of the base: a window of four flags begins `fan` flags before the first of the ones.
@@ -76,10 +76,10 @@ struct Further {
     moves: [u8; 5],
 }
 
-/// The bits of [`Further::moves`] that tell of notches.
+/// The bits of [`Further::moves`] that mark notches.
 const NOTCHES: u64 = 0x88_8888_8888;
 
-/// What one further triangle does to the ring.
+/// The effect of one further triangle on the ring.
 #[derive(Clone, Copy)]
 enum Move {
     /// A new corner comes behind this place.
@@ -275,7 +275,7 @@ impl Pyramid {
             let following = if place + 1 == ring { 0 } else { place + 1 };
             surface.push([order[place], apex, order[following]]);
         }
-        // Four at a time: the last stands in for what is missing.
+        // Four at a time: the last stands in for missing ones.
         let (last, end) = (surface.triangles[surface.count - 1], (surface.count + 3).min(surface.triangles.len()));
         surface.triangles[surface.count..end].fill(last);
         surface
@@ -284,7 +284,7 @@ impl Pyramid {
     /// The vertex pairs of its triangles, if it is one of these bodies.
     ///
     /// # Panics
-    /// Where there is no memory for them, as of [`in_integers`](crate::base::memory::in_integers).
+    /// Fails where there is no memory for them, same as [`in_integers`](crate::base::memory::in_integers).
     pub fn triangles<L: Lanes>(&self, frame: &Frame<L>) -> Vec<[VertexPair; 3]> {
         if !self.is_of(frame) {
             return Vec::new();
@@ -376,8 +376,8 @@ impl Pyramid {
         self.witness(frame, &positions, surface, &Bounds { lower, upper, height, direction }).ok_or(Failure::Enclosure)
     }
 
-    /// Where the direction from the origin leaves the base, as points of both bodies. `None` where it does not, or where the base
-    /// is so thin that its weights are off.
+    /// The point where the direction from the origin leaves the base, as points of both bodies. `None` where it does not, or
+    /// where the base is so thin that its weights are off.
     #[inline(always)]
     fn witness<L: Lanes>(
         &self,
@@ -441,7 +441,7 @@ fn combination<L: Lanes>(vertices: &[Vertex], [first, second, third]: [u32; 3], 
     third.mul_add(z, second.mul_add(y, first))
 }
 
-/// What is proved of a depth before its witness points are found.
+/// The bounds on a depth that are proved before its witness points are found.
 struct Bounds<L> {
     lower: f64,
     upper: f64,
@@ -488,8 +488,8 @@ impl Surface {
         self.count += 1;
     }
 
-    /// Whether all determinants are positive for sure, and all triangles but the base's are at least so far from the origin, up to
-    /// a plane's error: 3 and 4 above.
+    /// Whether all determinants are provably positive, and all triangles but the base's are at least so far from the origin, up
+    /// to a plane's error: 3 and 4 above.
     #[inline(always)]
     fn is_beyond<L: Lanes>(&self, positions: &[[f64; 4]; MOST_CORNERS + 1], height: f64, rounding: &Rounding) -> bool {
         let (height, determinant) = (L::splat(height), L::splat(rounding.determinant));

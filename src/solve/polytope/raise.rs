@@ -9,20 +9,20 @@ use crate::polyhedron::Polyhedron;
 use crate::solve::exact::VertexPair;
 use crate::solve::frame::Frame;
 
-/// What is this much less far, over the size of the pair, ties: above what rounding makes of a facet's heights.
+/// Vertices less far by this much, over the size of the pair, count as ties: above the rounding error of a facet's heights.
 const TIE: f64 = f64::from_bits((1023 - 43) << 52);
 
-/// What is this much less far is of the same face, if its coordinates were rounded to float or to six digits. A pyramid is proved
-/// in the end, so more does no harm.
+/// Vertices less far by this much belong to the same face, if its coordinates were rounded to float or to six digits. A pyramid
+/// is proved in the end, so more does no harm.
 const NEARLY: f64 = f64::from_bits((1023 - 16) << 52);
 
-/// Vertices of a body that tie; of more there is no pyramid.
+/// Vertices of a body that tie; for more there is no pyramid.
 const MOST_TIED: usize = 64;
 
 /// How far the base reaches around its foot, over the depth, for a ring of four corners to be enough.
 const WIDE: f64 = 2.0;
 
-/// How far sides are to be from the origin, over the depth: the pyramid is to last for some steps …
+/// The required distance of sides from the origin, over the depth: the pyramid should last for some steps …
 const LASTING: f64 = 1.25;
 
 /// … how far it suffices them to be, so that no other apex is tried …
@@ -142,8 +142,8 @@ impl<L: Lanes> Raising<'_, L> {
         Some(tied)
     }
 
-    /// Of the facet, which is made of all pairs of vertices that tie, those that reach farthest in eight directions across, or in
-    /// every second of them where these reach far enough around the foot.
+    /// A base of the facet, which is made of all pairs of vertices that tie. It takes those that reach farthest in eight
+    /// directions across, or in every second of them where these reach far enough around the foot.
     fn base(&self, tied: [&Tied; 2]) -> Option<Base> {
         let [of_first, of_second] = [0, 1].map(|body| self.extremes(body, tied[body]));
         let pair = |at: usize| [of_first[at], of_second[at]];
@@ -257,7 +257,7 @@ impl<L: Lanes> Raising<'_, L> {
     }
 
     /// The pyramid over a cap: with the apex whose nearest side is the farthest, and with further triangles across edges where a
-    /// side is too near all the same. What lasts only at an edge is left in `at_edge`.
+    /// side is still too near. A result that lasts only at an edge is left in `at_edge`.
     fn over(&self, mut cap: Cap, at_edge: &mut Option<Pyramid>) -> Option<Pyramid> {
         let mut apices = [[0; 2]; APICES];
         let mut apex_count = 0;
@@ -338,13 +338,13 @@ const WRAPPINGS: usize = 6;
 /// Directions around, at angles that have nothing to do with those of bodies.
 const EIGHT: usize = 8;
 const AROUND: [[f64; 2]; EIGHT] = {
-    // Of 17° and of 62°.
+    // The cosines and sines of 17° and of 62°.
     let [[c, s], [d, t]] =
         [[0.956_304_755_963_035_5, 0.292_371_704_722_736_7], [0.469_471_562_785_890_8, 0.882_947_592_858_927]];
     [[c, s], [d, t], [-s, c], [-t, d], [-c, -s], [-d, -t], [s, -c], [t, -d]]
 };
 
-/// A base and its further triangles, as far as they have come.
+/// A base and its further triangles, in their current state.
 #[derive(Clone, Copy)]
 struct Cap {
     /// Without an apex.
@@ -376,7 +376,7 @@ impl Cap {
     }
 }
 
-/// What an edge of the ring makes a triangle with.
+/// The point that completes an edge of the ring to a triangle.
 #[derive(Clone, Copy)]
 enum Pivot {
     /// A corner of the rim.
@@ -387,7 +387,7 @@ enum Pivot {
     BesideTo,
 }
 
-/// The ring as far as it has come.
+/// The ring in its current state.
 #[derive(Clone, Copy)]
 struct Ring {
     pairs: [VertexPair; MOST_CORNERS],

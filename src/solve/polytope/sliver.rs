@@ -9,7 +9,7 @@ use crate::base::math::{Vector, divisor};
 use crate::base::simd::Lanes;
 use crate::solve::frame::Frame;
 
-/// Steps of Gilbert's iteration towards the nearest point of a triangle; what they leave open the three sides settle.
+/// Steps of Gilbert's iteration towards the nearest point of a triangle; the cases that they leave open, the three sides settle.
 const GILBERT_STEPS: u32 = 12;
 
 /// Gives a triangle the plane whose normal is the cross product of its edges in double-double arithmetic, these from the bodies'

@@ -19,7 +19,7 @@ pub struct Polytope<const V: usize, const T: usize> {
     pub vertex_count: usize,
     /// Triangles in use.
     pub triangle_count: usize,
-    /// Of which vertices each vertex is the difference.
+    /// The pair of vertices whose difference each vertex is.
     pub pairs: [VertexPair; V],
     /// The computed differences; the fourth number is any.
     pub positions: [[f64; 4]; V],
@@ -33,7 +33,7 @@ pub struct Polytope<const V: usize, const T: usize> {
     pub normals: [[f64; T]; 3],
     /// A lower bound of the signed distance of each triangle's plane from the origin, rounding included, or [`NO_PLANE`].
     pub distances: [f64; T],
-    /// 1 where the determinant of the corners, as computed, is positive for sure.
+    /// 1 where the determinant of the corners, as computed, is provably positive.
     pub certain: [u8; T],
     /// Scratch of surgery: bit 7 for a triangle of the region, bits 0 to 2 for half-edges of it that have been walked.
     pub(super) marks: [u8; T],
@@ -121,7 +121,7 @@ impl<const V: usize, const T: usize> Polytope<V, T> {
         [a, b, c]
     }
 
-    /// Where the corners of a triangle are.
+    /// The positions of the corners of a triangle.
     #[inline(always)]
     pub fn positions_of(&self, triangle: usize) -> [Vector; 3] {
         self.corners_of(triangle).map(|corner| self.position(corner))
@@ -201,8 +201,8 @@ impl<const V: usize, const T: usize> Polytope<V, T> {
         }
     }
 
-    /// Whether the triangles are a closed oriented cycle: half-edges are in pairs, and the ends of each are those of its twin. Of
-    /// corners and twins nothing is known, but that the fourth corner is the first, and the fourth twin [`NO_TWIN`].
+    /// Whether the triangles are a closed oriented cycle: half-edges are in pairs, and the ends of each are those of its twin.
+    /// For corners and twins nothing is known, but that the fourth corner is the first, and the fourth twin [`NO_TWIN`].
     #[inline(always)]
     pub fn is_closed(&self) -> bool {
         let (corners, twins) = (self.corners.as_flattened(), self.twins.as_flattened());

@@ -16,7 +16,7 @@ use crate::tables;
 pub struct Support {
     /// The vertices whose difference it is.
     pub pair: VertexPair,
-    /// Where it is, as computed.
+    /// The position, as computed.
     pub position: [f64; 4],
     /// The value there, as computed.
     pub value: f64,
@@ -26,9 +26,9 @@ pub struct Support {
     pub upper: f64,
 }
 
-/// The support of the Minkowski difference along a direction of unit length as computed, climbed to from a pair of vertices or else
-/// from where the look-up tables say. A pair that comes to `enough` or more may be left where it ties with others: nothing but its
-/// value is said then, the upper bound is infinite.
+/// The support of the Minkowski difference along a direction of unit length as computed, climbed to from a pair of vertices or
+/// else from the look-up tables' vertices. A pair that comes to `enough` or more may be left where it ties with others: only its
+/// value is reported then, the upper bound is infinite.
 #[inline(always)]
 pub fn support<L: Lanes>(
     frame: &Frame<L>,
@@ -99,8 +99,8 @@ fn difference<L: Lanes>(frame: &Frame<L>, vertex1: u32, vertex2: u32) -> L {
     frame.difference(&vertices1[vertex1 as usize].position, &vertices2[vertex2 as usize].position)
 }
 
-/// How far a body reaches along a direction of about unit length, right to the rounding of a height: as far as the farthest of some
-/// vertices, those of one body of pairs, where none else can be farther; else as far as all vertices or a climb tell.
+/// How far a body reaches along a direction of about unit length, right to the rounding of a height: as far as the farthest of
+/// some vertices, those of one body of pairs, where none else can be farther; else as far as all vertices or a climb show.
 #[inline(always)]
 pub fn reach<L: Lanes>(polyhedron: &Polyhedron, towards: L, among: &[VertexPair], body: usize) -> f64 {
     if !polyhedron.vertex_blocks.is_empty() {
@@ -154,8 +154,8 @@ fn ties_with_these(polyhedron: &Polyhedron, towards: &Vector, vertex: u32, among
     })
 }
 
-/// A vertex farthest along a direction of unit length or less, and how much farther the body may reach: 0 where it is the farthest
-/// for sure. The direction may be off by 6.2u.
+/// A vertex farthest along a direction of unit length or less, and how much farther the body may reach: 0 where it is provably
+/// the farthest. The direction may be off by 6.2u.
 #[inline(always)]
 pub fn farthest<L: Lanes>(polyhedron: &Polyhedron, towards: L, start: Option<u32>) -> (u32, f64) {
     let mut top = climb(polyhedron, towards, start);
@@ -165,7 +165,7 @@ pub fn farthest<L: Lanes>(polyhedron: &Polyhedron, towards: L, start: Option<u32
     (top.vertex, top.excess)
 }
 
-/// Where a climb ended.
+/// The end of a climb.
 #[derive(Clone, Copy)]
 struct Top {
     vertex: u32,
@@ -187,7 +187,7 @@ fn climb<L: Lanes>(polyhedron: &Polyhedron, towards: L, start: Option<u32>) -> T
         None => tables::farthest(polyhedron, &towards.to_vector()).unwrap_or(0),
     };
     let clear = clear_slope(LENGTH);
-    // Each step leads up for sure, so that no vertex comes twice.
+    // Each step provably leads up, so that no vertex comes twice.
     for _ in 0..=polyhedron.vertices.len() {
         let Some(corner) = Corner::of(polyhedron, vertex) else { break };
         let block = &corner.record.neighbours;
@@ -249,9 +249,9 @@ impl<L: Lanes> Work for Settle<'_, L> {
     }
 }
 
-/// Of a vertex that ties with very many how much farther the body may reach, if the planes around it tell; or the farthest of all
-/// vertices. The planes of a merged face tell. Of a face that noise has left in triangles they do not: its vertices may tie while
-/// it is at the other side of the body.
+/// For a vertex that ties with very many, how much farther the body may reach, if the planes around it tell; or the farthest of
+/// all vertices. The planes of a merged face tell. The planes of a face that noise has left in triangles do not: its vertices may
+/// tie while it is at the other side of the body.
 #[cold]
 #[inline(never)]
 fn farthest_of_many(polyhedron: &Polyhedron, towards: &Vector, vertex: u32) -> (u32, f64) {
@@ -273,18 +273,18 @@ const LARGEST_PLATEAU: usize = 32;
 /// of both radii.
 const WIDE: f64 = 90.0 * U;
 
-/// What is around a vertex that ties with neighbours of it.
+/// The surroundings of a vertex that ties with neighbours of it.
 enum Plateau {
     /// The highest of those that it ties with, and how much higher the body may be.
     Highest(u32, f64),
-    /// A vertex that is higher for sure.
+    /// A vertex that is provably higher.
     Up(u32),
     /// Too many.
     Large,
 }
 
 /// All vertices that one ties with, and that these tie with or see above them, and so on. From a vertex that is not farthest an
-/// edge leads up, be it by less than rounding shows: so if none of them is clearly higher, a farthest vertex is among them.
+/// edge leads up, even if by less than rounding shows: so if none of them is clearly higher, a farthest vertex is among them.
 ///
 /// An edge that leads clearly up from one of them need not end higher than the first is: long edges on the way there may have led
 /// down, each by less than rounding shows. Heights decide, or the climb would go round in circles.
@@ -346,7 +346,7 @@ fn farthest_in_blocks<L: Lanes>(polyhedron: &Polyhedron, towards: L) -> (u32, f6
     }
     let (negated, lane) = best.negate().least();
     let count = polyhedron.vertices.len();
-    // Of a NaN it is any, be it one that is not there.
+    // For a NaN any vertex is found, possibly one that is not there.
     let vertex = (4 * place.to_array()[lane & 3] as usize + lane).min(count - 1);
     let rounding = HEIGHTS * polyhedron.radius;
     let tie = L::splat(-negated - rounding);
@@ -394,7 +394,7 @@ mod tests {
         all.filter(is_outside).map(|place| at(place) + random.vector() * noise).collect()
     }
 
-    /// Wherever a climb begins it comes to a farthest vertex, and says so but for rounding: on faces that noise leaves in
+    /// A climb from any vertex reaches a farthest vertex, and reports it but for rounding: on faces that noise leaves in
     /// triangles, too, which it leaves on the other side. Before, a climb went round in circles there, or met more vertices that
     /// tie than it looks at, and the body could reach farther by 2 radii for all that it said.
     #[test]

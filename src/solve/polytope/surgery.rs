@@ -7,16 +7,16 @@ use crate::base::math::Vector;
 use crate::base::simd::{Lanes, Work};
 use std::marker::PhantomData;
 
-/// What new triangles have to be.
+/// The requirements on new triangles.
 #[derive(Debug, Clone, Copy)]
 pub struct Demand {
     /// The point inside from which the polytope is looked at.
     pub centre: Vector,
     /// Whether they are to look away from the origin instead of from the centre.
     pub about_origin: bool,
-    /// No plane is to be nearer to the origin than this.
+    /// No plane may be nearer to the origin than this.
     pub least: f64,
-    /// Whether the region may grow: what stands behind a triangle that is not as demanded is taken in.
+    /// Whether the region may grow: the triangle behind a triangle that is not as demanded is taken in.
     pub grows: bool,
 }
 
@@ -94,7 +94,7 @@ impl<const V: usize, const T: usize> Polytope<V, T> {
                     let mut triangle = NO_TRIANGLE;
                     apexes += u32::from(tail == apex);
                     if tail != apex && head != apex {
-                        // A vertex of the polytope must not come to be on both sides of an edge.
+                        // A vertex of the polytope must not end up on both sides of an edge.
                         if is_known && self.corners_of(triangle_of(outer)).contains(&apex) {
                             return Horizon::Grow(triangle_of(outer));
                         }
@@ -170,7 +170,7 @@ impl<const V: usize, const T: usize> Polytope<V, T> {
         Verdict::Refused
     }
 
-    /// Joins the new triangles to each other and to what is around the region, and fills its place from the end.
+    /// Joins the new triangles to each other and to the surroundings of the region, and fills its place from the end.
     #[inline(always)]
     fn link(&mut self, region: &Region, edges: usize, triangles: usize, apex: u8) {
         for place in 0..region.size {
@@ -231,7 +231,7 @@ impl<const V: usize, const T: usize> Polytope<V, T> {
         self.marks[hole] = 0;
         for k in 0..3 {
             let twin = self.twins[last][k];
-            // Of a triangle that is its own neighbour both half-edges move.
+            // If a triangle is its own neighbour, both half-edges move.
             let twin = if triangle_of(twin) == last { half_edge(hole, usize::from(twin & 3)) } else { twin };
             self.join(half_edge(hole, k), twin);
         }
@@ -275,14 +275,14 @@ impl<L: Lanes, const V: usize, const T: usize> Work for Replacement<'_, L, V, T>
                         polytope.link(region, edges, triangles, *apex);
                         return true;
                     }
-                    // Where the region has become large, growing on does not help.
+                    // If the region has become large, growing on does not help.
                     Verdict::Grow(triangle) if region.size <= LARGEST_GROWN => Verdict::Grow(triangle),
                     Verdict::Grow(_) | Verdict::Refused => Verdict::Refused,
                 },
                 Horizon::Grow(triangle) => Verdict::Grow(triangle),
                 Horizon::Refused => Verdict::Refused,
             };
-            // What is left has to be a surface, and the region is to fit in its list.
+            // The rest must be a surface, and the region must fit in its list.
             match verdict {
                 Verdict::Grow(triangle)
                     if demand.grows && region.size + 4 < polytope.triangle_count && region.size < LARGEST_REGION =>
@@ -295,23 +295,23 @@ impl<L: Lanes, const V: usize, const T: usize> Work for Replacement<'_, L, V, T>
     }
 }
 
-/// A set of triangles: the first so many of [`Polytope::region`].
+/// A set of triangles: the first `size` of [`Polytope::region`].
 #[derive(Debug, Clone, Copy)]
 pub struct Region {
     pub(super) size: usize,
 }
 
-/// What a walk around a region came to.
+/// The result of a walk around a region.
 enum Horizon {
-    /// So many edges, and new triangles on them.
+    /// The numbers of edges, and of new triangles on them.
     Closed { edges: usize, triangles: usize },
-    /// A triangle is to be taken into the region.
+    /// A triangle that must be taken into the region.
     Grow(usize),
     /// No horizon for a cone.
     Refused,
 }
 
-/// What the new triangles are.
+/// The verdict on the new triangles.
 enum Verdict {
     AsDemanded,
     /// With this triangle in the region they may be.

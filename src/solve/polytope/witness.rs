@@ -20,7 +20,7 @@ pub struct Witness {
     pub depth: f64,
 }
 
-/// Where the ray from the origin along the direction of least overlap leaves the polytope, and the triangle there.
+/// The point where the ray from the origin along the direction of least overlap leaves the polytope, and the triangle there.
 #[inline(always)]
 pub fn witness<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
@@ -41,7 +41,7 @@ pub fn witness<L: Lanes, const V: usize, const T: usize>(
     }
     let enough = 16.0 * U * (frame.size + frame.separation);
     let (mut point, mut misses) = on_triangle(polytope, best.1, direction, enough);
-    // The sides of slivers are noise: there the distances tell.
+    // The sides of slivers are noise: there the distances decide.
     if misses > enough {
         for triangle in 0..polytope.triangle_count {
             let near = polytope.distances[triangle] <= found.upper + 2.0 * rounding.plane;
@@ -69,7 +69,7 @@ fn least_side([p, q, r]: &[Vector; 3], ray: &Vector) -> f64 {
 /// is long leaves it four.
 const REFINEMENTS: usize = 8;
 
-/// Where the ray meets a triangle, and by how much it misses it: refined until that is `enough`.
+/// The point where the ray meets a triangle, and by how much it misses it: refined until that is `enough`.
 ///
 /// Seen along the ray, a corner's weight is twice the area that the ray spans with the other two, and computed from those alone:
 /// they may be near it, and the corner 10¹² times as far out.
