@@ -210,12 +210,12 @@ const char *swiftprox_library_status_string(swiftprox_status status);
  */
 
 /**
- * Geometry for queries: immutable, shared by any number of owners. What is made when a query first needs it is all that is ever
- * added: look-up tables of the body and of its levels, maps of its support function, automatic levels.
+ * Geometry for queries: immutable, shared by any number of owners. Only data made when a query first needs them are ever added:
+ * look-up tables of the body and of its levels, maps of its support function, automatic levels.
  */
 typedef struct swiftprox_shape swiftprox_shape;
 
-/** What to do with input that is not a closed convex mesh with interior. */
+/** The policy for input that is not a closed convex mesh with interior. */
 typedef enum swiftprox_input SWIFTPROX_INT32 {
   /** Refuse it with a message that says where. */
   SWIFTPROX_INPUT_STRICT = 0,
@@ -227,11 +227,12 @@ typedef enum swiftprox_input SWIFTPROX_INT32 {
    */
   SWIFTPROX_INPUT_HULL = 2,
   /**
-   * As flat, for a mesh that is convex up to the precision of its coordinates: the convex hull counts. A mesh whose faces all
-   * run clockwise seen from outside is turned. Vertices and faces keep the caller's indices. What the hull swallows is never
-   * the feature of an answer where it is a vertex; a face shares the hull's face over it, and is named where it is the nearest
-   * of those that share. Without a convexity tolerance the coordinates say it, before the input transform: four units of the
-   * last place in which they are written (decimals, significant digits, floats), at most 0.005 of the bounding box's diagonal.
+   * Same as flat, for a mesh that is convex up to the precision of its coordinates: the convex hull counts. A mesh whose faces
+   * all run clockwise seen from outside is turned. Vertices and faces keep the caller's indices. A vertex that the hull
+   * swallows is never the feature of an answer; a face that it swallows shares the hull's face over it, and is named where it
+   * is the nearest of those that share. Without a convexity tolerance the coordinates tell it, before the input transform:
+   * four units of the last place in which they are written (decimals, significant digits, floats), at most 0.005 of the
+   * bounding box's diagonal.
    */
   SWIFTPROX_INPUT_NEARLY_CONVEX = 3,
   /**
@@ -242,7 +243,7 @@ typedef enum swiftprox_input SWIFTPROX_INT32 {
   SWIFTPROX_INPUT_PATCH = 4
 } swiftprox_input;
 
-/** What a face of the hull of a patch is called on which none of the caller's lies: UINT32_MAX. */
+/** The label of a face of a patch's hull on which none of the caller's faces lies: UINT32_MAX. */
 #define SWIFTPROX_NO_FACE UINT32_MAX
 
 /**

@@ -222,17 +222,17 @@ swiftprox_status swiftprox_mesh_decompose(const double *vertices,
 
 /** The points `origin + t*direction` with 0 <= t <= `t_max`. */
 typedef struct swiftprox_ray {
-  /** Where it begins, in the world. */
+  /** Start of the ray, in the world. */
   double origin[3];
-  /** Where it leads, of any length but 0. */
+  /** Direction of the ray, of any length but 0. */
   double direction[3];
-  /** Where it ends, from 0 to infinity. */
+  /** End of the ray, from 0 to infinity. */
   double t_max;
 } swiftprox_ray;
 
 /** Whether a ray meets a body. */
 typedef enum swiftprox_ray_outcome SWIFTPROX_INT32 {
-  /** Nothing is said yet: the value of a fresh answer. */
+  /** No answer yet: the value of a fresh answer. */
   SWIFTPROX_RAY_OUTCOME_NONE = 0,
   /** No point of the ray is in the body. */
   SWIFTPROX_RAY_OUTCOME_MISS = 1,
@@ -253,15 +253,15 @@ typedef struct swiftprox_ray_answer {
   /** `exit[0]` <= where it ends <= `exit[1]`: where the ray leaves the body, or `t_max` if that comes first. */
   double exit[2];
   /**
-   * Of a hit the outward unit normal there, in the world frame, rounded: of the feature's face. A segment or a point has no
-   * face, and the normal is against the ray. Of a flat body met edge-on it is that of its plane. With a swept radius it is
-   * that of the round surface.
+   * For a hit, the outward unit normal of the feature's face there, in the world frame, rounded. A segment or a point has no
+   * face, and the normal is against the ray. For a flat body met edge-on it is the normal of its plane. With a swept radius it
+   * is that of the round surface.
    */
   double normal[3];
   /**
-   * Of a hit the face that the ray enters through; one of those that meet where it enters. A segment has an edge, a point a
-   * vertex. With a swept radius it is the vertex, the edge or the face that is nearest to where the ray enters, of the body
-   * without the ball.
+   * For a hit, the face that the ray enters through; one of those that meet where it enters. A segment has an edge, a point a
+   * vertex. With a swept radius it is the vertex, edge or face of the body without the ball that is nearest to where the ray
+   * enters.
    */
   struct swiftprox_feature feature;
   /** Faces that the search visited; with a swept radius vertices. */
@@ -354,23 +354,23 @@ swiftprox_status swiftprox_scene_cast_ray(const struct swiftprox_scene *scene,
  * @{
  */
 
-/** Where a point is relative to a closed body. */
+/** Position of a point relative to a closed body. */
 typedef enum swiftprox_point_location SWIFTPROX_INT32 {
-  /** Nothing is said yet: the value of a fresh answer. */
+  /** No answer yet: the value of a fresh answer. */
   SWIFTPROX_POINT_LOCATION_NONE = 0,
   /** In the body's interior. A body without interior has no such point. */
   SWIFTPROX_POINT_LOCATION_INSIDE = 1,
-  /** On its surface; of a body without interior any point of it. */
+  /** On its surface; for a body without interior, any point of it. */
   SWIFTPROX_POINT_LOCATION_ON = 2,
   /** Not in the body. */
   SWIFTPROX_POINT_LOCATION_OUTSIDE = 3
 } swiftprox_point_location;
 
-/** Where a point is relative to a body, and what of the surface is nearest. Numbers that it does not say are NaN. */
+/** Position of a point relative to a body, and the nearest feature of the surface. Numbers that it does not say are NaN. */
 typedef struct swiftprox_point_answer {
-  /** Certain, whatever the magnitudes. */
+  /** Guaranteed, whatever the magnitudes. */
   swiftprox_point_location location;
-  /** What of the body's surface holds the nearest point of it, in the caller's numbering. */
+  /** The feature of the body's surface that holds its nearest point, in the caller's numbering. */
   struct swiftprox_feature feature;
   /** The best estimate of how far the point is from the surface, `lower <= distance <= upper`: negative inside, 0 on it. */
   double distance;
@@ -403,11 +403,11 @@ swiftprox_status swiftprox_shape_locate_point(const struct swiftprox_shape *shap
 
 /** A vertex farthest along a direction. Numbers that it does not say are NaN. */
 typedef struct swiftprox_support_vertex {
-  /** The vertex's index in the caller's array: for certain no other is farther. Of several that are as far it is any. */
+  /** The vertex's index in the caller's array: no other is farther, provably. If several are as far, it is any of them. */
   uint32_t vertex;
   /** Whether integers decided what rounding hides: 1 or 0. They allocate. */
   int32_t exact;
-  /** Where the body reaches farthest, in its local frame: the vertex, or a point of the ball about it. */
+  /** The body's support point in its local frame: the vertex, or a point of the ball about it. */
   double local[3];
   /** The same in the world, rounded. */
   double world[3];

@@ -148,11 +148,11 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_ground_get_info(const struct swiftprox_ground *ground,
                                            struct swiftprox_ground_info *info);
 
-/** What is said of a body, which is object 1, and a ground. */
+/** The answer for a body, which is object 1, and a ground. */
 typedef struct swiftprox_ground_distance {
   /**
-   * As of a body and the surface as a set of points. Features of object 2 are in the ground's numbering: vertices, edges by
-   * their vertices, a face is a triangle. Of a pair beyond the tolerance nothing but `lower` is said.
+   * Same as for a body and the surface as a set of points. Features of object 2 are in the ground's numbering: vertices, edges
+   * by their vertices, a face is a triangle. For a pair beyond the tolerance only `lower` is reported.
    */
   struct swiftprox_pair_answer answer;
   /**
@@ -190,7 +190,7 @@ typedef struct swiftprox_ground_contact {
   struct swiftprox_manifold manifold;
   /** The triangle that has the least. */
   uint32_t triangle;
-  /** Where among all points those of the contact begin. */
+  /** Start of the contact's points among all points. */
   size_t first_point;
 } swiftprox_ground_contact;
 

@@ -31,11 +31,11 @@ typedef struct swiftprox_object_set {
 } swiftprox_object_set;
 
 /**
- * Room to work in for questions that threads ask a scene at once: about sets of objects, and of rays, grounds and half-spaces. One
- * thread at a time uses it, for any scenes.
+ * Scratch memory for questions that threads ask a scene at once: about sets of objects, and about rays, grounds and half-spaces.
+ * One thread at a time uses it, for any scenes.
  *
- * Of sets it keeps what pairs of objects remember, which changes how fast an answer comes and which of several nearest points it
- * gives, never a verdict. Of rays, grounds and half-spaces it keeps nothing but the room and the last answer: whatever it has
+ * For sets it keeps the caches of pairs of objects. These change how fast an answer comes and which of several nearest points it
+ * gives, never a verdict. For rays, grounds and half-spaces it keeps nothing but the room and the last answer. Whatever it has
  * seen, they are answered bit for bit as with a new one.
  */
 typedef struct swiftprox_scratch swiftprox_scratch;

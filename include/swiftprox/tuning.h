@@ -31,7 +31,7 @@ typedef enum swiftprox_hierarchy SWIFTPROX_INT32 {
   SWIFTPROX_HIERARCHY_OUTER_CUTS = 3,
   /**
    * The caller's, translated and scaled until they contain the body: those of a shape made from levels
-   * (swiftprox_shape_create_from_levels). No shape can be asked to build them.
+   * (swiftprox_shape_create_from_levels). No shape can build them.
    */
   SWIFTPROX_HIERARCHY_GIVEN = 4,
   /**
@@ -41,13 +41,13 @@ typedef enum swiftprox_hierarchy SWIFTPROX_INT32 {
   SWIFTPROX_HIERARCHY_AUTOMATIC = 5
 } swiftprox_hierarchy;
 
-/** Which look-up table a body has. */
+/** The look-up table of a body. */
 typedef enum swiftprox_lookup SWIFTPROX_INT32 {
   /** Shells if the body has enough vertices for them to pay, else none: beside a body with shells all vertices are looked at. */
   SWIFTPROX_LOOKUP_AUTOMATIC = 0,
   /** None. */
   SWIFTPROX_LOOKUP_NONE = 1,
-  /** Vertices near points on several spheres, looked up on both bodies for what was found on the other. */
+  /** Vertices near points on several spheres, looked up on both bodies for the vertex found on the other. */
   SWIFTPROX_LOOKUP_SHELLS = 2,
   /** That of Ehmann & Lin (2000, section 4.6), looked up in the direction of the other body's centre of mass. */
   SWIFTPROX_LOOKUP_SPHERICAL = 3
