@@ -553,7 +553,7 @@ typedef struct swiftprox_statistics {
 } swiftprox_statistics;
 
 /**
- * The answer to a pair query. Numbers that it does not say are NaN, features SWIFTPROX_FEATURE_KIND_NONE; a separated answer always
+ * The answer to a pair query. Unset numbers are NaN, features SWIFTPROX_FEATURE_KIND_NONE; a separated answer always
  * has a normal.
  */
 typedef struct swiftprox_pair_answer {
@@ -742,7 +742,7 @@ typedef struct swiftprox_depth_statistics {
 } swiftprox_depth_statistics;
 
 /**
- * How deep two objects are in each other. Numbers that it does not say are NaN, features of no kind.
+ * How deep two objects are in each other. Unset numbers are NaN, features of no kind.
  *
  * The depth is the length of the shortest translation after which a plane has one object on either side: 0 of objects that touch,
  * and of flat ones that lie in one plane. Moving object 1 by `depth * normal`, or object 2 by the opposite, parts them, as far as
@@ -845,7 +845,7 @@ typedef struct swiftprox_manifold_cache {
   uint32_t words[384];
 } swiftprox_manifold_cache;
 
-/** A distance that is negative where objects overlap. Numbers that it does not say are NaN, features of no kind. */
+/** A distance that is negative where objects overlap. Unset numbers are NaN, features of no kind. */
 typedef struct swiftprox_signed_distance {
   /**
    * SWIFTPROX_OUTCOME_INTERSECTING (touching included), SWIFTPROX_OUTCOME_SEPARATED, or SWIFTPROX_OUTCOME_BEYOND the

@@ -242,7 +242,7 @@ typedef enum swiftprox_ray_outcome SWIFTPROX_INT32 {
   SWIFTPROX_RAY_OUTCOME_INSIDE = 3
 } swiftprox_ray_outcome;
 
-/** The part of a ray that is in a body, `entry <= t <= exit`. Numbers that it does not say are NaN. */
+/** The part of a ray that is in a body, `entry <= t <= exit`. Unset numbers are NaN. */
 typedef struct swiftprox_ray_answer {
   /** Whether there is such a part. */
   swiftprox_ray_outcome outcome;
@@ -366,7 +366,7 @@ typedef enum swiftprox_point_location SWIFTPROX_INT32 {
   SWIFTPROX_POINT_LOCATION_OUTSIDE = 3
 } swiftprox_point_location;
 
-/** Position of a point relative to a body, and the nearest feature of the surface. Numbers that it does not say are NaN. */
+/** Position of a point relative to a body, and the nearest feature of the surface. Unset numbers are NaN. */
 typedef struct swiftprox_point_answer {
   /** Guaranteed, whatever the magnitudes. */
   swiftprox_point_location location;
@@ -401,7 +401,7 @@ swiftprox_status swiftprox_shape_locate_point(const struct swiftprox_shape *shap
                                               const double *point,
                                               struct swiftprox_point_answer *answer);
 
-/** A vertex farthest along a direction. Numbers that it does not say are NaN. */
+/** A vertex farthest along a direction. Unset numbers are NaN. */
 typedef struct swiftprox_support_vertex {
   /** The vertex's index in the caller's array: no other is farther, provably. If several are as far, it is any of them. */
   uint32_t vertex;

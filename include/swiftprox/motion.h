@@ -112,7 +112,7 @@ typedef enum swiftprox_cast_outcome SWIFTPROX_INT32 {
   SWIFTPROX_CAST_OUTCOME_BUDGET = 4
 } swiftprox_cast_outcome;
 
-/** The answer to a cast. Numbers that it does not say are NaN. */
+/** The answer to a cast. Unset numbers are NaN. */
 typedef struct swiftprox_cast_answer {
   /** How it came out. */
   swiftprox_cast_outcome outcome;
@@ -234,7 +234,7 @@ const char *swiftprox_library_cast_outcome_string(swiftprox_cast_outcome outcome
  * @{
  */
 
-/** How a cast of moving objects through a scene came out. Numbers that it does not say are NaN. */
+/** How a cast of moving objects through a scene came out. Unset numbers are NaN. */
 typedef struct swiftprox_scene_cast_answer {
   /** Of the pair that ends it; free if all pairs are. */
   swiftprox_cast_outcome outcome;

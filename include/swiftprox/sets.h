@@ -70,7 +70,7 @@ void swiftprox_scratch_destroy(struct swiftprox_scratch *scratch);
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_prepare(struct swiftprox_scene *scene);
 
-/** The least distance between two sets of objects. Numbers that it does not say are NaN. */
+/** The least distance between two sets of objects. Unset numbers are NaN. */
 typedef struct swiftprox_least_distance {
   /** The least distance is at least this, of sets that are farther apart than the cut-off that ... */
   double lower;

@@ -21,7 +21,7 @@ pub enum CastOutcome {
     Budget = 4,
 }
 
-/// The answer to a cast. Numbers that it does not say are NaN.
+/// The answer to a cast. Unset numbers are NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct CastAnswer {

@@ -85,7 +85,7 @@ pub struct Statistics {
     pub levels: [u16; 2],
 }
 
-/// The answer to a pair query. Numbers that it does not say are NaN, features [`FeatureKind::None`]; a separated answer always
+/// The answer to a pair query. Unset numbers are NaN, features [`FeatureKind::None`]; a separated answer always
 /// has a normal.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]

@@ -25,7 +25,7 @@ impl SignedDistanceCache {
     }
 }
 
-/// A distance that is negative where objects overlap. Numbers that it does not say are NaN, features of no kind.
+/// A distance that is negative where objects overlap. Unset numbers are NaN, features of no kind.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct SignedDistance {

@@ -17,7 +17,7 @@ pub enum PointLocation {
     Outside = 3,
 }
 
-/// Position of a point relative to a body, and the nearest feature of the surface. Numbers that it does not say are NaN.
+/// Position of a point relative to a body, and the nearest feature of the surface. Unset numbers are NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct PointAnswer {
@@ -53,7 +53,7 @@ impl PointAnswer {
     }
 }
 
-/// A vertex farthest along a direction. Numbers that it does not say are NaN.
+/// A vertex farthest along a direction. Unset numbers are NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct SupportVertex {

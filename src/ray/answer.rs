@@ -17,7 +17,7 @@ pub enum RayOutcome {
     Inside = 3,
 }
 
-/// The part of a ray that is in a body, `entry ≤ t ≤ exit`. Numbers that it does not say are NaN.
+/// The part of a ray that is in a body, `entry ≤ t ≤ exit`. Unset numbers are NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct RayAnswer {

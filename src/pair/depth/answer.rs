@@ -70,7 +70,7 @@ pub struct DepthStatistics {
     pub exact_iterations: u32,
 }
 
-/// How deep two objects are in each other. Numbers that it does not say are NaN, features of no kind.
+/// How deep two objects are in each other. Unset numbers are NaN, features of no kind.
 ///
 /// The depth is the length of the shortest translation after which a plane has one object on either side: 0 of objects that touch,
 /// and of flat ones that lie in one plane. Moving object 1 by `depth · normal`, or object 2 by the opposite, parts them, as far as

@@ -13,7 +13,7 @@ use crate::scene::sets::others::Others;
 use crate::scene::world::boxes::Aabb;
 use crate::scene::world::rows::{grown_box, placed};
 
-/// How a cast of moving objects through a scene came out. Numbers that it does not say are NaN.
+/// How a cast of moving objects through a scene came out. Unset numbers are NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct SceneCastAnswer {

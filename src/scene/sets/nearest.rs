@@ -16,7 +16,7 @@ use crate::scene::sets::others::Others;
 use crate::scene::world::content::World;
 use crate::scene::world::rows::Spheres;
 
-/// The least distance between two sets of objects. Numbers that it does not say are NaN.
+/// The least distance between two sets of objects. Unset numbers are NaN.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct LeastDistance {
