@@ -61,6 +61,39 @@ fn integers_decide_alike_in_every_environment() {
     }
 }
 
+/// Round bodies answer alike in every environment, from Rust, too. Their radii were added outside the default one: rounded down, the
+/// upper end of a depth was an ulp short, and where subnormal numbers are flushed a tiny radius counted as none.
+#[test]
+fn round_bodies_answer_alike_in_every_environment() {
+    let tetrahedron = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.0], [0.9, 1.0, 0.2], [0.2, 0.3, 1.0]].map(Vector::from);
+    let round = |swept_radius: f64| {
+        let options = ShapeOptions { input: InputPolicy::Hull, swept_radius, ..ShapeOptions::default() };
+        Shape::from_points(&tetrahedron, &options).unwrap()
+    };
+    for radii in [[0.1, 0.3], [1e-17, 0.7], [0.0, 0.3], [0.0, 5e-324], [2e-310, 3e-310]] {
+        let [first, second] = radii.map(round);
+        for x in [0.25, 1.0, 1.3, 4.0] {
+            let pose = at(x, 0.1, 0.05);
+            let bodies = [first.at(&pose), second.at(&Pose::IDENTITY)];
+            let ask = || {
+                let mut told = QUERIES.map(|query| {
+                    let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+                    query(bodies, &mut cache, &PairConfig::default(), &mut answer).unwrap();
+                    format!("{answer:?}")
+                });
+                let mut depth = pair::DepthAnswer::default();
+                pair::depth(bodies, &mut Default::default(), &Default::default(), &mut depth).unwrap();
+                told[0] += &format!("{depth:?}");
+                told
+            };
+            let expected = ask();
+            for environment in Environment::all() {
+                assert_eq!(environment.run(ask), expected, "{environment:?} {radii:?} {x}");
+            }
+        }
+    }
+}
+
 /// A panic of the program's own, through frames of the library.
 #[test]
 fn unwinding_puts_the_environment_back() {

@@ -103,7 +103,10 @@ impl Visit for Least<'_> {
                 self.nearest = GroundDistance { answer, triangle };
                 return Ok(false);
             }
-            Outcome::Separated if !self.is_verdict && answer.upper < self.nearest.answer.upper => {
+            // The upper end may be infinite: distances need not be doubles.
+            Outcome::Separated
+                if !self.is_verdict && !(self.is_found() && answer.upper >= self.nearest.answer.upper) =>
+            {
                 self.enough = answer.upper;
                 self.nearest = GroundDistance { answer, triangle };
             }
@@ -114,14 +117,17 @@ impl Visit for Least<'_> {
 }
 
 impl Least<'_> {
+    fn is_found(&self) -> bool {
+        self.nearest.triangle < self.ground.ground.triangle_count() as u32
+    }
+
     fn answer(self) -> GroundDistance {
         let GroundDistance { mut answer, triangle } = self.nearest;
-        let is_found = triangle < self.ground.ground.triangle_count() as u32;
         if answer.outcome == Outcome::Intersecting {
             return self.nearest;
         }
         answer.lower = self.lower;
-        if !is_found {
+        if !self.is_found() {
             // A verdict without a tolerance finds no nearest.
             answer.outcome = if self.is_verdict { Outcome::Separated } else { Outcome::Beyond };
             answer.distance = answer.lower;

@@ -46,18 +46,18 @@ pub fn verify_cast(bodies: [Moving; 2], config: &CastConfig, answer: &CastAnswer
                         answer.clearance, config.margin
                     )));
                 }
-                prove_free(&pair, answer.t_lo, answer.clearance)
+                prove_free(&pair, config, answer.t_lo, answer.clearance)
             }
             CastOutcome::Hit => {
-                prove_free_before(&pair, answer.t_lo, config.margin)?;
+                prove_free_before(&pair, config, answer.t_lo)?;
                 prove_contact(&pair, config.margin, answer)
             }
             CastOutcome::Near => {
-                prove_free_before(&pair, answer.t_lo, config.margin)?;
+                prove_free_before(&pair, config, answer.t_lo)?;
                 let there = pair.at(answer.t_lo)?;
                 check_upper(&pair, &there, answer)
             }
-            CastOutcome::Budget => prove_free_before(&pair, answer.t_lo, config.margin),
+            CastOutcome::Budget => prove_free_before(&pair, config, answer.t_lo),
         }
     })
 }
@@ -84,18 +84,27 @@ fn check_times(config: &CastConfig, answer: &CastAnswer) -> Result<()> {
     )))
 }
 
-fn prove_free_before(pair: &MovingPair, end: f64, margin: f64) -> Result<()> {
-    if end > pair.range()[0] { prove_free(pair, end, margin) } else { Ok(()) }
+fn prove_free_before(pair: &MovingPair, config: &CastConfig, end: f64) -> Result<()> {
+    if end > pair.range()[0] { prove_free(pair, config, end, config.margin) } else { Ok(()) }
 }
 
-/// Farther apart than the margin from the beginning to `end`.
-fn prove_free(pair: &MovingPair, end: f64, margin: f64) -> Result<()> {
+/// Farther apart than the margin from the beginning to `end`: by the steps of a cast, else by any.
+fn prove_free(pair: &MovingPair, config: &CastConfig, end: f64, margin: f64) -> Result<()> {
+    let of_cast = Wanted { margin: config.margin, with_slack: true, shortest: config.time_tolerance };
+    let any = Wanted { margin, with_slack: false, shortest: shortest_step(pair.range()) };
+    match prove_steps(pair, &of_cast, end, margin) {
+        Err(Error::Unverified(_)) => prove_steps(pair, &any, end, margin),
+        proved => proved,
+    }
+}
+
+/// Farther apart than the margin in each step of a sweep to `end`.
+fn prove_steps(pair: &MovingPair, wanted: &Wanted, end: f64, margin: f64) -> Result<()> {
     let mut sweep = Sweep::new(pair, &PairCache::default());
-    let wanted = Wanted { margin, with_slack: false, shortest: shortest_step(pair.range()) };
     let mut here = pair.at(pair.range()[0])?;
     for _ in 0..MOST_STEPS {
         let near = sweep.distance(&here)?;
-        match sweep.on(&here, &near, end, &wanted)? {
+        match sweep.on(&here, &near, end, wanted)? {
             Ahead::Free(step) => {
                 check_step(pair, &step, margin)?;
                 here = step.ends[1];

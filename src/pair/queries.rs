@@ -12,6 +12,7 @@ use super::swept;
 #[cfg(doc)]
 use super::{DecidedBy, Outcome};
 use crate::base::error::Result;
+use crate::base::simd::environment::with_default;
 
 /// Exact distance with its interval, witness points, normal and features.
 ///
@@ -100,7 +101,7 @@ fn query_with(
     answer: &mut PairAnswer,
 ) -> Result<()> {
     if let Some(radii) = Radii::of(bodies) {
-        return swept::query(query, *bodies, &radii, cache, config, answer);
+        return with_default(|| swept::query(query, *bodies, &radii, cache, config, answer));
     }
     ladder::ask(query, glances, bodies, cache, config, answer)
 }
@@ -119,7 +120,7 @@ pub fn depth(
     answer: &mut DepthAnswer,
 ) -> Result<()> {
     if let Some(radii) = Radii::of(&bodies) {
-        return swept::depth(bodies, &radii, cache, config, answer);
+        return with_default(|| swept::depth(bodies, &radii, cache, config, answer));
     }
     of_polyhedra(&bodies, cache, config, answer)
 }
@@ -138,7 +139,7 @@ pub fn signed_distance(
     answer: &mut SignedDistance,
 ) -> Result<()> {
     if let Some(radii) = Radii::of(&bodies) {
-        return swept::signed_distance(bodies, &radii, cache, config, answer);
+        return with_default(|| swept::signed_distance(bodies, &radii, cache, config, answer));
     }
     signed_distance::of_polyhedra(&bodies, cache, config, answer)
 }

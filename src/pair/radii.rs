@@ -5,6 +5,7 @@ use super::contact::PlacedPoints;
 use super::placed::Placed;
 use crate::base::double_double::two_sum;
 use crate::base::math::{Pose, Vector};
+use crate::base::simd::environment::with_default;
 
 /// The swept radii of a pair.
 #[derive(Debug, Clone, Copy)]
@@ -25,10 +26,12 @@ impl Radii {
     #[inline(always)]
     pub fn of(bodies: &[Placed; 2]) -> Option<Radii> {
         let each = [bodies[0].shape.swept_radius(), bodies[1].shape.swept_radius()];
-        (each[0] + each[1] > 0.0).then(|| Radii {
-            each,
-            lower: sum_below(each[0], each[1]),
-            upper: sum_above(each[0], each[1]),
+        // By their bits: where subnormal numbers are flushed, a tiny radius would compare as 0.
+        (each.map(f64::to_bits) != [0; 2]).then(|| {
+            with_default(|| {
+                let [lower, upper] = [sum_below(each[0], each[1]), sum_above(each[0], each[1])];
+                Radii { each, lower, upper }
+            })
         })
     }
 

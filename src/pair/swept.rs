@@ -41,7 +41,7 @@ pub(super) fn query(
     if query == Query::Approximate && is_too_wide(&found, radii, config) {
         ladder::ask(Query::Distance, Glances::Asked, &bodies, cache, &of_polyhedra, &mut found)?;
     }
-    *answer = in_integers(|| with_default(|| less(query, bodies, radii, enough, &found)))?;
+    *answer = in_integers(|| less(query, bodies, radii, enough, &found))?;
     if is_verdict && answer.outcome == Outcome::Beyond {
         answer.outcome = Outcome::Separated;
     }

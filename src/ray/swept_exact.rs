@@ -139,9 +139,9 @@ const BEFORE: Place = Place { mantissa: -1, exponent: -65_536 };
 impl Step {
     const FIRST: Step = Step(0);
 
-    /// The step of a double from 0 on.
+    /// The step of a double from 0 on; infinity is 2^1024, as its bits go on.
     fn of(t: f64) -> Step {
-        debug_assert!(t >= 0.0 && t.is_finite());
+        debug_assert!(t >= 0.0);
         let (mantissa, exponent) = mantissa_and_exponent(t);
         if mantissa == 0 {
             return Step::FIRST;
@@ -186,7 +186,8 @@ impl Step {
 }
 
 /// A place from which on a ray is outside the body. No coordinate of the body is larger than 1.02·√3 times those of two vectors in
-/// its own axes, and of one in the world, and the radius: less than 8 times the largest. There, 16 times it are behind the ray.
+/// its own axes, and of one in the world, and the radius: less than 8 times the largest. There, 16 times it are behind the ray. (A
+/// body's radius that overflows is less than 2^1025.)
 fn beyond(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray, radius: f64) -> Step {
     let lengths = [ray.origin().amax(), pose.translation().amax(), polyhedron.centre.amax(), polyhedron.radius, radius];
     let largest = lengths.iter().map(|length| Step::of(*length)).max().unwrap_or(Step::FIRST);

@@ -103,3 +103,18 @@ fn what_is_asked_is_checked() {
     let refused = PairConfig { distance_tolerance: -1.0, ..config };
     assert!(matches!(ask(Query::Distance, &here, &here, &refused), Err(Error::Argument(_))));
 }
+
+/// A body so far away that the distance is no double. Cause: a triangle was taken for the nearest where its upper end was less than
+/// the one before, which is infinite at first; so no triangle was named, and the pair was beyond a tolerance that nothing is beyond.
+#[test]
+fn a_distance_beyond_the_doubles_names_its_triangle() {
+    let corners = [[0.5, -0.3, -0.8], [0.6, 0.8, -0.2], [-0.9, -0.2, -0.5]].map(Vector::from);
+    let ground = Ground::from_triangles(&corners, &[[0, 1, 2]]).unwrap();
+    let point = hull(&[Vector::new(-32.0, -23.0, f64::MAX)]);
+    let stretched = |by: f64| Pose { rows: [[by, 0.0, 0.0, 0.0], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, by, 0.0]] };
+    let place = stretched(1.00390625);
+    let found = ground_distance(Query::Distance, point.at(&place), ground.at(&Pose::IDENTITY), &PairConfig::default());
+    let found = found.unwrap();
+    assert_eq!((found.answer.outcome, found.triangle), (Outcome::Separated, 0), "{found:?}");
+    assert!(found.answer.lower > 1e308 && found.answer.upper == f64::INFINITY, "{found:?}");
+}

@@ -84,3 +84,45 @@ fn check_hit(shapes: &[Shape; 2], first: &Motion, second: &Motion) {
     let answer = run(pair, &config);
     assert_eq!((answer.outcome, verify_cast(pair, &config, &answer)), (CastOutcome::Hit, Ok(())), "{answer:?}");
 }
+
+/// A speck that stays beside a beam 5e14 long. Cause: a clearance comes from steps that were chosen for the margin; the check
+/// chose its own for the clearance, and found none.
+#[test]
+fn a_clearance_is_proved_by_the_steps_of_the_cast() {
+    let tiny = 0.0009765625;
+    let speck = [
+        [0.0, 0.0, 0.0],
+        [0.0009765624999999993, 0.0009765624999999987, 0.000976562499999998],
+        [0.0009765624999999974, 0.0009765624999999967, 0.0009765624999999961],
+        [0.0009765624999999993, 0.0009765624999999987, tiny],
+    ];
+    let beam = [
+        [0.9999999999999953, 0.9999999999999947, 0.999999999999994],
+        [18.0, 17.99999999999998, 17.999999999999957],
+        [17.999999999999872, 17.99999999999985, 0.0],
+        [0.0, 2.125, 3.875],
+        [0.5, 3.75, 17.0],
+        [0.0, 1.0000000000000016, 0.875],
+        [2.75, -2.75, 2.75],
+        [0.8750000000000016, 492581209243648.9, 0.0],
+    ];
+    let turned = |[x, y, z]: [f64; 3]| {
+        Motion::Fixed(Pose {
+            rows: [
+                [0.9999999996965698, -2.384204262647436e-5, -6.198172507459425e-6, x],
+                [2.3841673144252152e-5, 0.9999999979394261, -5.9604718609852587e-5, y],
+                [6.199593592929468e-6, 5.96045708169637e-5, 0.9999999982044301, z],
+            ],
+        })
+    };
+    let motions = [
+        turned([0.999999999999999, -0.999999999999999, -32.0]),
+        turned([56.00128423896015, -11.061086100140827, -42.93717892093776]),
+    ];
+    let shapes = [hull(&speck.map(Vector::from)), hull(&beam.map(Vector::from))];
+    let config = CastConfig::default();
+    let bodies = moving([&shapes[0], &shapes[1]], [&motions[0], &motions[1]]);
+    let answer = run(bodies, &config);
+    assert_eq!(answer.outcome, CastOutcome::Free, "{answer:?}");
+    verify_cast(bodies, &config, &answer).unwrap_or_else(|error| panic!("{error}: {answer:?}"));
+}
