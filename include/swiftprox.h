@@ -1309,7 +1309,7 @@ typedef enum swiftprox_contact_detail SWIFTPROX_INT32 {
   SWIFTPROX_CONTACT_DETAIL_NONE = 0,
   /** How deep intersecting pairs are in each other. */
   SWIFTPROX_CONTACT_DETAIL_DEPTH = 1,
-  /** That, and the manifold, of pairs up to the margin apart, too. */
+  /** That, and the manifold, also of listed pairs that are apart. */
   SWIFTPROX_CONTACT_DETAIL_MANIFOLD = 2,
   /**
    * That, and of more than four points of a manifold four: the deepest, the farthest from it and the extremes on either side of
@@ -1352,14 +1352,8 @@ typedef struct swiftprox_scene_query {
   /** Where pairs start and which levels of detail they use (swiftprox/tuning.h). Default: null, the automatic choice. */
   const struct swiftprox_pair_tuning *tuning;
   /**
-   * swiftprox_scene_query_contact: pairs farther apart have no manifold; manifolds omit points with a larger gap. From 0 to
-   * infinity; the distance tolerance limits it. Default: infinity.
-   */
-  double margin;
-  /**
    * swiftprox_scene_query_contact: what each pair's contact adds to its answer. absolute_error, relative_error and
-   * step_budget then apply to the depths. Other queries ignore it. Every query refuses an unknown number. Default:
-   * SWIFTPROX_CONTACT_DETAIL_NONE.
+   * step_budget then apply to the depths. Other queries refuse it. Default: SWIFTPROX_CONTACT_DETAIL_NONE.
    */
   swiftprox_contact_detail detail;
   /** swiftprox_scene_query_placed: the groups of objects to test, one bit each. Default: 0, which means all. */
@@ -1368,7 +1362,7 @@ typedef struct swiftprox_scene_query {
 
 /** Begins a swiftprox_scene_query: the defaults. In C and C++, as an initialiser. */
 #define SWIFTPROX_SCENE_QUERY_DEFAULT \
-  {sizeof(swiftprox_scene_query), SWIFTPROX_DEFAULT_TOLERANCE, 0, 0, HUGE_VAL, UINT32_MAX, 0, 0, HUGE_VAL, SWIFTPROX_CONTACT_DETAIL_NONE, 0}
+  {sizeof(swiftprox_scene_query), SWIFTPROX_DEFAULT_TOLERANCE, 0, 0, HUGE_VAL, UINT32_MAX, 0, 0, SWIFTPROX_CONTACT_DETAIL_NONE, 0}
 
 /** One pair of convex pieces in a query's list. */
 typedef struct swiftprox_pair_result {

@@ -83,7 +83,6 @@ int player_open(struct player *player, const struct player_options *options)
     player->query.absolute_error = options->error;
     player->query.error_budget = options->budget;
     player->query.tuning = options->tuning;
-    player->query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD; /* of contacts alone */
     if (player->is_recording) {
         return GOOD;
     }
@@ -227,6 +226,8 @@ static int play_recording(struct player *player, swiftprox_scene_answer *answer)
 
 int player_play(struct player *player, swiftprox_scene_answer *answer)
 {
+    const bool finds_contacts = player_query_kind(player) == SWIFTPROX_QUERY_KIND_CONTACT;
+    player->query.detail = finds_contacts ? SWIFTPROX_CONTACT_DETAIL_MANIFOLD : SWIFTPROX_CONTACT_DETAIL_NONE;
     return player->is_recording ? play_recording(player, answer) : play_text(player, answer);
 }
 

@@ -44,6 +44,7 @@ int main(int argc, char **argv)
     move(scene, ids[2], 3);
     query.detail = SWIFTPROX_CONTACT_DETAIL_DEPTH;
     demand(swiftprox_scene_query_contact(scene, &query, &answer));
+    query.detail = SWIFTPROX_CONTACT_DETAIL_NONE;
     query.distance_tolerance = 2;
     demand(swiftprox_scene_query_distance(scene, &query, &answer));
 

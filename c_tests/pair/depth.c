@@ -225,7 +225,7 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     const swiftprox_object_id sunk = put(scene, a, -1.125, 0.9375);
     put(scene, a, 1, 1.0078125);
     put(scene, a, 50, 0);
-    CHECK(query.detail == SWIFTPROX_CONTACT_DETAIL_NONE && isinf(query.margin));
+    CHECK(query.detail == SWIFTPROX_CONTACT_DETAIL_NONE);
 
     /* Nothing was asked, nothing is said. */
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "ask for contacts with their depths",
@@ -250,7 +250,7 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     CHECK_OK(swiftprox_scene_get_object_info(scene, sunk, &info2));
     CHECK_OK(swiftprox_pair_depth_verify((swiftprox_placed){b, info1.pose}, (swiftprox_placed){a, info2.pose}, &cold, &depth));
 
-    /* The manifold of the near pair, too, and a margin that leaves it out. */
+    /* The manifold of the near pair, too. */
     query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
     query.distance_tolerance = 0.01;
     CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
@@ -271,12 +271,19 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
             CHECK(fabs(point->gap_lower - gap) < 1e-12 && fabs(point->gap_upper - gap) < 1e-12);
         }
     }
-    query.margin = 0.001;
     query.detail = SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD;
     CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
-    CHECK(contacts.count == 2 && contacts.point_count == 4);
-    CHECK(contacts.contacts[1].manifold.outcome == SWIFTPROX_OUTCOME_BEYOND);
+    CHECK(contacts.count == 2 && contacts.point_count == 8);
+
+    /* Details that a query does not give are refused. */
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "ask swiftprox_scene_query_contact",
+                swiftprox_scene_query_distance(scene, &query, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "ask swiftprox_scene_query_contact",
+                swiftprox_scene_query_object(scene, ground, SWIFTPROX_QUERY_KIND_INTERSECTION, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_object(scene, ground, SWIFTPROX_QUERY_KIND_CONTACT, &query, &answer));
+    CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
+    CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
 
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "there is no contact 2, the last query said 2",
                 swiftprox_scene_get_signed_distance(scene, 2, &apart));
@@ -292,11 +299,11 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "contacts", swiftprox_scene_get_contacts(scene, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_get_contacts(NULL, &none));
     CHECK(none.count == 0 && none.contacts == NULL);
-    query.margin = -1;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin", swiftprox_scene_query_contact(scene, &query, &answer));
+    query.distance_tolerance = -2;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "distance_tolerance", swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
     CHECK(contacts.count == 0 && contacts.contacts == NULL);
-    query.margin = 0;
+    query.distance_tolerance = 0;
     memcpy(&query.detail, &unknown, sizeof unknown);
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "detail", swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_destroy(scene));

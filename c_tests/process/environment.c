@@ -475,7 +475,6 @@ static void ask_a_scene(void)
     CALL_OK(swiftprox_scene_create(NULL, &scene));
     query.distance_tolerance = 2;
     query.relative_error = 0.05;
-    query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
     for (int i = 0; i < 4; ++i) {
         const swiftprox_shape *const piece = shapes[i % 2];
         swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
@@ -491,6 +490,7 @@ static void ask_a_scene(void)
         CALL_OK(swiftprox_scene_set_pose(scene, ids[i % 5], poses[i]));
         for (size_t k = 0; k < sizeof queries / sizeof queries[0]; ++k) {
             swiftprox_scene_answer answer;
+            query.detail = queries[k] == swiftprox_scene_query_contact ? SWIFTPROX_CONTACT_DETAIL_MANIFOLD : SWIFTPROX_CONTACT_DETAIL_NONE;
             CALL_OK(queries[k](scene, &query, &answer));
             tell_pairs(&answer);
             tell_contacts(scene);

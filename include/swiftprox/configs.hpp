@@ -261,7 +261,6 @@ struct SceneQuery {
     bool early_exit = false;
     /** Null: the automatic choice. */
     const swiftprox_pair_tuning *tuning = nullptr;
-    double margin = infinity;
     swiftprox_contact_detail detail = SWIFTPROX_CONTACT_DETAIL_NONE;
     /** Of placed bodies: the groups of objects that are asked; 0 for all. */
     std::uint32_t mask = 0;
@@ -277,7 +276,6 @@ struct SceneQuery {
         c.step_budget = step_budget;
         c.early_exit = early_exit ? 1 : 0;
         c.tuning = tuning;
-        c.margin = margin;
         c.detail = detail;
         c.mask = mask;
         return c;

@@ -44,12 +44,8 @@ pub struct CSceneQuery {
     pub early_exit: i32,
     /// Where pairs start and which levels of detail they use (swiftprox/tuning.h). Default: null, the automatic choice.
     pub tuning: *const CPairTuning,
-    /// swiftprox_scene_query_contact: pairs farther apart have no manifold; manifolds omit points with a larger gap. From 0 to
-    /// infinity; the distance tolerance limits it. Default: infinity.
-    pub margin: f64,
     /// swiftprox_scene_query_contact: what each pair's contact adds to its answer. absolute_error, relative_error and
-    /// step_budget then apply to the depths. Other queries ignore it. Every query refuses an unknown number. Default:
-    /// SWIFTPROX_CONTACT_DETAIL_NONE.
+    /// step_budget then apply to the depths. Other queries refuse it. Default: SWIFTPROX_CONTACT_DETAIL_NONE.
     pub detail: ContactDetailNumber,
     /// swiftprox_scene_query_placed: the groups of objects to test, one bit each. Default: 0, which means all.
     pub mask: u32,
@@ -71,7 +67,6 @@ impl CSceneQuery {
         step_budget: u32::MAX,
         early_exit: 0,
         tuning: std::ptr::null(),
-        margin: f64::INFINITY,
         detail: ContactDetail::None as i32,
         mask: 0,
     };
@@ -315,7 +310,8 @@ pub(super) unsafe fn ask_masked(
                 refinement,
                 start,
                 detail: read_enumerator(query.detail, "query->detail", "swiftprox_contact_detail")?,
-                margin: query.margin,
+                // All listed pairs have manifolds: the distance alone limits them.
+                margin: f64::INFINITY,
             };
             let said = CSceneAnswer::new(&run(scene, &query, mask)?);
             answer.write(said);

@@ -129,7 +129,7 @@ fn layouts() -> Vec<Layout> {
         swiftprox_object_info = ObjectInfo { struct_size, user_data, piece_count, pose, fixed, groups, mask },
         swiftprox_scene_query = CSceneQuery {
             struct_size, distance_tolerance, absolute_error, relative_error, error_budget, step_budget,
-            early_exit, tuning, margin, detail, mask
+            early_exit, tuning, detail, mask
         },
         swiftprox_pair_result = PairResult {
             object1, object2, user_data1, user_data2, piece1, piece2, answer
@@ -277,7 +277,7 @@ fn constants_of_c_are_the_defaults_of_rust() {
         defaults!(swiftprox_manifold_config = CManifoldConfig::DEFAULT, { struct_size, rotation_limit, margin, reduces }),
         defaults!(swiftprox_scene_options = CSceneOptions::DEFAULT, { struct_size, rotation_limit, worker_count, enqueue_task, finish_task, task_user }),
         defaults!(swiftprox_object_options = CObjectOptions::DEFAULT, { struct_size, user_data, pose, fixed, groups, mask }),
-        defaults!(swiftprox_scene_query = CSceneQuery::DEFAULT, { struct_size, distance_tolerance, absolute_error, relative_error, error_budget, step_budget, early_exit, tuning, margin, detail, mask }),
+        defaults!(swiftprox_scene_query = CSceneQuery::DEFAULT, { struct_size, distance_tolerance, absolute_error, relative_error, error_budget, step_budget, early_exit, tuning, detail, mask }),
         defaults!(swiftprox_cast_config = CCastConfig::defaults(), { struct_size, t_begin, t_end, time_tolerance, margin, step_budget }),
         defaults!(swiftprox_clearance_config = CClearanceConfig::defaults(), { struct_size, t_begin, t_end, absolute_error, relative_error, step_budget }),
         defaults!(swiftprox_shape_tuning = CShapeTuning::DEFAULT, { struct_size, hierarchy, lookup, decimation, minimum_triangles, most_levels, lookup_radius_factor, lookup_resolution }),

@@ -32,6 +32,9 @@ const NEAR: SceneQuery = SceneQuery {
     margin: f64::INFINITY,
 };
 
+/// The same, without contacts.
+const PLAIN: SceneQuery = SceneQuery { detail: ContactDetail::None, ..NEAR };
+
 fn add(scene: &mut Scene, pieces: &[Arc<Shape>], pose: Pose, user_data: u64) -> ObjectId {
     let options = ObjectOptions { pose, user_data, ..Default::default() };
     scene.add_object(pieces.to_vec(), &options).unwrap()
@@ -83,7 +86,9 @@ fn objects_persist_while_any_of_their_pieces_do() {
     scene.set_piece_pose(two, 1, &at(5.0, 0.0, 0.0)).unwrap();
     let other = add(&mut scene, std::slice::from_ref(&cube), at(0.75, 0.0, 0.0), 2);
     let mut hear = |scene: &mut Scene| {
-        let (_, events) = scene.listen(&mut listener, Query::Intersection, &TOUCHING).unwrap();
+        let (_, events) = scene
+            .listen(&mut listener, Query::Intersection, &SceneQuery { detail: ContactDetail::None, ..TOUCHING })
+            .unwrap();
         assert!(events.points.is_empty());
         events.pairs.iter().map(|pair| (pair.piece1, pair.state, pair.objects_state)).collect::<Vec<_>>()
     };
@@ -163,7 +168,7 @@ fn listeners_hear_what_changed_for_themselves() {
     let mut ids: Vec<ObjectId> =
         (0..25).map(|k| add(&mut scene, std::slice::from_ref(&cube), place(2.0).0, k)).collect();
     let mut listeners = [(); 3].map(|()| (Listener::default(), Keys::new()));
-    let asked = [(Query::Contact, TOUCHING), (Query::Contact, NEAR), (Query::Distance, NEAR)];
+    let asked = [(Query::Contact, TOUCHING), (Query::Contact, NEAR), (Query::Distance, PLAIN)];
     let (mut heard, mut next) = (0, 25);
     for _ in 0..150 {
         for _ in 0..3 {
@@ -218,7 +223,9 @@ fn of_another_scene_all_begins_anew() {
         for k in 0..2 {
             add(&mut scene, &[cuboid([0.5; 3])], at(0.5 * k as f64, 0.0, 0.0), k);
         }
-        let (_, events) = scene.listen(&mut listener, Query::Intersection, &TOUCHING).unwrap();
+        let (_, events) = scene
+            .listen(&mut listener, Query::Intersection, &SceneQuery { detail: ContactDetail::None, ..TOUCHING })
+            .unwrap();
         let mut states: Vec<EventState> = events.pairs.iter().map(|pair| pair.state).collect();
         states.sort_by_key(|state| *state as i32);
         assert_eq!(states, if first { vec![Began] } else { vec![Began, Ended] });

@@ -279,7 +279,6 @@ class Detector final : public CollisionDetector
         Collisions found = begin(option, result);
         swiftprox::SceneQuery query;
         query.distance_tolerance = margin_for(option, result);
-        query.margin = query.distance_tolerance;
         query.detail = option.enableContact ? SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD : SWIFTPROX_CONTACT_DETAIL_NONE;
         const swiftprox_scene_answer answer = group.scene().query_contact(query);
         const swiftprox_scene_contacts contacts = group.scene().get_contacts();

@@ -1,10 +1,10 @@
 //! How deep listed pairs are in each other and where they meet: the details of a query of contacts beside its answers.
 
-use crate::base::error::{Result, check_range};
+use crate::base::error::{Error, Result, check_range};
 use crate::base::memory::with_capacity;
 use crate::pair::{
     self, DepthCache, DepthConfig, DepthEnding, Fill, Known, Manifold, ManifoldConfig, ManifoldPoint, Outcome,
-    PairAnswer, Placed, Reference, Sink, manifold_of,
+    PairAnswer, Placed, Query, Reference, Sink, manifold_of,
 };
 use crate::scene::search::query::{Contact, ContactDetail, SceneContacts, SceneQuery};
 use crate::scene::search::slots::{Run, Slots, Source};
@@ -20,9 +20,19 @@ impl Details {
     /// The details that a query of contacts asks beside the answers.
     ///
     /// # Errors
-    /// [`Error::Argument`](crate::base::error::Error::Argument) for a margin that is out of range. The other members have been
-    /// checked.
-    pub fn new(query: &SceneQuery) -> Result<Option<Details>> {
+    /// [`Error::Argument`] for a margin that is out of range, and for details that another query cannot give. The other members
+    /// have been checked.
+    pub fn new(kind: Query, query: &SceneQuery) -> Result<Option<Details>> {
+        if kind != Query::Contact {
+            return match query.detail {
+                ContactDetail::None => Ok(None),
+                _ => Err(Error::Argument(
+                    "detail: only queries of contacts give depths and manifolds; ask swiftprox_scene_query_contact, or with \
+                     SWIFTPROX_QUERY_KIND_CONTACT, or leave detail at SWIFTPROX_CONTACT_DETAIL_NONE"
+                        .into(),
+                )),
+            };
+        }
         check_range("margin", query.margin, 0.0..=f64::INFINITY)?;
         let reduces = match query.detail {
             ContactDetail::None => return Ok(None),

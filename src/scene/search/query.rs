@@ -89,7 +89,7 @@ pub enum ContactDetail {
     None = 0,
     /// How deep intersecting pairs are in each other.
     Depth = 1,
-    /// That, and the manifold, of pairs up to the margin apart, too.
+    /// That, and the manifold, also of listed pairs that are apart.
     Manifold = 2,
     /// That, and of more than four points of a manifold four: the deepest, the farthest from it and the extremes on either side of
     /// the line between them. None is moved.

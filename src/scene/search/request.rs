@@ -75,7 +75,7 @@ impl Request {
             early_exit: query.early_exit,
             error_budget: is_shared.then_some(query.error_budget),
             share: None,
-            details: if kind == Query::Contact { Details::new(query)? } else { None },
+            details: Details::new(kind, query)?,
         })
     }
 
