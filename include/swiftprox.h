@@ -512,7 +512,7 @@ typedef enum swiftprox_decided_by SWIFTPROX_INT32 {
   SWIFTPROX_DECIDED_BY_BUDGET = 6,
   /** The bounding spheres: they are apart, and farther than the distance tolerance if there is one. */
   SWIFTPROX_DECIDED_BY_BOUNDING_SPHERES = 7,
-  /** In a scene: balls inside the objects overlap. Such an answer carries no vertex pairs as its proof. */
+  /** Balls inside the objects overlap. Such an answer carries no vertex pairs as its proof. */
   SWIFTPROX_DECIDED_BY_INSCRIBED_SPHERES = 8
 } swiftprox_decided_by;
 

@@ -1,6 +1,6 @@
 /*
  * Fixed warm queries through C, for instructions.py to count under callgrind: a function call `measured` for each case.
- * Bodies as CAD systems have them and a hull of points on a sphere, each beside another like it, on an orbit.
+ * Bodies as CAD systems have them and a hull of points on a sphere, each beside another like it, on an orbit; and round bodies.
  */
 #include <math.h>
 #include <stdint.h>
@@ -38,7 +38,8 @@ static void turn(double w, double x, double y, double z, double pose[12])
     pose[10] = 1 - s * (x * x + y * y);
 }
 
-/* --- Bodies ------------------------------------------------------------------------------------------------------------------- */
+/* --- Bodies
+ * ------------------------------------------------------------------------------------------------------------------- */
 
 /* A body of revolution: a half circle of rings from pole to pole, `flatness` high, or else two rings; or points on a sphere. */
 typedef struct {
@@ -48,6 +49,8 @@ typedef struct {
     double rings[2][2];
     int arc_steps;
     double flatness;
+    /* The ball swept over a point, or over a segment of a half length; 0 of all others. */
+    double half, radius;
 } body;
 
 typedef struct {
@@ -156,7 +159,13 @@ static const swiftprox_shape *make(const body *wanted)
     static mesh m;
     const swiftprox_shape *shape = NULL;
     m.count = m.triangle_count = 0;
-    if (wanted->sides > 0) {
+    if (wanted->radius > 0) {
+        const double ends[6] = {-wanted->half, 0, 0, wanted->half, 0, 0};
+        swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
+        options.input = SWIFTPROX_INPUT_HULL;
+        options.swept_radius = wanted->radius;
+        CHECK_OK(swiftprox_shape_create_from_points(ends, wanted->half > 0 ? 2 : 1, &options, &shape));
+    } else if (wanted->sides > 0) {
         add_revolved(&m, wanted);
         place_points(&m);
         CHECK_OK(swiftprox_shape_create_from_mesh(m.points, m.count, m.indices, NULL, m.triangle_count, NULL, &shape));
@@ -167,16 +176,20 @@ static const swiftprox_shape *make(const body *wanted)
     return shape;
 }
 
-static const body box = {"box", 4, {{1, -0.5}, {1, 0.5}}, 0, 0}, wedge = {"wedge", 3, {{1, -0.5}, {1, 0.5}}, 0, 0},
-                  nut = {"nut", 6, {{1, -0.4}, {1, 0.4}}, 0, 0}, cylinder_16 = {"cylinder-16", 16, {{1, -0.5}, {1, 0.5}}, 0, 0},
-                  cylinder_64 = {"cylinder-64", 64, {{1, -0.5}, {1, 0.5}}, 0, 0},
-                  cylinder_500 = {"cylinder-500", 500, {{1, -0.5}, {1, 0.5}}, 0, 0},
-                  disc_500 = {"disc-500", 500, {{1, -0.025}, {1, 0.025}}, 0, 0},
-                  rod_64 = {"rod-64", 64, {{1, -5}, {1, 5}}, 0, 0}, cone_200 = {"cone-200", 200, {{1, -0.5}, {0, 1.5}}, 0, 0},
-                  egg = {"egg", 24, {{0, 0}, {0, 0}}, 12, 2}, lens = {"lens", 64, {{0, 0}, {0, 0}}, 12, 0.2},
-                  sphere = {"sphere", 0, {{0, 0}, {0, 0}}, 0, 0};
+static const body box = {"box", 4, {{1, -0.5}, {1, 0.5}}, 0, 0, 0, 0}, wedge = {"wedge", 3, {{1, -0.5}, {1, 0.5}}, 0, 0, 0, 0},
+                  nut = {"nut", 6, {{1, -0.4}, {1, 0.4}}, 0, 0, 0, 0},
+                  cylinder_16 = {"cylinder-16", 16, {{1, -0.5}, {1, 0.5}}, 0, 0, 0, 0},
+                  cylinder_64 = {"cylinder-64", 64, {{1, -0.5}, {1, 0.5}}, 0, 0, 0, 0},
+                  cylinder_500 = {"cylinder-500", 500, {{1, -0.5}, {1, 0.5}}, 0, 0, 0, 0},
+                  disc_500 = {"disc-500", 500, {{1, -0.025}, {1, 0.025}}, 0, 0, 0, 0},
+                  rod_64 = {"rod-64", 64, {{1, -5}, {1, 5}}, 0, 0, 0, 0},
+                  cone_200 = {"cone-200", 200, {{1, -0.5}, {0, 1.5}}, 0, 0, 0, 0},
+                  egg = {"egg", 24, {{0, 0}, {0, 0}}, 12, 2, 0, 0}, lens = {"lens", 64, {{0, 0}, {0, 0}}, 12, 0.2, 0, 0},
+                  sphere = {"sphere", 0, {{0, 0}, {0, 0}}, 0, 0, 0, 0}, ball = {"ball", 0, {{0, 0}, {0, 0}}, 0, 0, 0, 1},
+                  capsule = {"capsule", 0, {{0, 0}, {0, 0}}, 0, 0, 0.7, 0.3};
 
-/* --- Motions ------------------------------------------------------------------------------------------------------------------ */
+/* --- Motions
+ * ------------------------------------------------------------------------------------------------------------------ */
 
 static double poses[POSES][12];
 
@@ -201,49 +214,55 @@ static void fly(const char *step)
     }
 }
 
-/* --- Cases -------------------------------------------------------------------------------------------------------------------- */
+/* --- Cases
+ * -------------------------------------------------------------------------------------------------------------------- */
 
 static const struct {
     const body *of;
     const char *step;
+    /* Another body beside it, if not another like it. */
+    const body *beside;
 } cases[] = {
-    {&box, "1"},
-    {&box, "random"},
-    {&wedge, "10"},
-    {&nut, "random"},
-    {&cylinder_16, "random"},
-    {&cylinder_64, "1"},
-    {&cylinder_500, "0.1"},
-    {&cylinder_500, "1"},
-    {&cylinder_500, "10"},
-    {&cylinder_500, "random"},
-    {&disc_500, "1"},
-    {&disc_500, "10"},
-    {&rod_64, "10"},
-    {&cone_200, "0.1"},
-    {&cone_200, "random"},
-    {&egg, "1"},
-    {&lens, "10"},
-    {&sphere, "0.1"},
-    {&sphere, "1"},
-    {&sphere, "10"},
-    {&sphere, "random"},
+    {&box, "1", NULL},
+    {&box, "random", NULL},
+    {&wedge, "10", NULL},
+    {&nut, "random", NULL},
+    {&cylinder_16, "random", NULL},
+    {&cylinder_64, "1", NULL},
+    {&cylinder_500, "0.1", NULL},
+    {&cylinder_500, "1", NULL},
+    {&cylinder_500, "10", NULL},
+    {&cylinder_500, "random", NULL},
+    {&disc_500, "1", NULL},
+    {&disc_500, "10", NULL},
+    {&rod_64, "10", NULL},
+    {&cone_200, "0.1", NULL},
+    {&cone_200, "random", NULL},
+    {&egg, "1", NULL},
+    {&lens, "10", NULL},
+    {&sphere, "0.1", NULL},
+    {&sphere, "1", NULL},
+    {&sphere, "10", NULL},
+    {&sphere, "random", NULL},
+    {&ball, "random", NULL},
+    {&capsule, "random", NULL},
+    {&ball, "1", &sphere},
 };
 
 #if defined(__GNUC__)
 __attribute__((noinline))
 #endif
-void measured(const swiftprox_shape *shape, const swiftprox_pair_config *config);
+void measured(const swiftprox_shape *shape, const swiftprox_shape *other, const swiftprox_pair_config *config);
 
 /* One flight, the cache cold at its beginning. */
-void measured(const swiftprox_shape *shape, const swiftprox_pair_config *config)
+void measured(const swiftprox_shape *shape, const swiftprox_shape *other, const swiftprox_pair_config *config)
 {
     static const double origin[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     swiftprox_pair_cache cache = {{0}};
     swiftprox_pair_answer answer;
     int i, failed = 0;
     for (i = 0; i < POSES; ++i) {
-        failed += swiftprox_pair_distance((swiftprox_placed){shape, origin}, (swiftprox_placed){shape, poses[i]}, &cache,
+        failed += swiftprox_pair_distance((swiftprox_placed){shape, origin}, (swiftprox_placed){other, poses[i]}, &cache,
                                           config, &answer) != SWIFTPROX_OK;
         failed += answer.outcome == SWIFTPROX_OUTCOME_NONE;
     }
@@ -258,12 +277,15 @@ int main(void)
     swiftprox_pair_tuning tuning = SWIFTPROX_PAIR_TUNING_DEFAULT;
     config.tuning = &tuning;
     for (i = 0; i < sizeof cases / sizeof *cases; ++i) {
-        const swiftprox_shape *shape = make(cases[i].of);
+        const swiftprox_shape *shape = make(cases[i].of), *other = make(cases[i].beside ? cases[i].beside : cases[i].of);
         fly(cases[i].step);
         CHECK_OK(swiftprox_shape_prepare(shape, NULL, NULL));
-        measured(shape, &config);
-        printf("%s %s\n", cases[i].of->name, cases[i].step);
+        CHECK_OK(swiftprox_shape_prepare(other, NULL, NULL));
+        measured(shape, other, &config);
+        printf("%s%s%s %s\n", cases[i].of->name, cases[i].beside ? "-" : "", cases[i].beside ? cases[i].beside->name : "",
+               cases[i].step);
         swiftprox_shape_release(shape);
+        swiftprox_shape_release(other);
     }
     return check_report("instructions");
 }

@@ -40,7 +40,7 @@ pub enum DecidedBy {
     Budget = 6,
     /// The bounding spheres: they are apart, and farther than the distance tolerance if there is one.
     BoundingSpheres = 7,
-    /// In a scene: balls inside the objects overlap. Such an answer carries no vertex pairs as its proof.
+    /// Balls inside the objects overlap. Such an answer carries no vertex pairs as its proof.
     InscribedSpheres = 8,
 }
 

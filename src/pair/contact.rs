@@ -116,14 +116,7 @@ pub fn normalised(direction: &Vector) -> [f64; 3] {
 pub fn label(polyhedron: &Polyhedron, feature: FeatureId, point: &Vector) -> Feature {
     match feature {
         FeatureId::Vertex(v) => Feature { kind: FeatureKind::Vertex, ids: [polyhedron.vertex_labels[v as usize], 0] },
-        FeatureId::Edge(e) => {
-            let ids = match polyhedron.edges.get(e as usize) {
-                Some(edge) => edge.labels,
-                // A segment has no table of edges.
-                None => [polyhedron.vertex_labels[0], polyhedron.vertex_labels[1]],
-            };
-            Feature { kind: FeatureKind::Edge, ids }
-        }
+        FeatureId::Edge(e) => Feature { kind: FeatureKind::Edge, ids: polyhedron.edges[e as usize].labels },
         FeatureId::Face(f) => {
             let label = polyhedron.faces[f as usize].label;
             let id = if label == NONE { polyhedron.polygon_at(f, point) } else { label };
@@ -318,10 +311,12 @@ fn edges_at(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = u32> {
 
 /// The faces at a vertex, each twice.
 pub fn faces_at(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = u32> {
-    edges_at(polyhedron, vertex).flat_map(|edge| {
+    let beside = edges_at(polyhedron, vertex).flat_map(|edge| {
         let edge = &polyhedron.edges[edge as usize];
         [edge.left(), edge.right()]
-    })
+    });
+    // A segment's has none.
+    beside.filter(|&face| face != NONE)
 }
 
 /// The distance of a point from a face; 0 within the rounding of its planes. At the sharp corner of a sliver a point may

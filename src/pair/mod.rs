@@ -14,6 +14,7 @@ mod depth;
 mod ladder;
 mod signed_distance;
 mod radii;
+mod round;
 mod swept;
 mod queries;
 mod batch;

@@ -101,7 +101,7 @@ fn query_with(
     answer: &mut PairAnswer,
 ) -> Result<()> {
     if let Some(radii) = Radii::of(bodies) {
-        return with_default(|| swept::query(query, *bodies, &radii, cache, config, answer));
+        return swept::query(query, bodies, &radii, cache, config, answer);
     }
     ladder::ask(query, glances, bodies, cache, config, answer)
 }
@@ -139,7 +139,7 @@ pub fn signed_distance(
     answer: &mut SignedDistance,
 ) -> Result<()> {
     if let Some(radii) = Radii::of(&bodies) {
-        return with_default(|| swept::signed_distance(bodies, &radii, cache, config, answer));
+        return with_default(|| swept::signed_distance(&bodies, &radii, cache, config, answer));
     }
     signed_distance::of_polyhedra(&bodies, cache, config, answer)
 }

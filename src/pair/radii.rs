@@ -4,7 +4,7 @@
 use super::contact::PlacedPoints;
 use super::placed::Placed;
 use crate::base::double_double::two_sum;
-use crate::base::math::{Pose, Vector};
+use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
 use crate::base::simd::environment::with_default;
 
 /// The swept radii of a pair.
@@ -72,12 +72,26 @@ impl Radii {
 pub fn moved(points: &PlacedPoints, poses: [&Pose; 2], normal: &[f64; 3], by: [f64; 2]) -> PlacedPoints {
     let normal = Vector::from(*normal);
     let world = [0, 1].map(|i| Vector::from(points.world[i]) + normal * by[i]);
-    let local = [0, 1].map(|i| {
-        let turned =
-            poses[i].rotation().try_inverse().map_or_else(|| poses[i].rotate_back(&normal), |back| back * normal);
-        Vector::from(points.local[i]) + turned * by[i]
-    });
+    let local = [0, 1].map(|i| Vector::from(points.local[i]) + turned_back(poses[i], &normal) * by[i]);
     PlacedPoints { local: local.map(Into::into), world: world.map(Into::into) }
+}
+
+/// R⁻¹·n: Rᵀ·n, put right by what R makes of it; where that is more than rounding, by the inverse.
+#[inline(always)]
+pub fn turned_back(pose: &Pose, normal: &Vector) -> Vector {
+    let turned = pose.rotate_back(normal);
+    let rest = normal - pose.rotate(&turned);
+    // False for a NaN.
+    if rest.amax() <= 64.0 * UNIT_ROUNDOFF * normal.amax() {
+        turned + pose.rotate_back(&rest)
+    } else {
+        inverted(pose, normal)
+    }
+}
+
+#[cold]
+fn inverted(pose: &Pose, normal: &Vector) -> Vector {
+    pose.rotation().try_inverse().map_or_else(|| pose.rotate_back(normal), |back| back * normal)
 }
 
 /// a + b, rounded down; of what is infinite or none that.

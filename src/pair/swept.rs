@@ -4,48 +4,77 @@
 use super::answer::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer};
 use super::cache::PairCache;
 use super::config::{PairConfig, Query};
-use super::contact::PlacedPoints;
-use super::depth::{self, DepthAnswer, DepthCache, DepthConfig, DepthEnding};
+use super::contact::{PlacedPoints, fill_nothing};
+use super::depth::{self, DepthAnswer, DepthCache, DepthConfig, DepthEnding, DepthStatistics};
 use super::ladder::{self, Glances};
 use super::placed::Placed;
 use super::radii::{Radii, moved};
+use super::round::{Place, Round, are_round};
 use super::signed_distance::{SignedDistance, SignedDistanceCache, of_polyhedra};
 use crate::base::error::Result;
 use crate::base::math::{Vector, clamp};
 use crate::base::memory::in_integers;
-use crate::base::simd::environment::with_default;
+use crate::base::simd::environment::{self, with_default};
 use crate::solve::exact::{self, ExactDistance};
 use std::cmp::Ordering;
 
 const NOWHERE: [f64; 3] = [f64::NAN; 3];
 
 /// As the query of the polyhedra.
-#[cold]
 #[inline(never)]
 pub(super) fn query(
     query: Query,
-    bodies: [Placed; 2],
+    bodies: &[Placed; 2],
     radii: &Radii,
     cache: &mut PairCache,
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    config.check(query)?;
-    let mut found = PairAnswer::default();
-    let is_verdict = query == Query::Intersection && config.distance_tolerance == f64::INFINITY;
-    let enough = if is_verdict { 0.0 } else { config.distance_tolerance };
-    let of_polyhedra = PairConfig { distance_tolerance: radii.with(enough), ..*config };
-    // No verdict tells whether polyhedra are nearer than the radii.
-    let asked = if query == Query::Intersection { Query::Distance } else { query };
-    ladder::ask(asked, Glances::Asked, &bodies, cache, &of_polyhedra, &mut found)?;
-    if query == Query::Approximate && is_too_wide(&found, radii, config) {
-        ladder::ask(Query::Distance, Glances::Asked, &bodies, cache, &of_polyhedra, &mut found)?;
+    if !config.is_in_range(query) {
+        return Err(config.first_fault());
     }
-    *answer = in_integers(|| less(query, bodies, radii, enough, &found))?;
-    if is_verdict && answer.outcome == Outcome::Beyond {
+    if environment::is_default() {
+        query_in_default(query, bodies, radii, cache, config, answer)
+    } else {
+        with_default(|| query_in_default(query, bodies, radii, cache, config, answer))
+    }
+}
+
+#[inline(always)]
+fn query_in_default(
+    query: Query,
+    bodies: &[Placed; 2],
+    radii: &Radii,
+    cache: &mut PairCache,
+    config: &PairConfig,
+    answer: &mut PairAnswer,
+) -> Result<()> {
+    let is_verdict = query == Query::Intersection && config.distance_tolerance == f64::INFINITY;
+    let tolerance = if is_verdict { 0.0 } else { config.distance_tolerance };
+    if are_round(bodies) {
+        // Here a verdict costs no more than a distance.
+        let round =
+            Round { bodies, radii, tolerance: config.distance_tolerance, rotation_limit: config.rotation_limit };
+        if round.answers(Place::Pair(query, answer)) {
+            return Ok(());
+        }
+    }
+    let of_polyhedra = PairConfig { distance_tolerance: radii.with(tolerance), ..*config };
+    // With the radii as a tolerance a verdict tells whether polyhedra are nearer, but not with more than that.
+    let asked = if query == Query::Intersection && !is_verdict { Query::Distance } else { query };
+    let before = *answer;
+    let asked = ladder::ask(asked, Glances::Asked, bodies, cache, &of_polyhedra, answer).and_then(|()| {
+        if query == Query::Approximate && is_too_wide(answer, radii, config) {
+            ladder::ask(Query::Distance, Glances::Asked, bodies, cache, &of_polyhedra, answer)?;
+        }
+        take_off(query, bodies, radii, tolerance, answer)
+    });
+    if asked.is_err() {
+        *answer = before;
+    } else if is_verdict && answer.outcome == Outcome::Beyond {
         answer.outcome = Outcome::Separated;
     }
-    Ok(())
+    asked
 }
 
 /// Whether an interval was narrow enough for the polyhedra, and is not for the remaining distance, whose `lower` is less.
@@ -59,32 +88,61 @@ fn is_too_wide(found: &PairAnswer, radii: &Radii, config: &PairConfig) -> bool {
     may_be_wide && is_apart && !is_narrow && found.decided_by != DecidedBy::Budget
 }
 
-/// The answer about the bodies, from that about the polyhedra.
-fn less(query: Query, bodies: [Placed; 2], radii: &Radii, tolerance: f64, found: &PairAnswer) -> PairAnswer {
-    match found.outcome {
-        Outcome::None | Outcome::Intersecting => return *found,
-        Outcome::Undecided => return undecided(radii, found),
-        Outcome::Separated if found.decided_by == DecidedBy::Budget => {
-            let [lower, upper] = radii.off([found.lower, found.upper]);
+/// Makes the answer about the polyhedra one about the bodies.
+///
+/// # Errors
+/// [`Error::Memory`](crate::base::error::Error::Memory) where integers get none.
+#[inline(always)]
+fn take_off(query: Query, bodies: &[Placed; 2], radii: &Radii, tolerance: f64, answer: &mut PairAnswer) -> Result<()> {
+    let interval = [answer.lower, answer.upper];
+    match answer.outcome {
+        Outcome::None | Outcome::Intersecting => return Ok(()),
+        Outcome::Undecided => {
+            *answer = undecided(radii, answer);
+            return Ok(());
+        }
+        Outcome::Separated if answer.decided_by == DecidedBy::Budget => {
+            let [lower, upper] = radii.off(interval);
             if lower <= 0.0 && upper > 0.0 {
-                return undecided(radii, found);
+                *answer = undecided(radii, answer);
+                return Ok(());
             }
         }
         Outcome::Separated | Outcome::Beyond => {}
     }
-    let signed = of_bodies(bodies, radii, tolerance, &found.into());
-    let mut answer = PairAnswer { statistics: found.statistics, decided_by: found.decided_by, ..PairAnswer::UNSAID };
-    answer.outcome = signed.outcome;
-    if signed.outcome == Outcome::Intersecting {
-        (answer.distance, answer.lower, answer.upper) = (0.0, 0.0, 0.0);
-        if query == Query::Contact {
-            fill_common_point(&mut answer, bodies, radii, found);
+    let (side, [lower, upper]) = judge(bodies, radii, tolerance, answer.outcome == Outcome::Beyond, interval)?;
+    let found = answer.distance;
+    (answer.lower, answer.upper) = (lower, upper);
+    match side {
+        Side::Beyond => {
+            answer.outcome = Outcome::Beyond;
+            answer.distance = lower;
+            let normal = answer.normal;
+            fill_nothing(answer);
+            answer.normal = normal;
         }
-        return answer;
+        Side::Apart => {
+            answer.outcome = Outcome::Separated;
+            answer.distance = clamp(found - radii.each[0] - radii.each[1], lower, upper);
+            // A verdict has none.
+            if answer.feature1.kind != FeatureKind::None {
+                let points =
+                    PlacedPoints { local: [answer.local1, answer.local2], world: [answer.world1, answer.world2] };
+                let points = moved(&points, bodies.map(|body| body.pose), &answer.normal, radii.outwards());
+                ([answer.local1, answer.local2], [answer.world1, answer.world2]) = (points.local, points.world);
+            }
+        }
+        Side::Within => {
+            answer.outcome = Outcome::Intersecting;
+            (answer.distance, answer.lower, answer.upper) = (0.0, 0.0, 0.0);
+            if query == Query::Contact {
+                fill_common_point(answer, bodies, radii, found);
+            } else {
+                fill_nothing(answer);
+            }
+        }
     }
-    let SignedDistance { distance, lower, upper, local1, local2, world1, world2, normal, .. } = signed;
-    let SignedDistance { feature1, feature2, .. } = signed;
-    PairAnswer { distance, lower, upper, local1, local2, world1, world2, normal, feature1, feature2, ..answer }
+    Ok(())
 }
 
 /// The answer for a pair that a budget left undecided.
@@ -101,11 +159,11 @@ fn undecided(radii: &Radii, found: &PairAnswer) -> PairAnswer {
 /// For polyhedra that are apart and bodies that are not: the middle of the part of the shortest connection that both bodies
 /// cover. It is one point on the line between the witness points. The normal may lead beside that line: for thin parallel bodies
 /// by 1e-8 of the way.
-fn fill_common_point(answer: &mut PairAnswer, bodies: [Placed; 2], radii: &Radii, found: &PairAnswer) {
+fn fill_common_point(answer: &mut PairAnswer, bodies: &[Placed; 2], radii: &Radii, distance: f64) {
     let [radius1, radius2] = radii.each;
-    let from2 = 0.5 * ((found.distance - radius1).max(0.0) + found.distance.min(radius2));
-    let share = clamp(from2 / found.distance, 0.0, 1.0);
-    let points = PlacedPoints { local: [found.local1, found.local2], world: [found.world1, found.world2] };
+    let from2 = 0.5 * ((distance - radius1).max(0.0) + distance.min(radius2));
+    let share = clamp(from2 / distance, 0.0, 1.0);
+    let points = PlacedPoints { local: [answer.local1, answer.local2], world: [answer.world1, answer.world2] };
     let poses = bodies.map(|body| body.pose);
     // An eighth of everything, so that terms which cancel cannot overflow.
     let [place1, place2] = poses.map(|pose| 0.125 * pose.translation());
@@ -113,7 +171,6 @@ fn fill_common_point(answer: &mut PairAnswer, bodies: [Placed; 2], radii: &Radii
     let eighth = (place1 - place2) + (arm1 - arm2);
     let points = moved(&points, poses, &eighth.into(), [8.0 * (share - 1.0), 8.0 * share]);
     ([answer.local1, answer.local2], [answer.world1, answer.world2]) = (points.local, points.world);
-    (answer.normal, answer.feature1, answer.feature2) = (found.normal, found.feature1, found.feature2);
 }
 
 /// How deep bodies are in each other, from the polyhedra's depth, or from their distance where they are apart.
@@ -126,6 +183,15 @@ pub(super) fn depth(
     config: &DepthConfig,
     answer: &mut DepthAnswer,
 ) -> Result<()> {
+    config.check()?;
+    let mut signed = SignedDistance::default();
+    if are_round(&bodies) {
+        let round = Round { bodies: &bodies, radii, tolerance: 0.0, rotation_limit: config.rotation_limit };
+        if round.answers(Place::Signed(&mut signed)) {
+            fill_depth(answer, &signed, DepthEnding::Narrow, DepthStatistics::default());
+            return Ok(());
+        }
+    }
     let mut found = DepthAnswer::default();
     depth::of_polyhedra(&bodies, cache, config, &mut found)?;
     let (mut of_polyhedra, mut ending) = (SignedDistance::from(&found), found.ending);
@@ -139,16 +205,20 @@ pub(super) fn depth(
         ladder::ask(Query::Distance, Glances::Asked, &bodies, &mut PairCache::default(), &within, &mut apart)?;
         (of_polyhedra, ending) = ((&apart).into(), DepthEnding::Narrow);
     }
-    let signed = in_integers(|| with_default(|| of_bodies(bodies, radii, 0.0, &of_polyhedra)))?;
-    let statistics = found.statistics;
-    let SignedDistance { normal, feature1, feature2, .. } = signed;
+    of_bodies(&bodies, radii, 0.0, &of_polyhedra, &mut signed)?;
+    fill_depth(answer, &signed, ending, found.statistics);
+    Ok(())
+}
+
+/// A depth from the signed distance of the bodies.
+fn fill_depth(answer: &mut DepthAnswer, signed: &SignedDistance, ending: DepthEnding, statistics: DepthStatistics) {
+    let &SignedDistance { normal, feature1, feature2, local1, local2, world1, world2, .. } = signed;
     if signed.outcome != Outcome::Intersecting {
         let (outcome, ending) = (Outcome::Separated, DepthEnding::Separated);
         let nothing = DepthAnswer { outcome, ending, depth: 0.0, lower: 0.0, upper: 0.0, normal, ..Default::default() };
         *answer = DepthAnswer { statistics, ..nothing };
-        return Ok(());
+        return;
     }
-    let SignedDistance { local1, local2, world1, world2, .. } = signed;
     *answer = DepthAnswer {
         outcome: Outcome::Intersecting,
         ending,
@@ -165,48 +235,117 @@ pub(super) fn depth(
         feature2,
         statistics,
     };
-    Ok(())
 }
 
 /// The signed distance, from that of the polyhedra.
-#[cold]
 #[inline(never)]
 pub(super) fn signed_distance(
-    bodies: [Placed; 2],
+    bodies: &[Placed; 2],
     radii: &Radii,
     cache: &mut SignedDistanceCache,
     config: &PairConfig,
     answer: &mut SignedDistance,
 ) -> Result<()> {
     config.check(Query::Distance)?;
+    if are_round(bodies) {
+        let (tolerance, rotation_limit) = (config.distance_tolerance, config.rotation_limit);
+        let round = Round { bodies, radii, tolerance, rotation_limit };
+        if round.answers(Place::Signed(answer)) {
+            return Ok(());
+        }
+    }
     let mut found = SignedDistance::default();
     let grown = PairConfig { distance_tolerance: radii.with(config.distance_tolerance), ..*config };
-    of_polyhedra(&bodies, cache, &grown, &mut found)?;
-    *answer = in_integers(|| with_default(|| of_bodies(bodies, radii, config.distance_tolerance, &found)))?;
-    Ok(())
+    of_polyhedra(bodies, cache, &grown, &mut found)?;
+    of_bodies(bodies, radii, config.distance_tolerance, &found, answer)
 }
 
 /// The signed distance of bodies from that of their polyhedra, which is beyond the tolerance only if the bodies are.
-fn of_bodies(bodies: [Placed; 2], radii: &Radii, tolerance: f64, found: &SignedDistance) -> SignedDistance {
-    let mut truth = Truth { bodies, of_polyhedra: None };
-    let mut interval = radii.off([found.lower, found.upper]);
+///
+/// # Errors
+/// [`Error::Memory`](crate::base::error::Error::Memory) where integers get none.
+fn of_bodies(
+    bodies: &[Placed; 2],
+    radii: &Radii,
+    tolerance: f64,
+    found: &SignedDistance,
+    answer: &mut SignedDistance,
+) -> Result<()> {
+    let is_beyond = found.outcome == Outcome::Beyond;
+    let (side, [lower, upper]) = judge(bodies, radii, tolerance, is_beyond, [found.lower, found.upper])?;
+    if side == Side::Beyond {
+        *answer = without_points(&SignedDistance { outcome: Outcome::Beyond, distance: lower, lower, upper, ..*found });
+        return Ok(());
+    }
+    let points = PlacedPoints { local: [found.local1, found.local2], world: [found.world1, found.world2] };
+    let points = moved(&points, bodies.map(|body| body.pose), &found.normal, radii.outwards());
+    let ([local1, local2], [world1, world2]) = (points.local, points.world);
+    let outcome = if side == Side::Apart { Outcome::Separated } else { Outcome::Intersecting };
+    let distance = clamp(found.distance - radii.each[0] - radii.each[1], lower, upper);
+    *answer = SignedDistance { outcome, distance, lower, upper, local1, local2, world1, world2, ..*found };
+    Ok(())
+}
+
+/// Where bodies are to each other.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Side {
+    /// Farther apart than the tolerance.
+    Beyond,
+    Apart,
+    /// In each other, or touching.
+    Within,
+}
+
+/// From an interval of the polyhedra's signed distance, or a lower end beyond the radii and the tolerance: the side, and the
+/// interval of the bodies'. Integers are asked where the interval does not tell.
+///
+/// # Errors
+/// [`Error::Memory`](crate::base::error::Error::Memory) where integers get none.
+#[inline(always)]
+fn judge(
+    bodies: &[Placed; 2],
+    radii: &Radii,
+    tolerance: f64,
+    is_beyond: bool,
+    of_polyhedra: [f64; 2],
+) -> Result<(Side, [f64; 2])> {
+    let interval = radii.off(of_polyhedra);
+    let [lower, upper] = interval;
+    if upper < 0.0 {
+        return Ok((Side::Within, interval));
+    }
+    if (lower > 0.0) & !is_beyond & (upper <= tolerance) {
+        return Ok((Side::Apart, interval));
+    }
+    if (lower > 0.0) & (is_beyond | (lower > tolerance)) {
+        return Ok((Side::Beyond, [lower.max(tolerance.min(f64::MAX)), f64::INFINITY]));
+    }
+    in_integers(|| judge_exactly(bodies, radii, tolerance, is_beyond, interval))
+}
+
+/// The same of an interval of the bodies'.
+#[cold]
+#[inline(never)]
+fn judge_exactly(
+    bodies: &[Placed; 2],
+    radii: &Radii,
+    tolerance: f64,
+    is_beyond: bool,
+    mut interval: [f64; 2],
+) -> (Side, [f64; 2]) {
+    let mut truth = Truth { bodies: *bodies, of_polyhedra: None };
     let mut is_apart = interval[0] > 0.0;
     if !is_apart && interval[1] >= 0.0 {
         (is_apart, interval) = sign(truth.get(), radii, interval);
     }
-    let [lower, upper] = interval;
-    if is_apart && (found.outcome == Outcome::Beyond || truth.is_beyond(radii, tolerance, interval)) {
-        let lower = lower.max(tolerance.min(f64::MAX));
-        let (distance, upper) = (lower, f64::INFINITY);
-        return without_points(&SignedDistance { outcome: Outcome::Beyond, distance, lower, upper, ..*found });
+    if !is_apart {
+        return (Side::Within, interval);
     }
-    let upper = if is_apart { upper.min(tolerance) } else { upper };
-    let points = PlacedPoints { local: [found.local1, found.local2], world: [found.world1, found.world2] };
-    let points = moved(&points, bodies.map(|body| body.pose), &found.normal, radii.outwards());
-    let ([local1, local2], [world1, world2]) = (points.local, points.world);
-    let outcome = if is_apart { Outcome::Separated } else { Outcome::Intersecting };
-    let distance = clamp(found.distance - radii.each[0] - radii.each[1], lower, upper);
-    SignedDistance { outcome, distance, lower, upper, local1, local2, world1, world2, ..*found }
+    let [lower, upper] = interval;
+    if is_beyond || truth.is_beyond(radii, tolerance, interval) {
+        return (Side::Beyond, [lower.max(tolerance.min(f64::MAX)), f64::INFINITY]);
+    }
+    (Side::Apart, [lower, upper.min(tolerance)])
 }
 
 /// Whether bodies are apart whose polyhedra are apart by a distance, and the part of an interval around 0 where their signed

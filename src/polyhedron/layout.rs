@@ -92,7 +92,8 @@ pub struct Edge {
     /// The largest of the slacks of both faces and of the bevel, and the effect of an edge that leans out of their planes; +∞,
     /// which asks for a closer look, where rounding hides the dihedral angle.
     pub slack: f64,
-    /// The vertex or face across each of `planes`: tail, head, left face, right face. An array, since marching looks up one of
+    /// The vertex or face across each of `planes`: tail, head, left face, right face; [`NONE`] beside a segment, whose lanes 2 and
+    /// 3 hold every point. An array, since marching looks up one of
     /// them without knowing which.
     pub across: [u32; 4],
     /// The caller's indices of the two vertices.
@@ -205,7 +206,7 @@ pub struct Polyhedron {
     pub edges: Vec<Edge>,
     /// ρ: an upper bound of |position| over all vertices.
     pub radius: f64,
-    /// Exact affine dimension: 3, or 2 (a two-sided polygon), 1 (a segment: no faces and no edges), 0 (a point).
+    /// Exact affine dimension: 3, or 2 (a two-sided polygon), 1 (a segment: no faces, one edge without any beside it), 0 (a point).
     pub dimension: u8,
     /// Whether it has faces, its centre is its origin, and its radius lies between [`SMALLEST`] and [`LARGEST`].
     pub simple: bool,

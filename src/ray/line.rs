@@ -22,7 +22,7 @@ pub(super) struct Line<'a> {
     pub direction: Vector,
     /// The centre of the body's coordinates.
     centre: Vector,
-    /// R⁻¹, rounded.
+    /// R⁻¹, rounded; with a swept radius nothing asks for it.
     inverse: Matrix,
     /// No point of the body is farther from the ray's origin than 1.03 times this: a length that rounding errors are in
     /// proportion to.
@@ -50,6 +50,19 @@ pub(super) struct Crossing {
     pub normal: Vector,
 }
 
+/// How a line passes a ball.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Chord {
+    Missed,
+    /// Rounding hides whether it does.
+    Unclear,
+    /// Through it: in between the first two places, and out between the others.
+    Passed {
+        entry: [f64; 2],
+        exit: [f64; 2],
+    },
+}
+
 impl<'a> Line<'a> {
     /// None where magnitudes are left to integers.
     pub fn new(polyhedron: &'a Polyhedron, pose: &'a Pose, ray: &Ray, swept_radius: f64) -> Option<Line<'a>> {
@@ -62,14 +75,7 @@ impl<'a> Line<'a> {
         if !is_in_range {
             return None;
         }
-        let rotation = pose.rotation();
-        let columns = [0, 1, 2].map(|k| rotation.row(k).transpose());
-        let cofactors = Matrix::from_columns(&[
-            columns[1].cross(&columns[2]),
-            columns[2].cross(&columns[0]),
-            columns[0].cross(&columns[1]),
-        ]);
-        let inverse = cofactors / columns[0].dot(&cofactors.column(0));
+        let inverse = if swept_radius > 0.0 { Matrix::zeros() } else { inverse(pose) };
         let from_origin = translation - origin;
         let centre = from_origin + pose.rotate(&polyhedron.centre);
         let reach = norm1(&from_origin) + norm1(&polyhedron.centre) + polyhedron.radius + swept_radius;
@@ -98,11 +104,13 @@ impl<'a> Line<'a> {
 
     /// Its direction in the body's axes, rounded.
     pub fn local_direction(&self) -> Vector {
+        debug_assert!(self.swept_radius == 0.0);
         self.inverse * self.direction
     }
 
     /// The ray's origin in centred coordinates, rounded.
     pub fn local_origin(&self) -> Vector {
+        debug_assert!(self.swept_radius == 0.0);
         -(self.inverse * self.centre)
     }
 
@@ -129,6 +137,7 @@ impl<'a> Line<'a> {
         debug_assert!(slack >= 0.0);
         // For any U, and g = RᵀU = n + r: the largest U·(R·p + T) over the body is less than that of the vertex plus the slack
         // plus 2ρ|r|. The computed r is off by 8u.
+        debug_assert!(self.swept_radius == 0.0);
         let world = self.inverse.tr_mul(normal);
         let missed = norm1(&(self.pose.rotate_back(&world) - normal)) + 8.0 * U;
         let height = world.dot(&self.vertex(vertex));
@@ -154,10 +163,12 @@ impl<'a> Line<'a> {
         [from, to].iter().all(|t| t * along - height > error + 16.0 * U * self.reach)
     }
 
-    /// How far the body with its ball reaches along a unit vector, and the rounding error: same as for a face, with 4u of the
-    /// radius for the length of the vector and its product.
+    /// How far the body with its ball reaches along a unit vector, and the rounding error: as of a face, with 5u of the radius for
+    /// the length of the vector, and 2.1u for the sum.
     fn support(&self, normal: &Vector, vertex: u32, excess: f64) -> [f64; 2] {
-        let height = normal.dot(&self.vertex(vertex)) + self.swept_radius * normal.norm();
+        // Of what is no direction this is a NaN, which proves nothing.
+        debug_assert!(!((normal.norm() - 1.0).abs() > 8.0 * U), "{normal:?}");
+        let height = normal.dot(&self.vertex(vertex)) + self.swept_radius;
         [height, excess * (1.0 + 64.0 * U) + 24.0 * U * self.reach]
     }
 
@@ -172,24 +183,26 @@ impl<'a> Line<'a> {
         Some(Crossing { at, faces: along < 0.0, normal })
     }
 
-    /// The places where it provably enters the ball around a point of the polyhedron and leaves it; none where rounding hides
-    /// that it does. The point is computed from vertices with convex weights.
+    /// How it passes the ball around a point of the polyhedron, computed from vertices with convex weights; `norm` is that of its
+    /// direction.
     ///
     /// Vertices are off by 8u of the reach, such a point by less than 24u. With c the point and d the direction, |c × d|/|d| is the
     /// distance of the line from it, off by 8u more, c·d/|d| the middle of the chord, off by 4u, half the chord by 4u of the
-    /// radius. The quotients by |d| are off by 4u of themselves, of 2.1 times the reach.
-    pub fn chord(&self, point: &Vector) -> Option<[[f64; 2]; 2]> {
-        debug_assert!(self.swept_radius > 0.0);
-        let (length, error) = (self.direction.norm(), 48.0 * U * self.reach);
-        let distance = self.direction.cross(point).norm() / length;
+    /// radius. The quotients by |d| are off by 5u of themselves, of 2.1 times the reach; the sums by 5u.
+    #[inline(always)]
+    pub fn chord(&self, point: &Vector, norm: f64) -> Chord {
+        let (inverse, error) = (1.0 / norm, 56.0 * U * self.reach);
+        let distance = self.direction.cross(point).norm() * inverse;
+        let [nearer, farther] = [(distance - error).max(0.0), distance + error];
+        // False for a NaN.
+        if !(farther <= self.swept_radius) {
+            return if nearer > self.swept_radius { Chord::Missed } else { Chord::Unclear };
+        }
         let half = |distance: f64| ((self.swept_radius - distance) * (self.swept_radius + distance)).sqrt();
-        let halves = [half(distance + error), half((distance - error).max(0.0))];
-        let middle = self.direction.dot(point) / length;
-        let at = |along: f64| along / length;
-        let entry = [at(middle - halves[1] - error), at(middle - halves[0] + error)];
-        let exit = [at(middle + halves[0] - error), at(middle + halves[1] + error)];
-        // The root of a negative number is a NaN.
-        (halves[0] >= 0.0).then_some([entry, exit])
+        let [least, most] = [half(farther) - error, half(nearer) + error];
+        let middle = self.direction.dot(point) * inverse;
+        let at = |along: f64| along * inverse;
+        Chord::Passed { entry: [at(middle - most), at(middle - least)], exit: [at(middle + least), at(middle + most)] }
     }
 
     /// Whether it provably passes through the hull of corners, given counter-clockwise as seen from where it comes (`faces`) or
@@ -224,6 +237,18 @@ impl<'a> Line<'a> {
 
 /// Relative to |d||side|·reach: 6.6u for the side, 8.3u for the vertex, 4.2u for their product, 3.2u for the other.
 pub const SIDE: f64 = 32.0 * U;
+
+/// R⁻¹ of a pose.
+fn inverse(pose: &Pose) -> Matrix {
+    let rotation = pose.rotation();
+    let columns = [0, 1, 2].map(|k| rotation.row(k).transpose());
+    let cofactors = Matrix::from_columns(&[
+        columns[1].cross(&columns[2]),
+        columns[2].cross(&columns[0]),
+        columns[0].cross(&columns[1]),
+    ]);
+    cofactors / columns[0].dot(&cofactors.column(0))
+}
 
 fn norm1(v: &Vector) -> f64 {
     v.x.abs() + v.y.abs() + v.z.abs()

@@ -18,9 +18,8 @@ pub(super) struct Corner {
 pub(super) struct Touch {
     /// How far along the line.
     pub at: f64,
-    /// The corners that hold the nearest point of the hull: as many as count, the first repeated.
-    pub corners: [Corner; 3],
-    pub count: usize,
+    /// What of the corners holds the nearest point of the hull.
+    pub members: Members,
     /// Their convex weights in that point.
     pub weights: [f64; 3],
     /// That point.
@@ -29,70 +28,92 @@ pub(super) struct Touch {
     pub normal: Vector,
 }
 
-/// The first touch, if the line meets any, for corners without a touch that `new` has no part in.
-pub(super) fn first_touch(along: &Vector, radius: f64, kept: &[Corner], new: Corner) -> Option<Touch> {
-    debug_assert!(is_unit(along) && radius > 0.0 && kept.len() <= 3);
-    let mut first = of_point(along, radius, new);
-    let mut look = |touch: Option<Touch>| {
-        if let Some(touch) = touch
-            && first.is_none_or(|first| touch.at < first.at)
+/// Up to three of a few corners: as many as count.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Members {
+    pub indices: [usize; 3],
+    pub count: usize,
+}
+
+/// The first touch that the first of some corners has a part in, if it is sooner than another.
+pub(super) fn sooner_touch(along: &Vector, radius: f64, corners: &[Corner], than: f64) -> Option<Touch> {
+    debug_assert!(is_unit(along) && radius > 0.0 && corners.len() <= 4);
+    let place = |k: usize| &corners[k].place;
+    let mut first = of_point(along, radius, place(0)).unwrap_or(f64::INFINITY);
+    let (mut members, mut weights) = (Members { indices: [0; 3], count: 1 }, [1.0, 0.0, 0.0]);
+    for k in 1..corners.len() {
+        if let Some((at, weight)) = of_segment(along, radius, [place(0), place(k)])
+            && at < first
         {
-            first = Some(touch);
+            (first, members, weights) = (at, Members { indices: [0, k, 0], count: 2 }, [1.0 - weight, weight, 0.0]);
+        }
+        for other in 1..k {
+            if let Some((at, of_corners)) = of_triangle(along, radius, [place(0), place(other), place(k)])
+                && at < first
+            {
+                (first, members, weights) = (at, Members { indices: [0, other, k], count: 3 }, of_corners);
+            }
+        }
+    }
+    if !(first < than) {
+        return None;
+    }
+    let [a, b, c] = members.indices.map(place);
+    let (side, other) = (b - a, c - a);
+    let foot = a + side * weights[1] + other * weights[2];
+    let way = along * first - foot;
+    let normal = match members.count {
+        1 => way,
+        // Perpendicular to a side up to the rounding of its own length: else a long one would reach far beyond the plane.
+        2 => way - side * (way.dot(&side) / side.norm_squared()),
+        _ => {
+            let across = side.cross(&other);
+            if across.dot(along) > 0.0 { -across } else { across }
         }
     };
-    for (k, &corner) in kept.iter().enumerate() {
-        look(of_segment(along, radius, [new, corner]));
-        kept[..k].iter().for_each(|&other| look(of_triangle(along, radius, [new, other, corner])));
-    }
-    first
+    Some(Touch { at: first, members, weights, foot, normal: normal * (1.0 / normal.norm()) })
 }
 
 /// The feature of some corners that is nearest to the line, seen along it.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Beside {
     /// One or two.
-    pub corners: [Corner; 2],
-    pub count: usize,
+    pub members: Members,
     /// From the line to the nearest point.
     pub across: Vector,
 }
 
-/// The nearest to a line that does not pass between the corners, for corners with none nearer that `new` has no part in.
-pub(super) fn nearest_beside(along: &Vector, kept: &[Corner], new: Corner) -> Beside {
-    let seen = |corner: Corner| corner.place - along * corner.place.dot(along);
-    let from = seen(new);
-    let mut nearest = Beside { corners: [new; 2], count: 1, across: from };
-    for &corner in kept {
-        let side = seen(corner) - from;
+/// The nearest to a line that the first of some corners has a part in; the line does not pass between them.
+pub(super) fn nearest_beside(along: &Vector, corners: &[Corner]) -> Beside {
+    let seen = |corner: &Corner| corner.place - along * corner.place.dot(along);
+    let from = seen(&corners[0]);
+    let mut nearest = Beside { members: Members { indices: [0; 3], count: 1 }, across: from };
+    for (k, corner) in corners.iter().enumerate().skip(1) {
+        let to = seen(corner);
+        let side = to - from;
         let across = from - side * (from.dot(&side) / side.norm_squared());
-        let is_between = from.dot(&side) < 0.0 && seen(corner).dot(&side) > 0.0;
+        let is_between = from.dot(&side) < 0.0 && to.dot(&side) > 0.0;
         if is_between && across.norm_squared() < nearest.across.norm_squared() {
-            nearest = Beside { corners: [new, corner], count: 2, across };
+            nearest = Beside { members: Members { indices: [0, k, 0], count: 2 }, across };
         }
     }
     nearest
 }
 
 /// The quadratic equation of a ball.
-fn of_point(along: &Vector, radius: f64, corner: Corner) -> Option<Touch> {
-    let foot = corner.place;
-    let nearest = foot.dot(along);
-    let square = (foot - along * nearest).norm_squared();
+fn of_point(along: &Vector, radius: f64, place: &Vector) -> Option<f64> {
+    let nearest = place.dot(along);
+    let square = (place - along * nearest).norm_squared();
     // False for a NaN, here as below.
-    if !(square <= radius * radius) {
-        return None;
-    }
-    let at = nearest - (radius * radius - square).sqrt();
-    let normal = (along * at - foot).normalize();
-    Some(Touch { at, corners: [corner; 3], count: 1, weights: [1.0, 0.0, 0.0], foot, normal })
+    (square <= radius * radius).then(|| nearest - (radius * radius - square).sqrt())
 }
 
-/// The quadratic equation of a cylinder, across its axis.
-fn of_segment(along: &Vector, radius: f64, [a, b]: [Corner; 2]) -> Option<Touch> {
-    let axis = b.place - a.place;
-    let length = axis.norm_squared();
-    let [slope, start] = [along.dot(&axis) / length, a.place.dot(&axis) / length];
-    let (across, place) = (along - axis * slope, a.place - axis * start);
+/// The quadratic equation of a cylinder, across its axis; and the weight of the second end.
+fn of_segment(along: &Vector, radius: f64, [a, b]: [&Vector; 2]) -> Option<(f64, f64)> {
+    let axis = b - a;
+    let inverse = 1.0 / axis.norm_squared();
+    let [slope, start] = [along.dot(&axis) * inverse, a.dot(&axis) * inverse];
+    let (across, place) = (along - axis * slope, a - axis * start);
     let spread = across.norm_squared();
     let nearest = across.dot(&place) / spread;
     let square = (place - across * nearest).norm_squared();
@@ -101,38 +122,21 @@ fn of_segment(along: &Vector, radius: f64, [a, b]: [Corner; 2]) -> Option<Touch>
     }
     let at = nearest - ((radius * radius - square) / spread).sqrt();
     let weight = at * slope - start;
-    if !(0.0..=1.0).contains(&weight) {
-        return None;
-    }
-    // Perpendicular to the axis up to rounding of its own length: else a long side would reach far beyond the plane.
-    let normal = across * at - place;
-    let normal = (normal - axis * (normal.dot(&axis) / length)).normalize();
-    Some(Touch {
-        at,
-        corners: [a, b, a],
-        count: 2,
-        weights: [1.0 - weight, weight, 0.0],
-        foot: a.place + axis * weight,
-        normal,
-    })
+    (0.0..=1.0).contains(&weight).then_some((at, weight))
 }
 
-/// The plane on the side that the line comes from.
-fn of_triangle(along: &Vector, radius: f64, corners: [Corner; 3]) -> Option<Touch> {
-    let [a, b, c] = corners.map(|corner| corner.place);
+/// The plane on the side that the line comes from; and the weights of the corners.
+fn of_triangle(along: &Vector, radius: f64, [a, b, c]: [&Vector; 3]) -> Option<(f64, [f64; 3])> {
     let (side, other) = (b - a, c - a);
     let across = side.cross(&other);
-    let square = across.norm_squared();
-    let unit = across / square.sqrt();
-    let normal = if unit.dot(along) > 0.0 { -unit } else { unit };
-    let at = (normal.dot(&a) + radius) / normal.dot(along);
-    let from = along * at - normal * radius - a;
-    let second = from.cross(&other).dot(&across) / square;
-    let third = side.cross(&from).dot(&across) / square;
+    let inverse = 1.0 / across.norm_squared();
+    let unit = across * inverse.sqrt();
+    let slope = unit.dot(along);
+    let outwards = if slope > 0.0 { -radius } else { radius };
+    let at = (unit.dot(a) + outwards) / slope;
+    let from = along * at - unit * outwards - a;
+    let second = from.cross(&other).dot(&across) * inverse;
+    let third = side.cross(&from).dot(&across) * inverse;
     let first = 1.0 - second - third;
-    if !(first >= 0.0 && second >= 0.0 && third >= 0.0) {
-        return None;
-    }
-    let foot = a + side * second + other * third;
-    Some(Touch { at, corners, count: 3, weights: [first, second, third], foot, normal })
+    (first >= 0.0 && second >= 0.0 && third >= 0.0).then_some((at, [first, second, third]))
 }

@@ -9,15 +9,16 @@
 //! farther. A line that misses the feature goes to the nearest of it first, seen along the line (Gilbert, Johnson & Keerthi
 //! 1988).
 
-use super::line::Line;
-use super::rounded::{Beside, Corner, Touch, first_touch, nearest_beside};
+use super::line::{Chord, Line};
+use super::rounded::{Beside, Corner, Touch, nearest_beside, sooner_touch};
 use super::search::fill;
 use super::{Ray, RayAnswer, RayOutcome, swept_exact};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, is_unit};
 use crate::base::simd::{Lanes, Portable};
-use crate::pair::{feature_of_vertices, label, normalised};
+use crate::pair::{feature_of_vertices, label};
 use crate::polyhedron::Polyhedron;
 use crate::solve::polytope::farthest;
+use crate::solve::state::FeatureId;
 
 /// Most vertices that are looked at for one end; mostly there are a few.
 const MOST_STEPS: u32 = 64;
@@ -27,20 +28,12 @@ pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray, radius: f64)
     debug_assert!(radius > 0.0);
     let (mut answer, mut guess) = (RayAnswer::default(), [f64::NAN; 2]);
     if let Some(line) = Line::new(polyhedron, pose, ray, radius) {
-        match prove(&line, ray, &mut answer.steps, &mut guess) {
-            Proved::Miss => {
-                answer.outcome = RayOutcome::Miss;
-                return answer;
-            }
-            Proved::Passes { touch, part: [entry, exit] } => {
-                if fill(&mut answer, &line, ray, entry, exit) {
-                    if answer.outcome == RayOutcome::Hit {
-                        fill_surface(&mut answer, &line, &touch);
-                    }
-                    return answer;
-                }
-            }
-            Proved::Nothing => {}
+        let is_proved = match polyhedron.dimension {
+            0 => prove_ball(&line, ray, &mut answer),
+            _ => prove(&line, ray, &mut answer, &mut guess),
+        };
+        if is_proved {
+            return answer;
         }
     }
     swept_exact::cast(polyhedron, pose, ray, radius, guess, &mut answer);
@@ -58,59 +51,75 @@ pub(super) fn cast_in_integers(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray, 
     answer
 }
 
-/// The result that doubles prove.
-#[expect(clippy::large_enum_variant, reason = "on the stack, of one call")]
-enum Proved {
-    Miss,
-    /// The line passes through the body: it comes in at a touch, between these places, and goes out between those.
-    Passes {
-        touch: Touch,
-        part: [[f64; 2]; 2],
-    },
-    Nothing,
-}
-
-fn prove(line: &Line, ray: &Ray, steps: &mut u32, guess: &mut [f64; 2]) -> Proved {
+/// Says what doubles prove, if that is all; and about where the ends are.
+fn prove(line: &Line, ray: &Ray, answer: &mut RayAnswer, guess: &mut [f64; 2]) -> bool {
     if line.passes_sphere() {
-        return Proved::Miss;
+        answer.outcome = RayOutcome::Miss;
+        return true;
     }
-    let length = line.direction.norm();
-    let along = line.direction / length;
-    let (touch, vertex, excess) = match first(line, along, steps) {
-        Ended::At { touch, vertex, excess } => (touch, vertex, excess),
+    let norm = line.direction.norm();
+    let along = line.direction * (1.0 / norm);
+    let (touch, vertices, vertex, excess) = match first(line, &along, &mut answer.steps) {
+        Ended::At { touch, vertices, vertex, excess } => (touch, vertices, vertex, excess),
         Ended::Beside { normal, vertex, excess } => {
-            let is_miss = line.is_in_front(&normal, vertex, excess, ray.t_max);
-            return if is_miss { Proved::Miss } else { Proved::Nothing };
+            answer.outcome = RayOutcome::Miss;
+            return line.is_in_front(&normal, vertex, excess, ray.t_max);
         }
-        Ended::Lost => return Proved::Nothing,
+        Ended::Lost => return false,
     };
-    guess[0] = touch.at / length;
-    let Some(chord) = line.chord(&touch.foot) else { return Proved::Nothing };
-    if line.polyhedron.dimension == 0 {
-        let is_miss = chord[0][0] > ray.t_max || chord[1][1] < 0.0;
-        return if is_miss { Proved::Miss } else { Proved::Passes { touch, part: chord } };
-    }
-    let Some(entry) = line.crossing_of_support(&touch.normal, vertex, excess) else { return Proved::Nothing };
+    guess[0] = touch.at / norm;
+    let Some(entry) = line.crossing_of_support(&touch.normal, vertex, excess) else { return false };
     if entry.faces && entry.at[0] > ray.t_max {
-        return Proved::Miss;
+        answer.outcome = RayOutcome::Miss;
+        return true;
     }
-    let Ended::At { touch: last, vertex, excess } = first(line, -along, steps) else { return Proved::Nothing };
-    guess[1] = -last.at / length;
-    let Some(last_chord) = line.chord(&last.foot) else { return Proved::Nothing };
-    let Some(exit) = line.crossing_of_support(&last.normal, vertex, excess) else { return Proved::Nothing };
+    let Ended::At { touch: last, vertex, excess, .. } = first(line, &-along, &mut answer.steps) else { return false };
+    guess[1] = -last.at / norm;
+    let Some(exit) = line.crossing_of_support(&last.normal, vertex, excess) else { return false };
     if !entry.faces || exit.faces {
-        return Proved::Nothing;
+        return false;
     }
     if exit.at[1] < 0.0 {
-        return Proved::Miss;
+        answer.outcome = RayOutcome::Miss;
+        return true;
     }
-    Proved::Passes { touch, part: [[entry.at[0], chord[0][1]], [last_chord[1][0], exit.at[1]]] }
+    let Chord::Passed { entry: [_, sooner], .. } = line.chord(&touch.foot, norm) else { return false };
+    let Chord::Passed { exit: [later, _], .. } = line.chord(&last.foot, norm) else { return false };
+    if !fill(answer, line, ray, [entry.at[0], sooner], [later, exit.at[1]]) {
+        return false;
+    }
+    if answer.outcome == RayOutcome::Hit {
+        fill_surface(answer, line, &touch, &vertices);
+    }
+    true
+}
+
+/// The same of a single vertex: the ball around it is all of the body.
+fn prove_ball(line: &Line, ray: &Ray, answer: &mut RayAnswer) -> bool {
+    let centre = line.vertex(0);
+    let (entry, exit) = match line.chord(&centre, line.direction.norm()) {
+        Chord::Passed { entry, exit } if entry[0] <= ray.t_max && exit[1] >= 0.0 => (entry, exit),
+        Chord::Unclear => return false,
+        Chord::Passed { .. } | Chord::Missed => {
+            answer.outcome = RayOutcome::Miss;
+            return true;
+        }
+    };
+    if !fill(answer, line, ray, entry, exit) {
+        return false;
+    }
+    if answer.outcome == RayOutcome::Hit {
+        let way = line.direction * entry[0] - centre;
+        answer.normal = (way * (1.0 / way.norm())).into();
+        answer.feature = label(line.polyhedron, FeatureId::Vertex(0), &Vector::zeros());
+    }
+    true
 }
 
 /// How a search ended. The vertex is the farthest along the normal, up to an excess.
 enum Ended {
-    /// The place where the line meets the body first.
-    At { touch: Touch, vertex: u32, excess: f64 },
+    /// Where the line meets the body first, near these vertices.
+    At { touch: Touch, vertices: [u32; 3], vertex: u32, excess: f64 },
     /// Next to the body, which the normal leads out of.
     Beside { normal: Vector, vertex: u32, excess: f64 },
     /// Nowhere.
@@ -119,60 +128,86 @@ enum Ended {
 
 /// Looks for where the line along a unit vector first meets the body.
 ///
-/// Each touch is sooner than the one before, and a feature beside the line is nearer to it: nothing comes twice.
-fn first(line: &Line, along: Vector, steps: &mut u32) -> Ended {
-    debug_assert!(is_unit(&along));
+/// Each touch is sooner than the one before, and what is beside the line is nearer to it: nothing comes twice.
+fn first(line: &Line, along: &Vector, steps: &mut u32) -> Ended {
+    debug_assert!(is_unit(along));
+    if line.polyhedron.dimension == 1 {
+        return first_of_ends(line, along);
+    }
     let tolerance = 64.0 * U * line.reach;
     let support = |towards: &Vector, near: Option<u32>| {
         let (vertex, excess) = farthest(line.polyhedron, Portable::from_vector(&line.rotate_back(towards)), near);
-        (Corner { vertex, place: line.vertex(vertex) }, excess)
+        (corner(line, vertex), excess)
     };
-    let (mut corner, _) = support(&line.towards_sphere(&along), None);
-    let (mut touch, mut beside): (Option<Touch>, Option<Beside>) = (None, None);
+    // The newest, and those that the search was at before.
+    let (mut corners, mut count) = ([support(&line.towards_sphere(along), None).0; 4], 1);
+    let (mut soonest, mut nearest) = (f64::INFINITY, f64::INFINITY);
     let mut ended = Ended::Lost;
     for _ in 0..MOST_STEPS {
         *steps += 1;
-        let kept = match (&touch, &beside) {
-            (Some(touch), _) => &touch.corners[..touch.count],
-            (None, Some(beside)) => &beside.corners[..beside.count],
-            (None, None) => &[],
-        };
-        let (normal, foot) = if let Some(sooner) = first_touch(&along, line.swept_radius, kept, corner) {
-            if touch.is_some_and(|touch| !(sooner.at < touch.at)) {
-                return ended;
+        let touch = sooner_touch(along, line.swept_radius, &corners[..count], soonest);
+        let (members, normal, foot) = match &touch {
+            Some(touch) => {
+                soonest = touch.at;
+                (touch.members, touch.normal, touch.foot)
             }
-            touch = Some(sooner);
-            (sooner.normal, sooner.foot)
-        } else {
-            let nearer = nearest_beside(&along, kept, corner);
-            let square = nearer.across.norm_squared();
-            if touch.is_some() || beside.is_some_and(|beside| !(square < beside.across.norm_squared())) {
-                return ended;
+            None if soonest < f64::INFINITY => return ended,
+            None => {
+                let Beside { members, across } = nearest_beside(along, &corners[..count]);
+                let distance = across.norm();
+                if !(distance < nearest) {
+                    return ended;
+                }
+                nearest = distance;
+                (members, across * (-1.0 / distance), corners[0].place)
             }
-            beside = Some(nearer);
-            (-nearer.across / square.sqrt(), corner.place)
         };
-        let (farther, excess) = support(&normal, Some(corner.vertex));
+        let kept = members.indices.map(|k| corners[k]);
+        let (farther, excess) = support(&normal, Some(corners[0].vertex));
         let vertex = farther.vertex;
         ended = match touch {
-            Some(touch) => Ended::At { touch, vertex, excess },
+            Some(touch) => Ended::At { touch, vertices: kept.map(|corner| corner.vertex), vertex, excess },
             None => Ended::Beside { normal, vertex, excess },
         };
         if !(normal.dot(&(farther.place - foot)) > tolerance) {
             return ended;
         }
-        corner = farther;
+        corners = [farther, kept[0], kept[1], kept[2]];
+        count = 1 + members.count;
     }
     Ended::Lost
 }
 
+/// The same of a segment. The end that is farther as computed is the farthest up to the rounding of heights, which counts in any
+/// case.
+fn first_of_ends(line: &Line, along: &Vector) -> Ended {
+    let corners = [corner(line, 0), corner(line, 1)];
+    let farther = |normal: &Vector| u32::from(normal.dot(&(corners[1].place - corners[0].place)) > 0.0);
+    let touch = sooner_touch(along, line.swept_radius, &corners, f64::INFINITY);
+    let soonest = touch.as_ref().map_or(f64::INFINITY, |touch| touch.at);
+    if let Some(touch) = sooner_touch(along, line.swept_radius, &corners[1..], soonest) {
+        return Ended::At { vertices: [1; 3], vertex: farther(&touch.normal), touch, excess: 0.0 };
+    }
+    if let Some(touch) = touch {
+        let vertices = touch.members.indices.map(|k| k as u32);
+        return Ended::At { vertices, vertex: farther(&touch.normal), touch, excess: 0.0 };
+    }
+    let sides = [nearest_beside(along, &corners).across, nearest_beside(along, &corners[1..]).across];
+    let is_first = sides[0].norm_squared() < sides[1].norm_squared();
+    let normal = -(if is_first { sides[0] } else { sides[1] }).normalize();
+    Ended::Beside { normal, vertex: farther(&normal), excess: 0.0 }
+}
+
+fn corner(line: &Line, vertex: u32) -> Corner {
+    Corner { vertex, place: line.vertex(vertex) }
+}
+
 /// The surface where a ray comes in.
-fn fill_surface(answer: &mut RayAnswer, line: &Line, touch: &Touch) {
-    let vertices = touch.corners.map(|corner| corner.vertex);
+fn fill_surface(answer: &mut RayAnswer, line: &Line, touch: &Touch, vertices: &[u32; 3]) {
     let positions = vertices.map(|v| line.polyhedron.vertices[v as usize].position);
     let point: Vector = positions.iter().zip(touch.weights).map(|(position, weight)| position * weight).sum();
     let towards = line.rotate_back(&touch.normal);
-    let feature = feature_of_vertices(line.polyhedron, &vertices[..touch.count], &point, &towards, 0.0);
-    answer.normal = normalised(&touch.normal);
+    let feature = feature_of_vertices(line.polyhedron, &vertices[..touch.members.count], &point, &towards, 0.0);
+    answer.normal = touch.normal.into();
     answer.feature = label(line.polyhedron, feature, &point);
 }

@@ -338,11 +338,15 @@ struct Origins<L> {
     translations: [L; 2],
 }
 
+/// Whether poses are acceptable and within range.
+pub fn are_acceptable(poses: [&Pose; 2], limit: f64) -> bool {
+    poses.iter().all(|pose| pose.check(limit).is_ok() && pose.translation().amax() <= LARGEST)
+}
+
 /// For poses that are not both rigid and within range: whether they are acceptable and within range, and which are skewed.
 #[cold]
 fn look_closer(poses: [&Pose; 2], limit: f64) -> (bool, [bool; 2]) {
-    let in_range = poses.iter().all(|pose| pose.check(limit).is_ok() && pose.translation().amax() <= LARGEST);
-    (in_range, poses.map(|pose| !(pose.rotation_defect() <= RIGID)))
+    (are_acceptable(poses, limit), poses.map(|pose| !(pose.rotation_defect() <= RIGID)))
 }
 
 /// The additional data for bodies whose centres are not their origins.

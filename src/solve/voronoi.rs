@@ -90,7 +90,8 @@ fn test_vertex_further<L: Lanes>(rule: Rule, corner: Corner, g: L, length: f64, 
         } else {
             VertexTest::Leaves { edge, head, parameter: slope }
         }
-    } else if slope < -clear {
+    } else if (slope < -clear) | (corner.polyhedron.dimension == 0) {
+        // A point, which has no neighbours, is all of its body.
         VertexTest::Strict
     } else {
         test_vertex_closely(corner.polyhedron, corner.index, &g.to_vector(), length, tolerance)

@@ -3,6 +3,7 @@
 
 mod half_spaces;
 mod pairs;
+mod round;
 mod scenes;
 mod verify;
 

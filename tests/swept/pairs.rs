@@ -199,7 +199,7 @@ fn a_pose_does_not_stretch_the_ball() {
     let poses = [Pose::new(&stretched, &Vector::new(0.0, 0.0, 0.0)), at(0.0, 3.0, 0.0)];
     let bodies = [sphere(1.0), sphere(0.5)];
     let answer = ask(distance, [&bodies[0], &bodies[1]], &poses, &PairConfig::default());
-    assert_eq!((answer.lower, answer.upper), (1.5, 1.5));
+    assert!(answer.lower <= 1.5 && 1.5 <= answer.upper && answer.upper - answer.lower < 1e-14, "{answer:?}");
     assert!((answer.local1[1] - 1.0 / 0.997).abs() < 1e-15, "{answer:?}");
 }
 

@@ -45,6 +45,29 @@ fn side_plane(positions: &[Vector], normal: &Vector, from: u32, to: u32) -> (Vec
 /// The least sine of what is provably a dihedral angle: the planes' normals and products with them are each right to some 8u.
 const SMALLEST_SINE: f64 = 64.0 * UNIT_ROUNDOFF;
 
+/// The edge of a segment, which has no faces: nothing lies beside it, so its cone is all that is across it.
+pub(super) fn segment_edge(positions: &[Vector]) -> Edge {
+    let (tail, head) = (&positions[0], &positions[1]);
+    let direction = unit(&(head - tail));
+    let length = (head - tail).norm();
+    // As of unused sides: every point is far inside.
+    let mut planes = PlaneBlock { x: [0.0; 4], y: [0.0; 4], z: [0.0; 4], offset: [f64::MAX; 4] };
+    let start = direction.dot(tail);
+    set_plane(&mut planes, 0, &direction, -start);
+    set_plane(&mut planes, 1, &-direction, length + start);
+    Edge {
+        planes,
+        tail_position: *tail,
+        length,
+        slack: 0.0,
+        across: [0, 1, NONE, NONE],
+        labels: [NONE; 2],
+        normals: [Vector::zeros(); 2],
+        reciprocal_sine: f64::INFINITY,
+        bevel: NONE,
+    }
+}
+
 /// An edge from its ends, the lower one first, and the faces beside it.
 pub(super) fn edge_between(
     [tail, head]: [u32; 2],

@@ -9,7 +9,7 @@ use crate::base::double_double::{WideVector, narrow};
 use crate::base::error::Result;
 use crate::base::locality::{in_order, sort_along_curve, sort_triangles};
 use crate::base::math::{UNIT_ROUNDOFF, Vector};
-use crate::base::memory::{collected, copied, filled, reserve, with_capacity};
+use crate::base::memory::{collected, copied, filled, push, reserve, with_capacity};
 use crate::base::normal::{area_vector, normal_of};
 use crate::base::progress::Progress;
 use crate::build::fan::fan_of;
@@ -76,7 +76,8 @@ pub fn build_in_steps(
     }
     copy_labels_in_steps(&mut polyhedron, &mut progress.part(0.97, 1.0))?;
     let is_in_range = (SMALLEST..=LARGEST).contains(&polyhedron.radius);
-    polyhedron.simple = polyhedron.dimension >= 2 && centre == Vector::zeros() && is_in_range;
+    // A point has no size: all errors are in proportion to its distance.
+    polyhedron.simple = centre == Vector::zeros() && (is_in_range || polyhedron.dimension == 0);
     polyhedron.fill_vertex_blocks()?;
     polyhedron.fan = fan_of(&polyhedron)?;
     Ok(polyhedron)
@@ -248,10 +249,14 @@ impl HullSurface {
             lookup: Lookup::none(),
         };
         if self.dimension < 2 {
+            let edge = if self.dimension == 1 { 0 } else { NONE };
+            if self.dimension == 1 {
+                push(&mut polyhedron.edges, layout::segment_edge(&self.positions))?;
+            }
             // A segment's ends are each other's neighbours, a point is its own.
             for v in 0..self.positions.len() {
                 let other = self.positions.len() - 1 - v;
-                polyhedron.add_vertex(&self.positions, v as u32, &[(other as u32, NONE)])?;
+                polyhedron.add_vertex(&self.positions, v as u32, &[(other as u32, edge)])?;
             }
             return Ok(polyhedron);
         }

@@ -31,7 +31,7 @@ impl DepthConfig {
     /// # Errors
     /// [`Error::Argument`](crate::base::error::Error::Argument), naming the first such member.
     #[inline]
-    pub(super) fn check(&self) -> Result<()> {
+    pub(in crate::pair) fn check(&self) -> Result<()> {
         check_range("rotation_limit", self.rotation_limit, 0.0..=ROTATION_LIMIT)?;
         check_accuracy(self.absolute_error, self.relative_error, self.step_budget)
     }

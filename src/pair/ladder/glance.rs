@@ -1,11 +1,16 @@
-//! Queries settled at a glance: bounding spheres that are apart, or the axis that separated the bodies the last time.
+//! Queries settled at a glance: bounding spheres that are apart, balls inside that overlap, or the axis that separated the bodies
+//! the last time.
 
 use super::query::PairQuery;
+use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::pair::answer::{DecidedBy, Statistics};
+use crate::pair::answer::{DecidedBy, Outcome, Statistics};
 use crate::pair::config::Query;
 use crate::pair::contact;
+use crate::pair::placed::Placed;
+use crate::polyhedron::SMALLEST;
 use crate::solve::certificate::reciprocal_length;
+use crate::solve::frame::are_acceptable;
 use crate::solve::separating_axis::{self, AxisSearch, Trial};
 
 impl PairQuery<'_> {
@@ -16,12 +21,62 @@ impl PairQuery<'_> {
         if enough == f64::INFINITY {
             return false;
         }
-        let ([body1, body2], [pose1, pose2]) = (self.polyhedra(), self.poses());
+        let [body1, body2] = self.polyhedra();
         let radii = body1.radius + body2.radius + enough;
-        let [x, y, z] = [0, 1, 2].map(|i| pose1.rows[i][3] - pose2.rows[i][3]);
-        (x * x + y * y + z * z > radii * radii)
+        (self.square_between_origins() > radii * radii)
             && self.is_simple()
             && simd::dispatch(&mut Spheres { pair: self, enough })
+    }
+
+    /// Whether balls inside the bodies overlap, for a verdict; the cache stays as it is.
+    #[inline(always)]
+    pub(super) fn inner_balls_overlap(&mut self, query: Query) -> bool {
+        if query != Query::Intersection {
+            return false;
+        }
+        let [body1, body2] = self.bodies;
+        let inner = body1.shape.extent().inner_radius + body2.shape.extent().inner_radius;
+        (inner >= SMALLEST)
+            && self.square_between_origins() < inner * inner * (1.0 - 256.0 * U)
+            && self.is_simple()
+            && (simd::dispatch(&mut InnerBalls { pair: self }) || self.placed_balls_overlap())
+    }
+
+    /// Of the difference of the translations, right to 5u of itself; it may underflow.
+    #[inline(always)]
+    fn square_between_origins(&self) -> f64 {
+        let [pose1, pose2] = self.poses();
+        let [x, y, z] = [0, 1, 2].map(|i| pose1.rows[i][3] - pose2.rows[i][3]);
+        x * x + y * y + z * z
+    }
+
+    /// The same of rotations that are not rigid: with d the largest entry of |RᵀR − I|, at most 1e-2 and computed to 4u, R shrinks
+    /// no vector by more than 2d of its length.
+    #[cold]
+    #[inline(never)]
+    fn placed_balls_overlap(&mut self) -> bool {
+        if !are_acceptable(self.poses(), self.config.rotation_limit) {
+            return false;
+        }
+        let inner =
+            |body: &Placed| body.shape.extent().inner_radius * (1.0 - 2.0 * (body.pose.rotation_defect() + 8.0 * U));
+        let inner = inner(&self.bodies[0]) + inner(&self.bodies[1]);
+        let overlap = inner >= SMALLEST && self.square_between_origins() < inner * inner * (1.0 - 32.0 * U);
+        if overlap {
+            self.fill_overlap();
+        }
+        overlap
+    }
+
+    #[inline(always)]
+    fn fill_overlap(&mut self) {
+        let answer = &mut *self.answer;
+        answer.outcome = Outcome::Intersecting;
+        answer.decided_by = DecidedBy::InscribedSpheres;
+        (answer.distance, answer.lower, answer.upper) = (0.0, 0.0, 0.0);
+        answer.proof_count = 0;
+        answer.statistics = Statistics::default();
+        contact::fill_nothing(answer);
     }
 
     /// Whether the axis of the last verdict, or one that it leads to, separates the bodies.
@@ -56,6 +111,24 @@ impl Kernel for Spheres<'_, '_> {
         let offset = frame.bodies[0].offset;
         contact::fill_normal(pair.answer, offset.mul(L::splat(reciprocal_length(offset.dot(offset)))));
         true
+    }
+}
+
+/// Inner balls that overlap if the poses are rigid: then R shrinks them by less than 58u, and the squares leave 64u each.
+struct InnerBalls<'a, 'b> {
+    pair: &'a mut PairQuery<'b>,
+}
+
+impl Kernel for InnerBalls<'_, '_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> bool {
+        let is_in_range = self.pair.frame_of_simple::<L>().in_range;
+        if is_in_range {
+            self.pair.fill_overlap();
+        }
+        is_in_range
     }
 }
 

@@ -29,13 +29,6 @@ impl PairQuery<'_> {
     pub(super) fn march_on(&mut self, start: State, steps: u32, leg: Leg) -> Attempt {
         simd::dispatch(&mut FromState { pair: self, start, steps, leg })
     }
-
-    /// Marching of segments and points has no faces to go over.
-    #[inline(always)]
-    fn have_faces(&self) -> bool {
-        let [body1, body2] = self.polyhedra();
-        body1.dimension.min(body2.dimension) >= 2
-    }
 }
 
 /// How long marching may go on from where it starts.
@@ -182,9 +175,6 @@ impl Kernel for General<'_, '_> {
                 (state, Leg::Whole)
             }
         };
-        if !self.pair.have_faces() {
-            return Attempt::Open(Open { at: state, is_minimum: false, steps: 0 });
-        }
         L::out_of_line(&mut MarchOn { pair: self.pair, frame, start: state, steps: 0, leg })
     }
 }
@@ -206,9 +196,6 @@ impl Kernel for FromState<'_, '_> {
         let frame = self.pair.frame::<L>();
         if !frame.in_range {
             return Attempt::Untried;
-        }
-        if !self.pair.have_faces() {
-            return Attempt::Open(Open { at: start, is_minimum: false, steps });
         }
         L::out_of_line(&mut MarchOn { pair: self.pair, frame, start, steps, leg })
     }

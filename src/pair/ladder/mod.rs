@@ -63,6 +63,9 @@ fn answer(query: Query, pair: &mut PairQuery, glances: Glances) -> Result<()> {
     if glances == Glances::Asked && pair.spheres_are_far_apart() {
         return Ok(());
     }
+    if glances == Glances::Asked && pair.inner_balls_overlap(query) {
+        return Ok(());
+    }
     if pair.may_ask_support_maps(query) {
         return answer_by_support_maps(pair, glances);
     }

@@ -3,7 +3,7 @@
 use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::pair::contact::faces_at;
 use crate::pair::placed::Placed;
-use crate::polyhedron::{FacePart, Polyhedron};
+use crate::polyhedron::{FacePart, NONE, Polyhedron};
 use crate::tables;
 
 /// Points nearer to each other than this, relative to the size of the pair, count as one place, 2⁻²⁷: far above rounding, and
@@ -134,13 +134,13 @@ pub fn facing(body: Placed, direction: &Vector, witness: &Vector, last: Option<u
     Some(last.filter(|last| last.parallel >= best.parallel - sticky).unwrap_or(best))
 }
 
-/// A vertex that reaches farthest along a direction, up to [`COINCIDENT`]. `None` of bodies without edges.
+/// A vertex that reaches farthest along a direction, up to [`COINCIDENT`]. `None` of bodies without faces.
 ///
 /// All neighbours of a vertex may be as high as itself up to rounding, as on the far face of a mesh that is flat up to rounding:
 /// there a climb ends. The witness point is the judge of that, and then all vertices are looked at. A corner of the earlier patch
 /// that is as far is mostly there.
 fn farthest_vertex(polyhedron: &Polyhedron, towards: &Vector, witness: &Vector, last: Option<Patch>) -> Option<u32> {
-    let first = polyhedron.edges.first()?.tail();
+    let first = polyhedron.edges.first().filter(|edge| edge.left() != NONE)?.tail();
     let height = |v: u32| polyhedron.vertices[v as usize].position.dot(towards);
     let far = witness.dot(towards) - COINCIDENT * polyhedron.radius;
     if let Some(last) = last {

@@ -311,6 +311,11 @@ pub fn by_all_vertices(polyhedron: &Polyhedron, vertex: u32, g: &Vector) -> f64 
 #[inline(always)]
 fn of_edge<L: Lanes>(polyhedron: &Polyhedron, edge: &Edge, g: L) -> f64 {
     let length = g.norm1();
+    if edge.left() == NONE {
+        // A segment reaches as far beyond its point as the direction leans along it: ê is right to 4u, the product to 3u.
+        let leaning = g.dot(L::from_vector(&edge_direction(&edge.planes))).abs();
+        return 2.0 * polyhedron.radius * (leaning + (8.0 * U + DIRECTION_ERROR) * length);
+    }
     let (first, second, first_slack, second_slack, coefficient) = if edge.bevel == NONE {
         let planes = &edge.planes;
         let outward = L::from_vector(&Vector::new(planes.x[3], planes.y[3], planes.z[3]));

@@ -21,7 +21,7 @@ pub fn validate(points: &[Vector], p: &Polyhedron) {
         topology(p);
         slacks(p);
     } else {
-        assert!(p.edges.is_empty() && p.faces.is_empty() && p.triangles.is_empty());
+        assert!(p.edges.len() == usize::from(p.dimension == 1) && p.faces.is_empty() && p.triangles.is_empty());
     }
     mass(p);
 }

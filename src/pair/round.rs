@@ -1,0 +1,328 @@
+//! Pairs of points and segments, of which spheres and capsules are made: the nearest points in closed form (Ericson 2005, §5.1.9).
+//! The supports of the four ends prove them, whatever they are.
+
+use super::answer::{DecidedBy, Feature, Outcome, PairAnswer, Statistics};
+#[cfg(doc)]
+use super::config::PairConfig;
+use super::config::Query;
+use super::contact::{fill_nothing, label};
+use super::placed::Placed;
+use super::radii::{Radii, turned_back};
+use super::signed_distance::SignedDistance;
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp};
+use crate::base::simd::{self, Kernel, Lanes, Portable};
+use crate::polyhedron::Polyhedron;
+use crate::solve::certificate::{Interval, reciprocal_length};
+use crate::solve::frame::{Frame, RIGID_TOGETHER, are_acceptable};
+use crate::solve::state::FeatureId;
+
+/// Whether both bodies are points or segments.
+#[inline(always)]
+pub(super) fn are_round(bodies: &[Placed; 2]) -> bool {
+    let [body1, body2] = [bodies[0].shape.polyhedron(), bodies[1].shape.polyhedron()];
+    body1.dimension.max(body2.dimension) < 2
+}
+
+/// A query of two such bodies with balls swept over them.
+pub(super) struct Round<'a> {
+    /// The bodies.
+    pub bodies: &'a [Placed<'a>; 2],
+    /// The balls.
+    pub radii: &'a Radii,
+    /// Beyond what distance nothing more is asked.
+    pub tolerance: f64,
+    /// As in [`PairConfig`].
+    pub rotation_limit: f64,
+}
+
+/// The place of the answer, which stays as it is where nothing is proved.
+pub(super) enum Place<'a> {
+    /// To a query.
+    Pair(Query, &'a mut PairAnswer),
+    /// Of a signed distance.
+    Signed(&'a mut SignedDistance),
+}
+
+impl Round<'_> {
+    /// Whether doubles answer.
+    #[inline(always)]
+    pub(super) fn answers(&self, place: Place) -> bool {
+        let polyhedra = [self.bodies[0].shape.polyhedron(), self.bodies[1].shape.polyhedron()];
+        let is_simple = polyhedra[0].simple & polyhedra[1].simple & (self.rotation_limit >= RIGID_TOGETHER);
+        let mut rigid = OfRigid { round: self, polyhedra, place };
+        if is_simple && let Some(is_answered) = simd::dispatch(&mut rigid) {
+            return is_answered;
+        }
+        self.answers_any(polyhedra, rigid.place)
+    }
+
+    /// The same for poses that are not rigid, and bodies whose centres are not their origins.
+    #[cold]
+    #[inline(never)]
+    fn answers_any(&self, polyhedra: [&Polyhedron; 2], place: Place) -> bool {
+        let poses = self.poses();
+        let frame = Frame::<Portable>::new(polyhedra, poses, self.rotation_limit);
+        // A point has no size that could be out of range: all errors are in proportion to the distance.
+        let are_points = frame.size == 0.0 && are_acceptable(poses, self.rotation_limit);
+        (frame.in_range || are_points) && self.is_filled(&frame, place)
+    }
+
+    fn poses(&self) -> [&Pose; 2] {
+        [self.bodies[0].pose, self.bodies[1].pose]
+    }
+
+    #[inline(always)]
+    fn is_filled<L: Lanes>(&self, frame: &Frame<L>, place: Place) -> bool {
+        let nearest = Nearest::of(frame);
+        let [lower, upper] = self.radii.off([nearest.interval.lower, nearest.interval.upper]);
+        // Of bodies in each other a query says no more than that.
+        let is_met = (upper < 0.0) & matches!(place, Place::Pair(..));
+        if !is_met && !nearest.interval.is_tight(frame.size) {
+            return false;
+        }
+        let is_apart = lower > 0.0;
+        let is_settled = (lower > self.tolerance) | (upper <= self.tolerance);
+        if !(is_apart & is_settled) & !(upper < 0.0) {
+            return false;
+        }
+        let distance = clamp(nearest.distance - self.radii.each[0] - self.radii.each[1], lower, upper);
+        let outcome = match is_apart {
+            false => Outcome::Intersecting,
+            true if upper > self.tolerance => Outcome::Beyond,
+            true => Outcome::Separated,
+        };
+        match place {
+            // The common point of a contact is made of the nearest points of the polyhedra.
+            Place::Pair(Query::Contact, _) if outcome == Outcome::Intersecting => return false,
+            Place::Pair(query, answer) => {
+                answer.outcome = outcome;
+                answer.decided_by = DecidedBy::Marching;
+                answer.statistics = Statistics { marching_steps: 1, ..Statistics::default() };
+                answer.proof_count = 0;
+                (answer.distance, answer.lower, answer.upper) = (distance, lower, upper);
+                if query == Query::Intersection || outcome != Outcome::Separated {
+                    fill_nothing(answer);
+                    match outcome {
+                        Outcome::Intersecting => (answer.distance, answer.lower, answer.upper) = (0.0, 0.0, 0.0),
+                        Outcome::Beyond => (answer.distance, answer.upper) = (lower, f64::INFINITY),
+                        _ => {}
+                    }
+                    if is_apart {
+                        nearest.normal.store_vector(&mut answer.normal);
+                    }
+                    return true;
+                }
+                let PairAnswer { local1, local2, world1, world2, normal, feature1, feature2, .. } = answer;
+                let surface = Surface {
+                    local: [local1, local2],
+                    world: [world1, world2],
+                    normal,
+                    features: [feature1, feature2],
+                };
+                self.fill(frame, &nearest, surface);
+            }
+            Place::Signed(answer) => {
+                if outcome == Outcome::Beyond {
+                    let mut beyond =
+                        SignedDistance { outcome, distance: lower, lower, upper: f64::INFINITY, ..Default::default() };
+                    nearest.normal.store_vector(&mut beyond.normal);
+                    *answer = beyond;
+                    return true;
+                }
+                answer.outcome = outcome;
+                (answer.distance, answer.lower, answer.upper) = (distance, lower, upper);
+                let SignedDistance { local1, local2, world1, world2, normal, feature1, feature2, .. } = answer;
+                let surface = Surface {
+                    local: [local1, local2],
+                    world: [world1, world2],
+                    normal,
+                    features: [feature1, feature2],
+                };
+                self.fill(frame, &nearest, surface);
+            }
+        }
+        true
+    }
+
+    /// Points on the surfaces, which are the radii from those of the polyhedra along the normal.
+    #[inline(always)]
+    fn fill<L: Lanes>(&self, frame: &Frame<L>, nearest: &Nearest<L>, surface: Surface) {
+        let Surface { local, world, normal, features } = surface;
+        nearest.normal.store_vector(normal);
+        let out = self.radii.outwards();
+        for ((i, local), (world, feature)) in local.into_iter().enumerate().zip(world.into_iter().zip(features)) {
+            let (body, by) = (&frame.bodies[i], L::splat(out[i]));
+            let turned = if frame.rigid {
+                body.rotate_back(nearest.normal)
+            } else {
+                L::from_vector(&turned_back(self.bodies[i].pose, &nearest.normal.to_vector()))
+            };
+            let point = nearest.points[i].add(L::from_vector(&body.polyhedron.centre));
+            turned.mul_add(by, point).store_vector(local);
+            nearest.normal.mul_add(by, nearest.rotated[i].add(body.translation)).store_vector(world);
+            *feature = label(body.polyhedron, nearest.features[i], &Vector::zeros());
+        }
+    }
+}
+
+/// Where the surfaces of an answer go.
+struct Surface<'a> {
+    local: [&'a mut [f64; 3]; 2],
+    world: [&'a mut [f64; 3]; 2],
+    normal: &'a mut [f64; 3],
+    features: [&'a mut Feature; 2],
+}
+
+/// The common case: poses that are right up to rounding.
+struct OfRigid<'a, 'b> {
+    round: &'a Round<'a>,
+    polyhedra: [&'a Polyhedron; 2],
+    place: Place<'b>,
+}
+
+impl Kernel for OfRigid<'_, '_> {
+    /// Whether doubles answer; `None` for other poses.
+    type Output = Option<bool>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Option<bool> {
+        let frame = Frame::<L>::of_rigid(self.polyhedra, self.round.poses());
+        let place = match &mut self.place {
+            Place::Pair(query, answer) => Place::Pair(*query, answer),
+            Place::Signed(answer) => Place::Signed(answer),
+        };
+        frame.in_range.then(|| self.round.is_filled(&frame, place))
+    }
+}
+
+/// Nearest points of two placed points or segments, and what they prove.
+struct Nearest<L> {
+    /// In centred local coordinates.
+    points: [L; 2],
+    /// Mapped by their bodies' rotations.
+    rotated: [L; 2],
+    /// From body 2 to body 1, of unit length.
+    normal: L,
+    /// Between them.
+    distance: f64,
+    /// That holds the distance of the bodies.
+    interval: Interval,
+    features: [FeatureId; 2],
+}
+
+/// Square of the sine below which segments are parallel for a cross product: above, it has all but three of its digits.
+const PARALLEL: f64 = 1e-6;
+
+impl<L: Lanes> Nearest<L> {
+    /// Any weights s and t of the ends make points of the bodies, and any direction a gap: what rounding makes of both costs width.
+    #[inline(always)]
+    fn of(frame: &Frame<L>) -> Nearest<L> {
+        let [body1, body2] = &frame.bodies;
+        let [ends1, ends2] = [&body1.polyhedron.vertices, &body2.polyhedron.vertices];
+        let (tail1, tail2) = (L::from_vector(&ends1[0].position), L::from_vector(&ends2[0].position));
+        let rotated1 = body1.rotate(&ends1[0].position);
+        let rotated2 = body2.rotate(&ends2[0].position);
+        let seen1 = rotated1.add(body1.offset);
+        let tails = seen1.sub(rotated2);
+        let nowhere = L::splat(0.0);
+        // Of each the way to its head in the world, if it has one.
+        let way = |i: usize, ends: &[crate::polyhedron::Vertex], tail: L| match ends.get(1) {
+            Some(head) => frame.bodies[i].rotate(&head.position).sub(tail),
+            None => nowhere,
+        };
+        let (way1, way2) = (way(0, ends1, rotated1), way(1, ends2, rotated2));
+        let (is_segment1, is_segment2) = (ends1.len() > 1, ends2.len() > 1);
+        let (mut s, mut t, mut difference) = (0.0, 0.0, tails);
+        let mut crossing = None;
+        // The least height of the ends' differences along the direction.
+        let mut others = [tails; 3];
+        if is_segment1 & is_segment2 {
+            let (square1, square2, both) = (way1.dot(way1), way2.dot(way2), way1.dot(way2));
+            let (along1, along2) = (way1.dot(tails), way2.dot(tails));
+            let sine = square1 * square2 - both * both;
+            let free = if sine > 1e-12 * square1 * square2 { (both * along2 - along1 * square2) / sine } else { 0.0 };
+            let (inverse1, inverse2) = (1.0 / square1, 1.0 / square2);
+            s = clamp(free, 0.0, 1.0);
+            t = clamp((both * s + along2) * inverse2, 0.0, 1.0);
+            // Once more, as the first s is not the nearest where t ends, or where the segments are nearly parallel.
+            s = clamp((both * t - along1) * inverse1, 0.0, 1.0);
+            t = clamp((both * s + along2) * inverse2, 0.0, 1.0);
+            difference = way2.negated_mul_add(L::splat(t), way1.mul_add(L::splat(s), tails));
+            let is_inside = (s > 0.0) & (s < 1.0) & (t > 0.0) & (t < 1.0);
+            // Across both, this direction keeps its digits where the segments nearly meet.
+            if is_inside & (sine > PARALLEL * square1 * square2) {
+                let across = way1.cross(way2);
+                crossing = Some(if across.dot(tails) < 0.0 { across.negate() } else { across });
+            }
+            let (head1, head2) = (body1.rotate(&ends1[1].position).add(body1.offset), body2.rotate(&ends2[1].position));
+            others = [head1.sub(rotated2), seen1.sub(head2), head1.sub(head2)];
+        } else if is_segment1 {
+            s = clamp(-way1.dot(tails) / way1.dot(way1), 0.0, 1.0);
+            difference = way1.mul_add(L::splat(s), tails);
+            others = [body1.rotate(&ends1[1].position).add(body1.offset).sub(rotated2); 3];
+        } else if is_segment2 {
+            t = clamp(way2.dot(tails) / way2.dot(way2), 0.0, 1.0);
+            difference = way2.negated_mul_add(L::splat(t), tails);
+            others = [seen1.sub(body2.rotate(&ends2[1].position)); 3];
+        }
+        let direction = crossing.unwrap_or(difference);
+        let inverse = reciprocal_length(direction.dot(direction));
+        let normal = direction.mul(L::splat(inverse));
+        let distance = difference.dot(difference).sqrt();
+        let mut least = direction.dot(tails);
+        if is_segment1 | is_segment2 {
+            for other in others {
+                let height = direction.dot(other);
+                least = if height < least { height } else { least };
+            }
+        }
+        let interval = interval(distance, least * inverse, frame.size, frame.separation);
+        let point = |ends: &[crate::polyhedron::Vertex], tail: L, share: f64| match ends.get(1) {
+            Some(head) => L::from_vector(&(head.position - ends[0].position)).mul_add(L::splat(share), tail),
+            None => tail,
+        };
+        Nearest {
+            points: [point(ends1, tail1, s), point(ends2, tail2, t)],
+            rotated: [way1.mul_add(L::splat(s), rotated1), way2.mul_add(L::splat(t), rotated2)],
+            normal,
+            distance,
+            interval,
+            features: [feature(s, is_segment1), feature(t, is_segment2)],
+        }
+    }
+}
+
+/// From the distance of two points of the bodies and the least difference of ends along a unit direction, both as computed. With ρ
+/// the sum of the radii and σ [`Frame::separation`], no difference is longer than σ + 1.02ρ.
+///
+/// Below: a difference of ends is off by 8.6ρ + 4σ ([`Frame::difference_error`]), all times u; its product with the direction by
+/// 4(σ + 1.02ρ), root, quotient and product by 3.1(σ + 1.02ρ), the last sum by one: 17ρ + 12.2σ. A direction too short is a NaN,
+/// and proves nothing.
+///
+/// Above: the difference of tails is off by 8.6ρ + 4σ, the ways to the heads by 10.6ρ for both ends and 2.1ρ for the difference;
+/// their multiples and sums add 2.1ρ and 2(σ + 1.02ρ): 25.5ρ + 6σ. The length itself is off by 2.1u, the sum by one.
+///
+/// The difference of two points without size is that of the origins, off by 2σ; what is made of it by 7.1σ below, as no sum cancels.
+#[inline(always)]
+fn interval(distance: f64, least: f64, size: f64, separation: f64) -> Interval {
+    if size == 0.0 {
+        return Interval {
+            lower: least - U * 10.0 * separation,
+            upper: distance + U * (2.0 * separation + 4.0 * distance),
+        };
+    }
+    Interval {
+        lower: least - U * (20.0 * size + 14.0 * separation),
+        upper: distance + U * (28.0 * size + 7.0 * separation + 6.0 * distance),
+    }
+}
+
+/// What a weight between the ends of a body lies on.
+#[inline(always)]
+fn feature(share: f64, is_segment: bool) -> FeatureId {
+    match share {
+        1.0 if is_segment => FeatureId::Vertex(1),
+        share if is_segment & (share > 0.0) => FeatureId::Edge(0),
+        _ => FeatureId::Vertex(0),
+    }
+}
