@@ -16,4 +16,8 @@ fi
 "$venv/bin/pip" install --quiet --retries 1 'scikit-build-core>=0.10' 'nanobind>=2.4' numpy pytest ninja >"$1/python/pip.log" 2>&1 ||
     skip "its packages cannot be had from PyPI; $1/python/pip.log has why"
 "$venv/bin/pip" install --quiet --no-build-isolation --no-deps ./python || exit 1
-SWIFTPROX_LIBRARY=$library "$venv/bin/python" -m pytest -q python/tests
+# For the examples; those whose packages cannot be had are skipped.
+for package in trimesh yourdfpy mujoco matplotlib; do
+    "$venv/bin/pip" install --quiet --retries 1 $package >>"$1/python/pip.log" 2>&1 || echo "$package cannot be had"
+done
+SWIFTPROX_LIBRARY=$library "$venv/bin/python" -m pytest -q -rs python/tests

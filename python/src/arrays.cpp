@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <memory>
 
-#include <nanobind/ndarray.h>
 #include <nanobind/stl/string.h>
 
 namespace
@@ -62,6 +61,29 @@ nb::object as_numpy(nb::handle source, const char *type, const char *name)
         }
         refuse(std::string(name) + " is no array of numbers: " + nb::cast<std::string>(nb::str(error.value())));
     }
+}
+
+/// The beginning of PyArrayObject_fields, which is a part of numpy's ABI, of 1.x and of 2.x.
+struct NumpyArray {
+    PyObject_HEAD
+    char *data;
+    int nd;
+    Py_ssize_t *shape;
+    Py_ssize_t *strides;
+    PyObject *base;
+    PyObject *dtype;
+};
+
+/// An array of numpy's own class and of its own dtype of doubles in the machine's order; null for all others.
+const NumpyArray *usual_array(nb::handle source)
+{
+    static PyObject *const type = nb::object(numpy().attr("ndarray")).release().ptr();
+    static PyObject *const doubles = nb::object(numpy().attr("dtype")("float64")).release().ptr();
+    if ((PyObject *)Py_TYPE(source.ptr()) != type) {
+        return nullptr;
+    }
+    const auto *array = reinterpret_cast<const NumpyArray *>(source.ptr());
+    return array->dtype == doubles ? array : nullptr;
 }
 
 /// The part of a pose that is used, with a look at the rest. `m` is rows of four.
@@ -182,16 +204,16 @@ Pose read_pose(nb::handle source, const char *name)
         refuse(std::string(name) + " is None");
     }
     Pose pose;
-    // The usual array, without any other object.
-    nb::ndarray<const double, nb::ndim<2>, nb::device::cpu> array;
-    if (nb::try_cast(source, array, false) && array.shape(1) == 4 && (array.shape(0) == 3 || array.shape(0) == 4)) {
+    // The usual array, read in place: half as long as by its buffer or DLPack.
+    const NumpyArray *array = usual_array(source);
+    if (array && array->nd == 2 && array->shape[1] == 4 && (array->shape[0] == 3 || array->shape[0] == 4)) {
         double all[16];
-        for (size_t row = 0; row < array.shape(0); ++row) {
-            for (size_t column = 0; column < 4; ++column) {
-                all[4 * row + column] = array.data()[int64_t(row) * array.stride(0) + int64_t(column) * array.stride(1)];
+        for (Py_ssize_t row = 0; row < array->shape[0]; ++row) {
+            for (Py_ssize_t column = 0; column < 4; ++column) {
+                std::memcpy(&all[4 * row + column], array->data + row * array->strides[0] + column * array->strides[1], sizeof(double));
             }
         }
-        if (array.shape(0) == 4) {
+        if (array->shape[0] == 4) {
             check_last_row(all, name);
         }
         std::memcpy(pose.m, all, sizeof pose.m);

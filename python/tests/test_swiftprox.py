@@ -1,6 +1,7 @@
 """The package: its bits are those of the C library, bad input is an exception with a message, threads do no harm.
 
 SWIFTPROX_LIBRARY names the shared library of the same build."""
+# pyright: reportArgumentType=false, reportOptionalIterable=false
 import ctypes
 import os
 import threading
