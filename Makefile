@@ -22,6 +22,7 @@
 # make casts                  casts beside parry3d, FCL, Bullet and samples, rays beside parry3d: benches/results/casts.csv, the chart and
 #                             tables of docs/motions.md
 # make grounds                contacts of 1,000 bodies with 20,000 triangles beside parry3d: benches/results/grounds.csv
+# make python-bench           the Python package beside coal, python-fcl and MuJoCo: the table of docs/python.md
 # make hard-motions           casts MOTIONS=800000 adversarial motions and judges each: examples/hard_motions.rs, twenty minutes
 # make engines                scenes in MuJoCo, Bullet and DART, with their colliders and with swiftprox: docs/engines.md, its tables,
 #                             chart and pictures, benches/results/engines.csv; DART takes more than half an hour of it
@@ -66,7 +67,7 @@ MOTIONS = 800000
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo check test lint test-rust test-c test-fuzz test-proofs proofs fuzz asan tsan miri loom valgrind bench figures stability crowds bodies depths casts grounds hard-motions engines steps charts cases hard legacy-bench docs packages cross clean
+.PHONY: build demo check test lint test-rust test-c test-fuzz test-proofs proofs fuzz asan tsan miri loom valgrind bench figures stability crowds bodies depths casts grounds python-bench hard-motions engines steps charts cases hard legacy-bench docs packages cross clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -218,6 +219,14 @@ grounds:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++
 	cargo build --locked --release --manifest-path benches/compare/Cargo.toml
 	$(TIMED) benches/compare/target/release/compare --grounds --count 10000 --passes 5 --csv $(GROUNDS)
+
+# Where pip cannot have one of the others, it is left out.
+python-bench:
+	$(MAKE) build
+	python3 -m venv $(BUILD)/python/bench
+	$(BUILD)/python/bench/bin/pip install --quiet ./python scipy
+	-for peer in coal python-fcl mujoco; do $(BUILD)/python/bench/bin/pip install --quiet $$peer; done
+	$(TIMED) $(BUILD)/python/bench/bin/python python/bench.py $(BUILD)/lib/libswiftprox.so
 
 hard-motions:
 	@scripts/require.sh $(CC_PACKAGES)

@@ -5,6 +5,7 @@ BUILD is a build folder with tests, LIBRARIES where Cargo puts the libraries. A 
 rules hold:
 
   ```c, ```cpp   stands word for word in the file that a comment before it names, <!-- sample: examples/hello.c -->; CTest runs that
+  ```python      stands word for word in the file that a comment before it names; the test `python` runs it
   ```cmake       is a whole CMakeLists.txt: it is configured and built where hello.c is, with the installed library
   ```sh          is run, in a folder that looks like the project's, with the library installed in $HOME/swiftprox, in a shell that
                  knows what README.md exports and no more. What builds the project is not run again: of `make` the targets have to
@@ -141,7 +142,7 @@ class Samples(unittest.TestCase):
 
     def test_languages_are_known(self):
         for block in self.blocks:
-            self.assertIn(block.language, ("c", "cpp", "cmake", "sh", "text"), block.place)
+            self.assertIn(block.language, ("c", "cpp", "cmake", "sh", "text", "python"), block.place)
 
     def test_code_is_that_of_examples_which_are_run(self):
         tests = json.loads(self.run_in(BUILD, "ctest", "--show-only=json-v1"))["tests"]
@@ -151,6 +152,11 @@ class Samples(unittest.TestCase):
             path = block.note[1]
             self.assertIn(block.text, read(path), f"{block.place} is not in {path}")
             self.assertIn(program_of(path), run, f"{block.place}: no test runs {path}")
+
+    def test_python_is_that_of_examples(self):
+        for block in self.of("python"):
+            self.assertTrue(block.note and block.note[0] == "sample", f"{block.place}: no comment says which file it is from")
+            self.assertIn(block.text, read(block.note[1]), f"{block.place} is not in {block.note[1]}")
 
     def test_examples_print_what_is_shown(self):
         for block in self.of("text"):

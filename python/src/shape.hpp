@@ -1,0 +1,33 @@
+// Shapes as both pairs and scenes take them.
+#pragma once
+
+#include "arrays.hpp"
+
+/// A share of a shape of C.
+class Shape
+{
+  public:
+    explicit Shape(const swiftprox_shape *owned) : shape_(owned) {}
+    Shape(const Shape &other) : shape_(swiftprox_shape_retain(other.shape_)) {}
+    Shape(Shape &&other) noexcept : shape_(other.shape_) { other.shape_ = nullptr; }
+    Shape &operator=(const Shape &) = delete;
+    ~Shape() { swiftprox_shape_release(shape_); }
+    const swiftprox_shape *get() const { return shape_; }
+
+  private:
+    const swiftprox_shape *shape_;
+};
+
+/// A motion from Python: a Motion, or a pose, which rests.
+swiftprox_motion read_motion(nb::handle source, const char *name);
+
+/// The options of a cast.
+inline swiftprox_cast_config cast_config(double max_distance, double t_begin, double t_end, double time_tolerance)
+{
+    swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
+    config.margin = max_distance;
+    config.t_begin = t_begin;
+    config.t_end = t_end;
+    config.time_tolerance = time_tolerance;
+    return config;
+}

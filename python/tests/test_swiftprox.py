@@ -1,0 +1,218 @@
+"""The package: its bits are those of the C library, bad input is an exception with a message, threads do no harm.
+
+SWIFTPROX_LIBRARY names the shared library of the same build."""
+# pyright: reportArgumentType=false, reportOptionalIterable=false
+import ctypes
+import os
+import threading
+
+import numpy as np
+import pytest
+import swiftprox as sp
+
+RANDOM = np.random.default_rng(7)
+EYE = np.eye(4)[:3]
+
+
+def poses(count, spread=3.0):
+    axes = RANDOM.normal(size=(count, 4))
+    w, x, y, z = (axes / np.linalg.norm(axes, axis=1, keepdims=True)).T
+    made = np.empty((count, 3, 4))
+    made[:, 0, :3] = np.stack([1 - 2 * (y * y + z * z), 2 * (x * y - z * w), 2 * (x * z + y * w)], 1)
+    made[:, 1, :3] = np.stack([2 * (x * y + z * w), 1 - 2 * (x * x + z * z), 2 * (y * z - x * w)], 1)
+    made[:, 2, :3] = np.stack([2 * (x * z - y * w), 2 * (y * z + x * w), 1 - 2 * (x * x + y * y)], 1)
+    made[:, :, 3] = RANDOM.uniform(-spread, spread, (count, 3))
+    return made
+
+
+def at(x, y=0.0, z=0.0):
+    return np.hstack([np.eye(3), [[x], [y], [z]]])
+
+
+POINTS1, POINTS2 = RANDOM.normal(size=(60, 3)), RANDOM.normal(size=(60, 3))
+X1, X2 = poses(3000), poses(3000)
+
+
+def pair():
+    return sp.Pair(sp.Shape(POINTS1), sp.Shape(POINTS2))
+
+
+class Placed(ctypes.Structure):
+    _fields_ = [("shape", ctypes.c_void_p), ("pose", ctypes.c_void_p)]
+
+
+@pytest.mark.skipif("SWIFTPROX_LIBRARY" not in os.environ, reason="SWIFTPROX_LIBRARY names no library")
+def test_the_bits_are_those_of_c():
+    library = ctypes.CDLL(os.environ["SWIFTPROX_LIBRARY"])
+
+    def shape(points):
+        made = ctypes.c_void_p()
+        assert library.swiftprox_shape_create_from_points(points.ctypes.data_as(ctypes.c_void_p), ctypes.c_size_t(len(points)), None,
+                                                          ctypes.byref(made)) == 0
+        return made
+
+    one, two, cache = shape(POINTS1), shape(POINTS2), ctypes.create_string_buffer(96)
+    said = np.zeros(1000, sp.dtype("distance"))
+    for k in range(1000):
+        assert library.swiftprox_pair_distance(Placed(one, X1[k].ctypes.data), Placed(two, X2[k].ctypes.data), cache, None,
+                                               ctypes.c_void_p(said[k:].ctypes.data)) == 0
+    together = pair().distances(X1[:1000], X2[:1000])
+    single = pair()
+    for name in said.dtype.names:
+        assert said[name].tobytes() == together[name].tobytes(), name
+    for k in range(1000):
+        answer = single.distance(X1[k], sp.Pose(X2[k]))
+        assert (answer.distance, answer.lower, answer.upper) == (said["distance"][k], said["lower"][k], said["upper"][k])
+        assert np.array_equal(answer.world1, said["world1"][k], equal_nan=True)
+
+
+def test_threads_change_no_bit():
+    names = sp.dtype("distance").names
+    one, two = pair().distances(X1, X2), pair().distances(X1, X2, threads=2)
+    assert all(one[name].tobytes() == two[name].tobytes() for name in names)
+
+
+def test_threads_that_share_a_pair_and_a_scene_take_turns():
+    shared, scene, wrong = pair(), sp.Scene(), []
+    ids = [scene.add(sp.Shape.sphere(0.5), at(2.0 * k)) for k in range(4)]
+
+    def work():
+        for k in range(300):
+            answer = shared.distance(X1[k], X2[k])
+            if (answer.outcome == sp.Outcome.INTERSECTING) != (verdicts[k] == sp.Outcome.INTERSECTING):
+                wrong.append(k)
+            scene.set_poses(X1[:4], ids)
+            scene.within()
+            shared.distances(X1[:50], X2[:50], threads=2)
+
+    verdicts = pair().distances(X1[:300], X2[:300])["outcome"]
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(60)
+    assert not any(thread.is_alive() for thread in threads) and not wrong
+
+
+def test_answers_verify_and_forged_ones_do_not():
+    bodies = sp.Pair(sp.Shape.box(1, 1, 1), sp.Shape.sphere(0.5))
+    answer = bodies.distance(EYE, at(4))
+    assert answer.outcome == sp.Outcome.SEPARATED and answer.lower <= 2.5 <= answer.upper and answer.feature1[0] == "face"
+    assert np.allclose(answer.world1, [1, 0, 0]) and np.allclose(answer.normal, [-1, 0, 0])
+    bodies.verify(EYE, at(4), answer)
+    with pytest.raises(sp.Unverified):
+        bodies.verify(EYE, at(5), answer)
+    boxes = sp.Pair(sp.Shape.box(1, 1, 1), sp.Shape.box(1, 1, 1))
+    manifold = boxes.manifold(EYE, at(0, 0, 1.9))
+    assert len(manifold.points) == 4 and manifold.lower <= -0.1 <= manifold.upper
+    boxes.verify(EYE, at(0, 0, 1.9), manifold)
+    cast = bodies.cast(EYE, sp.Motion.between(at(4), at(0)))
+    assert cast.outcome == "hit" and cast.t_lower <= 0.625 <= cast.t_upper
+    bodies.verify(EYE, sp.Motion.between(at(4), at(0)), cast)
+    signed = boxes.signed(EYE, at(0, 0, 1.5))
+    assert signed.lower <= -0.5 <= signed.upper < 0
+
+
+def test_poses_come_in_many_forms():
+    bodies = sp.Pair(sp.Shape.box(1, 1, 1), sp.Shape.sphere(0.5))
+    four = np.vstack([at(4), [0, 0, 0, 1]])
+    expected = bodies.distance(sp.Pose(), at(4)).distance
+    for pose in (four, four.T.copy().T, four.astype(np.float32), four.tolist(), at(4).tolist(), sp.Pose(four), four.astype(int)):
+        assert bodies.distance(EYE, pose).distance == expected
+    assert (bodies.distances(EYE, np.stack([four] * 5))["distance"] == expected).all()
+    assert len(bodies.distances(EYE, np.empty((0, 3, 4)))) == 0
+    assert np.array_equal(sp.Pose(four).matrix, at(4))
+
+
+def refusals():
+    bodies = sp.Pair(sp.Shape.box(1, 1, 1), sp.Shape.sphere(0.5))
+    four = np.vstack([at(4), [0, 0, 0, 1]])
+    scene = sp.Scene()
+    one = scene.add(sp.Shape.sphere(1))
+    nan = np.full((3, 4), np.nan)
+    return [
+        (lambda: bodies.distance(four.T, EYE), "column-major"),
+        (lambda: bodies.distance(at(4).T, EYE), "column-major"),
+        (lambda: bodies.distance(np.ones((4, 4)), EYE), "last row"),
+        (lambda: bodies.distance(at(4).ravel(), EYE), "reshape"),
+        (lambda: bodies.distance(nan, EYE), "finite"),
+        (lambda: bodies.distance(2 * EYE, EYE), ""),
+        (lambda: bodies.distance([None], EYE), "pose1"),
+        (lambda: bodies.distance("text", EYE), "pose1"),
+        (lambda: bodies.distance([EYE, EYE], EYE), "one is wanted"),
+        (lambda: bodies.distance(EYE, EYE, -1), ""),
+        (lambda: bodies.distances(X1[:3], X2[:4]), "3 poses"),
+        (lambda: bodies.distances(X1[:3], X2[:3], threads=0), "threads"),
+        (lambda: bodies.distances(np.concatenate([X1[:2000], nan[None]]), EYE), ""),
+        (lambda: bodies.verify(EYE, EYE, 3), "answer"),
+        (lambda: bodies.cast(EYE, EYE, -1), ""),
+        (lambda: sp.Shape(np.zeros((4, 2))), "(4, 2)"),
+        (lambda: sp.Shape(np.zeros((4, 3))), ""),
+        (lambda: sp.Shape(POINTS1, policy="none"), "policy"),
+        (lambda: sp.Shape(POINTS1, [[0, 1, -2]]), "negative"),
+        (lambda: sp.Shape(POINTS1, [[0, 1, 99]]), ""),
+        (lambda: sp.Shape(POINTS1, np.zeros((2, 3))), "whole"),
+        (lambda: sp.Shape.box(-1, 1, 1), ""),
+        (lambda: sp.Shape.sphere(float("nan")), ""),
+        (lambda: scene.remove(12345), ""),
+        (lambda: scene.set_poses(X1[:2]), ""),
+        (lambda: scene.set_poses(X1[:2], [one]), "1 ids"),
+        (lambda: scene.add([]), ""),
+        (lambda: scene.ray([0, 0], [1, 0, 0]), "(2,)"),
+        (lambda: scene.ray([0, 0, 0], [0, 0, 0]), ""),
+        (lambda: scene.ray([0, 0, 0], [1, 0, 0], hits="last"), "hits"),
+        (lambda: scene.first_hit([one], EYE[None]), "times"),
+        (lambda: scene.least_distance([one], poses=EYE), "poses"),
+        (lambda: sp.Ground([[0, 0, 0]], [[0, 0, 9]]), ""),
+        (lambda: sp.dtype("nothing"), "dtype"),
+    ]
+
+
+@pytest.mark.parametrize("number", range(len(refusals())))
+def test_bad_input_is_an_exception_with_a_message(number):
+    call, words = refusals()[number]
+    with pytest.raises(ValueError) as caught:
+        call()
+    assert isinstance(caught.value, sp.Error) and words in str(caught.value) and len(str(caught.value)) > 10
+
+
+def test_files(tmp_path):
+    with pytest.raises(sp.FileError, match="nowhere"):
+        sp.load(tmp_path / "nowhere.off")
+    (tmp_path / "a.off").write_text("OFF\n4 4 0\n0 0 0\n1 0 0\n0 1 0\n0 0 1\n3 0 2 1\n3 0 1 3\n3 0 3 2\n3 1 2 3\n")
+    shape = sp.load(str(tmp_path / "a.off"))
+    assert shape.vertex_count == 4 and abs(shape.volume - 1 / 6) < 1e-15
+    assert sp.Shape(shape.vertices, [[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]]).face_count == 4
+
+
+def test_a_scene():
+    scene = sp.Scene(threads=2)
+    box, ball = sp.Shape.box(1, 1, 1), sp.Shape.sphere(0.5)
+    first, second, third = scene.add(box, user_data=5), scene.add([ball], at(0, 0, 1.4)), scene.add(ball, at(4))
+    near = scene.within(0.5)
+    assert near["object1"].tolist() == [first] and near["object2"].tolist() == [second] and near["user_data1"].tolist() == [5]
+    contacts, points = scene.contacts()
+    assert len(contacts) == 1 and contacts["point_count"][0] == len(points) == 1 and points["lower"][0] <= -0.1 <= points["upper"][0]
+    assert abs(scene.least_distance([third])["lower"] - 2.5) < 1e-12
+    states = np.stack([[at(4)], [at(3)], [at(1)]])
+    many = scene.least_distance([third], poses=states)
+    assert np.allclose(many["upper"], [2.5, 1.5, 0], atol=1e-12) and many["object2"].tolist() == [first] * 3
+    hit = scene.first_hit([third], states, in_order=True)
+    assert (hit.time, hit.object1, hit.object2) == (2, third, first)
+    assert scene.first_hit([third], states[:2]).time is None
+    hits = scene.ray([9, 0, 0], [-1, 0, 0], hits="all")
+    assert hits["object"].tolist() == [third, first] and hits["entry"][0][0] <= 4.5 <= hits["entry"][0][1]
+    cast = scene.cast([third], sp.Motion.between(at(4), at(0)))
+    assert cast.outcome == "hit" and cast.t_lower <= 0.625 <= cast.t_upper and cast.object2 == first
+    scene.set_poses(np.stack([at(0), at(9), at(18)]))
+    assert len(scene.within(1)) == 0
+    scene.remove(second)
+    assert len(scene.within()) == 1
+
+
+def test_a_ground():
+    ground = sp.Ground([[-9, -9, 0], [9, -9, 0], [0, 9, 0]], [[0, 1, 2]])
+    box = sp.Shape.box(1, 1, 1)
+    assert abs(ground.distance(box, at(0, 0, 3)).distance - 2) < 1e-12
+    contacts, points = ground.contacts(box, at(0, 0, 0.9))
+    assert len(contacts) == 1 and len(points) == 4 and np.allclose(contacts["normal"][0], [0, 0, 1])
