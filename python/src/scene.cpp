@@ -107,7 +107,6 @@ nb::tuple contacts(Scene &scene, double max_distance, bool reduce)
 {
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     query.distance_tolerance = max_distance;
-    query.margin = max_distance;
     query.detail = reduce ? SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD : SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
     std::vector<SceneContact> all;
     std::vector<swiftprox_manifold_point> points;

@@ -105,7 +105,7 @@ impl Visit for Least<'_> {
             }
             // The upper end may be infinite: distances need not be doubles.
             Outcome::Separated
-                if !self.is_verdict && !(self.is_found() && answer.upper >= self.nearest.answer.upper) =>
+                if !self.is_verdict && (!self.is_found() || answer.upper < self.nearest.answer.upper) =>
             {
                 self.enough = answer.upper;
                 self.nearest = GroundDistance { answer, triangle };
