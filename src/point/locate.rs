@@ -24,8 +24,23 @@ pub fn locate_point(body: Placed, point: [f64; 3]) -> Result<PointAnswer> {
         let there = Pose::new(&Matrix::identity(), &point.into());
         let (mut cache, mut signed) = (SignedDistanceCache::default(), SignedDistance::default());
         signed_distance([vertex.at(&there), body], &mut cache, &PairConfig::default(), &mut signed)?;
-        Ok(PointAnswer::new(location(&signed), &signed))
+        let answer = PointAnswer::new(location(&signed), &signed);
+        Ok(PointAnswer { normal: normal(&answer, &point.into()), ..answer })
     })
+}
+
+/// Below this share of the largest coordinate, the rounding of the nearest point hides the direction to it.
+const TOO_NEAR: f64 = 1e-6;
+
+/// The direction from the nearest point to a point outside. That which proves the distance may lean along the short edge of a
+/// sliver; it stays where points are too near to tell.
+fn normal(answer: &PointAnswer, point: &Vector) -> [f64; 3] {
+    let (nearest, largest) = (Vector::from(answer.world), point.amax());
+    let along = point - nearest;
+    let length = along.norm();
+    // False for a NaN.
+    let tells = length > TOO_NEAR * nearest.amax().max(largest) && length < f64::INFINITY;
+    if answer.location == PointLocation::Outside && tells { (along / length).into() } else { answer.normal }
 }
 
 /// If a common point is all of one body, the depth is 0 just where it is on the surface of the other. A greater depth is never

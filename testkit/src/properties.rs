@@ -46,7 +46,7 @@ pub struct Tally {
     pub pairs: usize,
     pub queries: usize,
     intersecting: usize,
-    by_decider: [usize; 8],
+    by_decider: [usize; 9],
     /// The most that one query took.
     pub most: Work,
 }
@@ -81,7 +81,8 @@ impl AddAssign for Tally {
 
 impl fmt::Display for Tally {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let [_, marched, coherent, fallback, exact, .., spheres] = self.by_decider;
+        let [_, marched, coherent, fallback, exact, _, _, apart, within] = self.by_decider;
+        let spheres = apart + within;
         let Tally { pairs, queries, intersecting, .. } = self;
         write!(f, "{pairs} pairs, {queries} queries ({intersecting} intersecting): ")?;
         write!(f, "{marched} marched, {coherent} coherent, {spheres} spheres, {fallback} fallback, {exact} exact; ")?;

@@ -179,7 +179,8 @@ fn closed_forms_of_flights_are_told_to_the_double_or_to_rounding() {
             assert!(is_refused(pair, &config, &CastAnswer { t_hi: first.next_down(), ..answer }));
             if margin > 0.0 {
                 let apart = 1.5 - 2.0 * answer.t_hi;
-                assert!(answer.upper >= apart && answer.upper < apart + 1e-14);
+                // The width that docs/conventions.md promises, of centres at most 1.25 apart.
+                assert!(answer.upper >= apart && answer.upper < apart + 2e-14 * 1.25, "{:e}", answer.upper - apart);
                 for upper in [apart.next_down(), 0.0] {
                     assert!(is_refused(pair, &config, &CastAnswer { upper, ..answer }), "{upper:e}");
                 }

@@ -240,7 +240,9 @@ fn points_in_needles() {
             _ => 0.0,
         };
         assert_eq!(if answer.distance == 0.0 { 0.0 } else { answer.distance.signum() }, sign, "{}", told());
-        assert!(answer.upper - answer.lower <= 2e-14 * (1.0 + pose.translation().amax()), "{}", told());
+        // docs/conventions.md promises this share of the radius.
+        let radius = points.iter().map(Vector::norm).fold(1.0, f64::max);
+        assert!(answer.upper - answer.lower <= 2e-14 * (radius + pose.translation().amax()), "{}", told());
         // The nearest point is as far away, along the normal.
         let to_point = at - Vector::from(answer.world);
         let off = 4e-15 + (answer.upper - answer.lower);

@@ -54,7 +54,7 @@ pub struct Tally {
     pub missed: usize,
     pub not_a_number: usize,
     /// Queries by [`DecidedBy`].
-    pub by_decider: [usize; 8],
+    pub by_decider: [usize; 9],
     pub most_marching_steps: u32,
     pub most_fallback_iterations: u32,
     pub most_exact_iterations: u32,
@@ -104,7 +104,8 @@ impl Tally {
     ];
 
     pub fn row(&self) -> [usize; 16] {
-        let [unnamed, marched, coherent, fallback, exact, .., spheres] = self.by_decider;
+        let [unnamed, marched, coherent, fallback, exact, _, _, apart, within] = self.by_decider;
+        let spheres = apart + within;
         let Tally { sequences, poses, intersecting, wrong, missed, not_a_number, vertices_there, .. } = *self;
         let [marching, falling, exactly] =
             [self.most_marching_steps, self.most_fallback_iterations, self.most_exact_iterations].map(|n| n as usize);

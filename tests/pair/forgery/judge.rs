@@ -2,7 +2,7 @@
 
 use dashu_ratio::RBig;
 use swiftprox::math::{Pose, Vector};
-use swiftprox::pair::{Feature, FeatureKind, Outcome, PairAnswer};
+use swiftprox::pair::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer};
 use swiftprox::polyhedron::Polyhedron;
 use swiftprox::solve::exact;
 
@@ -62,6 +62,10 @@ impl<'a> Judge<'a> {
             Outcome::Intersecting if upper > 0.0 => return Some("a distance of bodies that intersect"),
             Outcome::Intersecting => {
                 if self.truth.intersecting() && known.is_some_and(|known| is_same_proof(answer, known)) {
+                } else if answer.decided_by == DecidedBy::InscribedSpheres && answer.proof_count == 0 {
+                    if !self.truth.intersecting() {
+                        return Some("bodies that are apart");
+                    }
                 } else if !self.is_proof(answer) {
                     return Some("the proof proves nothing");
                 }
