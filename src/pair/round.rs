@@ -306,10 +306,9 @@ impl<L: Lanes> Nearest<L> {
 #[inline(always)]
 fn interval(distance: f64, least: f64, size: f64, separation: f64) -> Interval {
     if size == 0.0 {
-        return Interval {
-            lower: least - U * 10.0 * separation,
-            upper: distance + U * (2.0 * separation + 4.0 * distance),
-        };
+        // A square that underflows bounds no distance.
+        let upper = if least.is_nan() { f64::NAN } else { distance + U * (2.0 * separation + 4.0 * distance) };
+        return Interval { lower: least - U * 10.0 * separation, upper };
     }
     Interval {
         lower: least - U * (20.0 * size + 14.0 * separation),

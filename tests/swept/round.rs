@@ -111,3 +111,25 @@ fn doubles_tell_what_round_bodies_are_to_each_other() {
         assert_eq!(cache, PairCache::default());
     }
 }
+
+/// Balls and points so near that the square of their distance underflows. Cause: that of two balls was taken for right to rounding,
+/// and balls apart by 2e-166 were told to intersect, from distances of 1e-161 down.
+#[test]
+fn tiny_balls_are_told_apart() {
+    for exponent in [-70, -100, -140, -155, -160, -161, -162, -163, -165, -200, -290, -300, -306] {
+        let unit = 10.0_f64.powi(exponent);
+        for share in [0.0, 0.2, 0.45, 0.49999, 0.50001, 0.6, 3.0] {
+            let ball = swept(&[Vector::zeros()], share * unit);
+            let there = Pose::new(&Matrix::identity(), &Vector::new(unit, 0.0, 0.0));
+            let bodies = [ball.at(&Pose::IDENTITY), ball.at(&there)];
+            let expected = if share < 0.5 { Outcome::Separated } else { Outcome::Intersecting };
+            let (mut answer, mut signed) = (PairAnswer::default(), SignedDistance::default());
+            intersection(bodies, &mut PairCache::default(), &PairConfig::default(), &mut answer).unwrap();
+            signed_distance(bodies, &mut SignedDistanceCache::default(), &PairConfig::default(), &mut signed).unwrap();
+            let told = || format!("{exponent} {share} {answer:?} {signed:?}");
+            assert_eq!([answer.outcome, signed.outcome], [expected; 2], "{}", told());
+            let (truth, slack) = (unit * (1.0 - 2.0 * share), unit * 1e-14);
+            assert!(signed.lower <= truth + slack && signed.upper >= truth - slack, "{}", told());
+        }
+    }
+}
