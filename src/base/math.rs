@@ -19,6 +19,20 @@ pub const ROTATION_LIMIT: f64 = 1e-2;
 /// The spectral norm of a rotation whose RᵀR − I has entries up to [`ROTATION_LIMIT`] is at most √(1 + 3·1e-2).
 pub const STRETCH: f64 = 1.015;
 
+/// The length of a vector whose squares may leave the range of doubles; NaN where a coordinate is.
+#[inline]
+pub fn length(v: &Vector) -> f64 {
+    let square = v.norm_squared();
+    if (f64::MIN_POSITIVE..f64::INFINITY).contains(&square) { square.sqrt() } else { scaled_length(v) }
+}
+
+#[cold]
+fn scaled_length(v: &Vector) -> f64 {
+    // `amax` passes over a NaN.
+    let scale = if v.iter().any(|x| x.is_nan()) { f64::NAN } else { v.amax() };
+    if scale > 0.0 && scale.is_finite() { (v / scale).norm() * scale } else { scale }
+}
+
 /// `x` put into [`low`, `high`]; `low` for a NaN. In one comparison each, which `f64::max` and `f64::min` are not: they treat NaN
 /// differently.
 #[inline(always)]

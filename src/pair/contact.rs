@@ -1,7 +1,7 @@
 //! Witness points, normal and features of an answer, in the caller's frames and numbering.
 
 use super::answer::{Feature, FeatureKind, PairAnswer};
-use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, UNIT_ROUNDOFF, Vector, clamp};
+use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, UNIT_ROUNDOFF, Vector, clamp, length};
 use crate::base::simd::{Lanes, Portable};
 use crate::polyhedron::{Edge, Face, NONE, Polyhedron};
 use crate::solve::certificate::Minimum;
@@ -320,10 +320,12 @@ pub fn faces_at(polyhedron: &Polyhedron, vertex: u32) -> impl Iterator<Item = u3
 }
 
 /// The distance of a point from a face; 0 within the rounding of its planes. At the sharp corner of a sliver a point may
-/// violate the sides by next to nothing and still be far away, so that the sides only tell whether it is inside.
+/// violate the sides by next to nothing and still be far away, so that the sides only tell whether it is clearly inside: of a
+/// sliver thinner than rounding they tell nothing.
 fn misses_face(polyhedron: &Polyhedron, face: u32, point: &Vector) -> f64 {
     let record = &polyhedron.faces[face as usize];
-    let misses = if side_values(polyhedron, record, point).all(|value| value >= 0.0) {
+    let clearly = 0.5 * rounding(polyhedron);
+    let misses = if side_values(polyhedron, record, point).all(|value| value > clearly) {
         record.planes.value(0, point).abs()
     } else {
         let range = record.first_side as usize..(record.first_side + record.side_count) as usize;
@@ -344,7 +346,7 @@ fn distance_to_edge(polyhedron: &Polyhedron, edge: &Edge, point: &Vector) -> f64
     let from_tail = point - polyhedron.vertices[edge.tail() as usize].position;
     let direction = edge_direction(&edge.planes);
     let t = clamp(from_tail.dot(&direction), 0.0, edge.length);
-    (from_tail - direction * t).norm()
+    length(&(from_tail - direction * t))
 }
 
 /// Convex weights of an enclosing tetrahedron, improved by iterative refinement: those from its determinants lose digits where it

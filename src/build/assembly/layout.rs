@@ -1,7 +1,7 @@
 //! Vertices, edges and faces with their planes, as marching wants them in memory.
 
 use crate::base::error::{Error, Result};
-use crate::base::math::{UNIT_ROUNDOFF, Vector};
+use crate::base::math::{UNIT_ROUNDOFF, Vector, length};
 use crate::base::memory::{copied, extend, filled, push, reserve, with_capacity};
 use crate::base::normal::unit;
 use crate::base::progress::Progress;
@@ -49,7 +49,7 @@ const SMALLEST_SINE: f64 = 64.0 * UNIT_ROUNDOFF;
 pub(super) fn segment_edge(positions: &[Vector]) -> Edge {
     let (tail, head) = (&positions[0], &positions[1]);
     let direction = unit(&(head - tail));
-    let length = (head - tail).norm();
+    let length = length(&(head - tail));
     // As of unused sides: every point is far inside.
     let mut planes = PlaneBlock { x: [0.0; 4], y: [0.0; 4], z: [0.0; 4], offset: [f64::MAX; 4] };
     let start = direction.dot(tail);
@@ -78,7 +78,7 @@ pub(super) fn edge_between(
 ) -> Edge {
     let (a, b) = (&positions[tail as usize], &positions[head as usize]);
     let direction = unit(&(b - a));
-    let length = (b - a).norm();
+    let length = length(&(b - a));
     let normals = [normals[left as usize], normals[right as usize]];
     let (side_left, offset_left) = side_plane(positions, &normals[0], tail, head);
     let (side_right, offset_right) = side_plane(positions, &normals[1], head, tail);

@@ -1,6 +1,7 @@
 //! Shared parts of all checks: lengths, their rounding allowance, and the refusal.
 
 use crate::base::error::{Error, Result};
+pub(super) use crate::base::math::length;
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::base::memory::{in_integers, listed};
 use crate::base::simd::environment::with_default;
@@ -48,13 +49,6 @@ pub(super) fn check_unit(normal: &Vector) -> Result<()> {
         return Ok(());
     }
     Err(unverified(format!("the normal is not a unit vector: {normal:?}")))
-}
-
-/// The length of a vector whose squares may leave the range of doubles; NaN where a coordinate is.
-pub(super) fn length(v: &Vector) -> f64 {
-    // `amax` passes over a NaN.
-    let scale = if v.iter().any(|x| x.is_nan()) { f64::NAN } else { v.amax() };
-    if scale > 0.0 && scale.is_finite() { (v / scale).norm() * scale } else { scale }
 }
 
 pub(super) fn too_large() -> Error {
