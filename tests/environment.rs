@@ -61,8 +61,8 @@ fn integers_decide_alike_in_every_environment() {
     }
 }
 
-/// Round bodies answer alike in every environment, from Rust, too. Their radii were added outside the default one: rounded down, the
-/// upper end of a depth was an ulp short, and where subnormal numbers are flushed a tiny radius counted as none.
+/// Round bodies answer alike in every environment, from Rust, too. Their radii were added outside the default one: rounded down,
+/// the upper end of a depth was an ulp short; where subnormal numbers are flushed a tiny radius counted as none.
 #[test]
 fn round_bodies_answer_alike_in_every_environment() {
     let tetrahedron = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.0], [0.9, 1.0, 0.2], [0.2, 0.3, 1.0]].map(Vector::from);

@@ -302,7 +302,7 @@ impl<L: Lanes> Nearest<L> {
 /// Above: the difference of tails is off by 8.6ρ + 4σ, the ways to the heads by 10.6ρ for both ends and 2.1ρ for the difference;
 /// their multiples and sums add 2.1ρ and 2(σ + 1.02ρ): 25.5ρ + 6σ. The length itself is off by 2.1u, the sum by one.
 ///
-/// The difference of two points without size is that of the origins, off by 2σ; what is made of it by 7.1σ below, as no sum cancels.
+/// The difference of two points without size is that of the origins, off by 2σ; what is made of it by 7.1σ below: no sum cancels.
 #[inline(always)]
 fn interval(distance: f64, least: f64, size: f64, separation: f64) -> Interval {
     if size == 0.0 {

@@ -105,7 +105,7 @@ fn what_is_asked_is_checked() {
 }
 
 /// A body so far away that the distance is no double. Cause: a triangle was taken for the nearest where its upper end was less than
-/// the one before, which is infinite at first; so no triangle was named, and the pair was beyond a tolerance that nothing is beyond.
+/// the one before, which is infinite at first; so no triangle was named.
 #[test]
 fn a_distance_beyond_the_doubles_names_its_triangle() {
     let corners = [[0.5, -0.3, -0.8], [0.6, 0.8, -0.2], [-0.9, -0.2, -0.5]].map(Vector::from);

@@ -28,8 +28,8 @@ fn ends(random: &mut Random, family: usize, size: f64) -> Vec<Vector> {
     if first == second { vec![first * size] } else { vec![first * size, second * size] }
 }
 
-/// Verdict, intervals, points and normals of every query hold, for pairs that touch, cross, are parallel or nearly so, of no length,
-/// tiny, huge and of skewed poses.
+/// Verdict, intervals, points and normals of every query hold: for pairs that touch, cross, are parallel or nearly so, of no
+/// length, tiny, huge and of skewed poses.
 #[test]
 fn all_queries_say_what_rationals_say() {
     let mut random = Random::new(0x0b11);
