@@ -35,20 +35,6 @@ struct Cast {
     swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
 };
 
-/// As `run`, for a pair. The lock is taken without the GIL, so that neither waits for the other.
-template <class Call> void run_alone(Pair &pair, Call call)
-{
-    swiftprox_status status;
-    {
-        nb::gil_scoped_release released;
-        const std::lock_guard<std::mutex> alone(pair.lock);
-        status = call();
-    }
-    if (status != SWIFTPROX_OK) {
-        fail(status, swiftprox_library_last_error_message());
-    }
-}
-
 swiftprox_pair_config config_of(double max_distance)
 {
     swiftprox_pair_config config = SWIFTPROX_PAIR_CONFIG_DEFAULT;

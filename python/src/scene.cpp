@@ -27,20 +27,6 @@ struct Ground {
     ~Ground() { swiftprox_ground_release(ground); }
 };
 
-/// As `run`, for a scene; what the scene owns is copied before the lock is free.
-template <class Call> void run_alone(Scene &scene, Call call)
-{
-    swiftprox_status status;
-    {
-        nb::gil_scoped_release released;
-        const std::lock_guard<std::mutex> alone(scene.lock);
-        status = call();
-    }
-    if (status != SWIFTPROX_OK) {
-        fail(status, swiftprox_library_last_error_message());
-    }
-}
-
 std::vector<swiftprox_object_id> read_ids(nb::handle ids, const char *name)
 {
     std::vector<size_t> shape;

@@ -3,6 +3,8 @@
 
 #include "arrays.hpp"
 
+#include <mutex>
+
 /// A share of a shape of C.
 class Shape
 {
@@ -17,6 +19,21 @@ class Shape
   private:
     const swiftprox_shape *shape_;
 };
+
+/// A call of C for what calls take turns at. The lock is taken without the GIL, so that neither waits for the other; what is the
+/// owner's is copied before the lock is free.
+template <class Owner, class Call> void run_alone(Owner &owner, Call call)
+{
+    swiftprox_status status;
+    {
+        nb::gil_scoped_release released;
+        const std::lock_guard<std::mutex> alone(owner.lock);
+        status = call();
+    }
+    if (status != SWIFTPROX_OK) {
+        fail(status, swiftprox_library_last_error_message());
+    }
+}
 
 /// A motion from Python: a Motion, or a pose, which rests.
 swiftprox_motion read_motion(nb::handle source, const char *name);

@@ -16,6 +16,26 @@ use crate::solve::certificate::{Interval, reciprocal_length};
 use crate::solve::frame::{Frame, RIGID_TOGETHER, are_acceptable};
 use crate::solve::state::FeatureId;
 
+/// Where the surfaces of an answer go.
+struct Surface<'a> {
+    local: [&'a mut [f64; 3]; 2],
+    world: [&'a mut [f64; 3]; 2],
+    normal: &'a mut [f64; 3],
+    features: [&'a mut Feature; 2],
+}
+
+/// That of an answer of either kind.
+macro_rules! surface_of {
+    ($answer:ident) => {
+        Surface {
+            local: [&mut $answer.local1, &mut $answer.local2],
+            world: [&mut $answer.world1, &mut $answer.world2],
+            normal: &mut $answer.normal,
+            features: [&mut $answer.feature1, &mut $answer.feature2],
+        }
+    };
+}
+
 /// Whether both bodies are points or segments.
 #[inline(always)]
 pub(super) fn are_round(bodies: &[Placed; 2]) -> bool {
@@ -112,14 +132,7 @@ impl Round<'_> {
                     }
                     return true;
                 }
-                let PairAnswer { local1, local2, world1, world2, normal, feature1, feature2, .. } = answer;
-                let surface = Surface {
-                    local: [local1, local2],
-                    world: [world1, world2],
-                    normal,
-                    features: [feature1, feature2],
-                };
-                self.fill(frame, &nearest, surface);
+                self.fill(frame, &nearest, surface_of!(answer));
             }
             Place::Signed(answer) => {
                 if outcome == Outcome::Beyond {
@@ -131,14 +144,7 @@ impl Round<'_> {
                 }
                 answer.outcome = outcome;
                 (answer.distance, answer.lower, answer.upper) = (distance, lower, upper);
-                let SignedDistance { local1, local2, world1, world2, normal, feature1, feature2, .. } = answer;
-                let surface = Surface {
-                    local: [local1, local2],
-                    world: [world1, world2],
-                    normal,
-                    features: [feature1, feature2],
-                };
-                self.fill(frame, &nearest, surface);
+                self.fill(frame, &nearest, surface_of!(answer));
             }
         }
         true
@@ -163,14 +169,6 @@ impl Round<'_> {
             *feature = label(body.polyhedron, nearest.features[i], &Vector::zeros());
         }
     }
-}
-
-/// Where the surfaces of an answer go.
-struct Surface<'a> {
-    local: [&'a mut [f64; 3]; 2],
-    world: [&'a mut [f64; 3]; 2],
-    normal: &'a mut [f64; 3],
-    features: [&'a mut Feature; 2],
 }
 
 /// The common case: poses that are right up to rounding.

@@ -33,22 +33,9 @@ pub(super) fn query(
     if !config.is_in_range(query) {
         return Err(config.first_fault());
     }
-    if environment::is_default() {
-        query_in_default(query, bodies, radii, cache, config, answer)
-    } else {
-        with_default(|| query_in_default(query, bodies, radii, cache, config, answer))
+    if !environment::is_default() {
+        return with_default(|| self::query(query, bodies, radii, cache, config, answer));
     }
-}
-
-#[inline(always)]
-fn query_in_default(
-    query: Query,
-    bodies: &[Placed; 2],
-    radii: &Radii,
-    cache: &mut PairCache,
-    config: &PairConfig,
-    answer: &mut PairAnswer,
-) -> Result<()> {
     let is_verdict = query == Query::Intersection && config.distance_tolerance == f64::INFINITY;
     let tolerance = if is_verdict { 0.0 } else { config.distance_tolerance };
     if are_round(bodies) {

@@ -1,10 +1,10 @@
 //! The checks of polyhedra that are apart: the interval, less the swept radii of the bodies, the normal and the points.
 
 use super::bounds::{Bounds, PointInside};
-use super::checks::{allowed, between_origins, check_normal, check_unit, length, too_large, unverified};
+use super::checks::{allowed, between_origins, check_normal, check_unit, too_large, unverified};
 use super::witness::{Witness, difference_of};
 use crate::base::error::{Error, Result};
-use crate::base::math::{Pose, Vector};
+use crate::base::math::{Pose, Vector, length};
 use crate::base::memory::listed;
 use crate::pair::answer::{Outcome, PairAnswer};
 use crate::pair::radii::{Radii, sum_above, sum_below};

@@ -1,9 +1,8 @@
 //! Bounds of the distance in double-double arithmetic: from below by the gap along a normal, from above by a point of each body.
 //! They hold to the last bit; where they do not suffice, nothing is reported, and integers decide.
 
-use super::checks::length;
 use crate::base::double_double::{DoubleDouble, WideVector, narrow, two_product, wide_difference, wide_dot, widen};
-use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp, divisor, power_of_two};
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp, divisor, length, power_of_two};
 use crate::base::scalar::Ring;
 use crate::polyhedron::{Polyhedron, Vertex};
 use crate::solve::exact::VertexPair;

@@ -1,8 +1,7 @@
 //! Shared parts of all checks: lengths, their rounding allowance, and the refusal.
 
 use crate::base::error::{Error, Result};
-pub(super) use crate::base::math::length;
-use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, length};
 use crate::base::memory::{in_integers, listed};
 use crate::base::simd::environment::with_default;
 use crate::pair::answer::PairAnswer;

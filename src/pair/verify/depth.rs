@@ -7,14 +7,12 @@
 
 use super::apart::{check_on_features, check_points, verify_disjoint};
 use super::bounds::Bounds;
-use super::checks::{
-    allowed, between_origins, check_normal, check_unit, in_default, length, proof_of, too_large, unverified,
-};
+use super::checks::{allowed, between_origins, check_normal, check_unit, in_default, proof_of, too_large, unverified};
 use super::facets;
 use super::numbers::{are_points_said, check_numbers};
 use crate::base::double_double::{narrow, wide_cross, wide_dot, widen};
 use crate::base::error::{Error, Result};
-use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector, clamp};
+use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector, clamp, length};
 use crate::base::memory::listed;
 use crate::base::scalar::determinant;
 use crate::pair::answer::{Outcome, PairAnswer};

@@ -3,12 +3,12 @@
 
 use super::apart::verify_disjoint;
 use super::bounds::{Bounds, Gap};
-use super::checks::{between_origins, in_default, length, too_large, unverified};
+use super::checks::{between_origins, in_default, too_large, unverified};
 use super::depth::prove_depth;
 use super::numbers::{Numbers, check_numbers};
 use super::witness::{Witness, difference_of};
 use crate::base::error::{Error, Result};
-use crate::base::math::{ROTATION_LIMIT, Vector};
+use crate::base::math::{ROTATION_LIMIT, Vector, length};
 use crate::pair::answer::{FeatureKind, Outcome, PairAnswer};
 use crate::pair::manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, id_of};
 use crate::pair::placed::Placed;

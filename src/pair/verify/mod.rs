@@ -13,7 +13,7 @@ mod depth;
 mod manifold;
 
 use crate::base::error::{Error, Result};
-use crate::base::math::{Pose, ROTATION_LIMIT, Vector};
+use crate::base::math::{Pose, ROTATION_LIMIT, Vector, length};
 use crate::base::memory::listed;
 use crate::pair::answer::{DecidedBy, Outcome, PairAnswer};
 use crate::pair::placed::Placed;
@@ -25,7 +25,7 @@ pub(crate) use bounds::Bounds;
 #[doc(hidden)]
 pub use bounds::{ERROR, over_both, plus_difference, turned};
 pub(crate) use checks::in_default;
-use checks::{allowed, between_origins, check_unit, length, proof_of, too_large, unverified};
+use checks::{allowed, between_origins, check_unit, proof_of, too_large, unverified};
 pub use depth::CLEAR;
 pub(crate) use depth::holds_ball;
 pub use depth::verify_depth;

@@ -1,7 +1,6 @@
 //! Whether the polygon of the caller's that is named holds a point of a face which several share.
 
-use super::checks::length;
-use crate::base::math::{Vector, clamp};
+use crate::base::math::{Vector, clamp, length};
 use crate::polyhedron::Polyhedron;
 
 /// By how much a point over a face is farther from the polygon of a label there than from the nearest of those that share the face.

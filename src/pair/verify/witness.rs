@@ -2,10 +2,10 @@
 //! world: a pose may stretch the object, and does not stretch the ball that is swept over it.
 
 use super::bounds::PointInside;
-use super::checks::{between_origins, length, unverified};
+use super::checks::{between_origins, unverified};
 use super::polygon::beyond_nearest;
 use crate::base::error::{Error, Result};
-use crate::base::math::{Pose, STRETCH, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{Pose, STRETCH, UNIT_ROUNDOFF as U, Vector, length};
 use crate::base::memory::listed;
 use crate::build::assembly::build;
 use crate::pair::answer::{Feature, FeatureKind, PairAnswer};
