@@ -215,6 +215,9 @@ impl Lanes for Symbolic {
     fn extreme_products(self, vectors: &[[[f32; 8]; 3]]) -> [f32; 2] {
         self.portable().extreme_products(vectors)
     }
+    fn farthest_product(self, vectors: &[[[f32; 8]; 3]]) -> (usize, [f32; 2]) {
+        self.portable().farthest_product(vectors)
+    }
     fn least(self) -> (f64, usize) {
         self.portable().least()
     }

@@ -16,6 +16,7 @@ use crate::polyhedron::contact_faces::ContactFaces;
 use crate::polyhedron::fan::{Fan, PointBlock};
 use crate::polyhedron::lookup::Lookup;
 use crate::polyhedron::polygon_search::PolygonSearch;
+use std::ops::RangeInclusive;
 
 /// No feature: in the edge slot of a neighbour that is not across an edge of a merged face, as the bevel of a blunt edge.
 pub const NONE: u32 = u32::MAX;
@@ -249,11 +250,18 @@ pub struct Polyhedron {
     /// The vertices in fours, for a body of at most [`MOST_IN_BLOCKS`]: to look at all of them is faster than a climb. The last
     /// block repeats the last vertex.
     pub vertex_blocks: Vec<PointBlock>,
+    /// The same in single precision, in eights, where that neither overflows nor underflows. The last block is filled with zeros,
+    /// which is the centre.
+    pub rough_blocks: Vec<[[f32; 8]; 3]>,
     /// For a body of few corners, the data that its depth in another is read from; see [`Fan`].
     pub fan: Option<Fan>,
     /// Faces as manifolds take them. Levels of detail have none.
     pub contact_faces: ContactFaces,
 }
+
+/// Radii of bodies whose vertices, and products of these with directions, are numbers of single precision: 2^±100.
+const IN_SINGLE_PRECISION: RangeInclusive<f64> =
+    f64::from_bits((1023 - 100) << 52)..=f64::from_bits((1023 + 100) << 52);
 
 /// Most vertices of a body that has them in blocks.
 pub const MOST_IN_BLOCKS: usize = 256;
@@ -268,6 +276,11 @@ impl Polyhedron {
         self.vertex_blocks = collected(few.chunks(4).map(|four| {
             let of = |axis: usize| std::array::from_fn(|i| four[i.min(four.len() - 1)].position[axis]);
             PointBlock { x: of(0), y: of(1), z: of(2) }
+        }))?;
+        let few = if IN_SINGLE_PRECISION.contains(&self.radius) { few } else { &[] };
+        self.rough_blocks = collected(few.chunks(8).map(|eight| {
+            [0, 1, 2]
+                .map(|axis| std::array::from_fn(|i| eight.get(i).map_or(0.0, |vertex| vertex.position[axis] as f32)))
         }))?;
         Ok(())
     }
@@ -301,6 +314,7 @@ impl Polyhedron {
             polygon_starts: copied(&self.polygon_starts)?,
             polygon_search: PolygonSearch::new(),
             vertex_blocks: copied(&self.vertex_blocks)?,
+            rough_blocks: copied(&self.rough_blocks)?,
             fan: self.fan.as_ref().map(Fan::copy).transpose()?,
             contact_faces: self.contact_faces.copy()?,
         })
@@ -483,6 +497,7 @@ impl Polyhedron {
             polygon_starts,
             polygon_search,
             vertex_blocks,
+            rough_blocks,
             fan,
             contact_faces,
             mass: _,
@@ -505,6 +520,7 @@ impl Polyhedron {
             + size_of_val(&polygon_starts[..])
             + polygon_search.heap_bytes()
             + size_of_val(&vertex_blocks[..])
+            + size_of_val(&rough_blocks[..])
             + fan.as_ref().map_or(0, Fan::heap_bytes)
             + contact_faces.heap_bytes()
             + lookup.heap_bytes()

@@ -18,7 +18,7 @@ fn pyramid(tip: Vector, up: f64) -> Shape {
 /// Where a cache has its pairs, triangles and counts: behind 16 bytes and two pyramids, behind 56 pairs, and behind 108 triangles.
 const PAIRS: usize = 16 + 2 * 88;
 const TRIANGLES: usize = PAIRS + 56 * 8;
-const COUNTS: usize = TRIANGLES + 108 * 7;
+const COUNTS: usize = TRIANGLES + 108 * 3;
 const _: () = assert!(size_of::<DepthCache>() == COUNTS + 4);
 
 /// A tetrahedron of four differences of the pyramids' vertices: tip and tip, and the corners of the first over the other tip.
@@ -36,7 +36,7 @@ fn tetrahedron(shapes: [&Shape; 2]) -> DepthCache {
         }
     }
     for (triangle, corners) in [[0, 1, 2], [0, 2, 3], [0, 3, 1], [3, 2, 1]].into_iter().enumerate() {
-        bytes[TRIANGLES + 7 * triangle..][..3].copy_from_slice(&corners);
+        bytes[TRIANGLES + 3 * triangle..][..3].copy_from_slice(&corners);
     }
     of_bytes(&bytes)
 }

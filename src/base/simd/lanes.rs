@@ -79,6 +79,8 @@ pub trait Lanes: Copy {
     fn greatest_product(self, vectors: [&[f32; 8]; 3]) -> (f32, usize);
     /// The least and the greatest of such products over many vectors; any if one is a NaN.
     fn extreme_products(self, vectors: &[[[f32; 8]; 3]]) -> [f32; 2];
+    /// Of such products over many vectors which is the greatest, that, and the second. Any if one is a NaN or there are none.
+    fn farthest_product(self, vectors: &[[[f32; 8]; 3]]) -> (usize, [f32; 2]);
     /// The least lane and which it is; the first of equals. Any lane if one is a NaN.
     fn least(self) -> (f64, usize);
     /// Prefetches an element that may soon be needed: the first three cache lines, which are the part that marching reads of a
@@ -256,6 +258,19 @@ impl Lanes for Portable {
             }
         }
         ends
+    }
+    #[inline(always)]
+    fn farthest_product(self, vectors: &[[[f32; 8]; 3]]) -> (usize, [f32; 2]) {
+        let (mut place, mut greatest, mut second) = (0, f32::NEG_INFINITY, f32::NEG_INFINITY);
+        for (block, [x, y, z]) in vectors.iter().enumerate() {
+            for (lane, product) in self.products([x, y, z]).into_iter().enumerate() {
+                second = second.max(greatest.min(product));
+                if product > greatest {
+                    (place, greatest) = (8 * block + lane, product);
+                }
+            }
+        }
+        (place, [greatest, second])
     }
     #[inline(always)]
     fn least(self) -> (f64, usize) {

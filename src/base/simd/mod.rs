@@ -135,7 +135,7 @@ mod tests {
             [[f64; 4]; 7],
             [u32; 4],
             [f64; 4],
-            [f32; 2],
+            ([f32; 2], [(usize, [f32; 2]); 2]),
             ([[f32; 8]; 12], [[f32; 2]; 2]),
         );
         #[inline(always)]
@@ -191,7 +191,10 @@ mod tests {
                 chosen.map(L::to_array),
                 single,
                 L::load_single(&single).to_array(),
-                x.extreme_products(&[[*a, *b, *c], [*b, *a, *b]]),
+                (
+                    x.extreme_products(&[[*a, *b, *c], [*b, *a, *b]]),
+                    [[*a, *b, *c], [*b, *a, *b]].map(|block| x.farthest_product(&[block, [*c, *b, *c]])),
+                ),
                 (twins, [sides.dots(others), [sides.dot(others), others.swap().dot(sides)]]),
             )
         }
@@ -206,7 +209,7 @@ mod tests {
             // SAFETY: the machine has more than that.
             assert_eq!(unsafe { wide::run_with_avx2(&mut Sample) }, expected);
         }
-        assert_eq!(expected.10, [0.0, 30.0]);
+        assert_eq!(expected.10.0, [0.0, 30.0]);
         assert_eq!(expected.1[3], [4.0, 8.0, 12.0, 0.0]);
         assert_eq!(expected.2, 38.0);
         assert_eq!(expected.8, [f32::INFINITY, 0.1, -0.0, -2.5].map(f32::to_bits));

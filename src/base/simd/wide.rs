@@ -90,6 +90,20 @@ impl<const WITH_AVX512: bool> Wide<WITH_AVX512> {
     }
 }
 
+/// The greatest of eight numbers, in all lanes.
+///
+/// # Safety
+/// The machine has AVX2.
+#[inline(always)]
+unsafe fn greatest_lane(numbers: __m256) -> __m256 {
+    // SAFETY: as above.
+    unsafe {
+        let four = _mm256_max_ps(numbers, _mm256_permute2f128_ps::<0x01>(numbers, numbers));
+        let two = _mm256_max_ps(four, _mm256_permute_ps::<0b01_00_11_10>(four));
+        _mm256_max_ps(two, _mm256_permute_ps::<0b10_11_00_01>(two))
+    }
+}
+
 // SAFETY of every block below: `Wide` exists only inside `run`, whose caller has checked for AVX2 and FMA.
 impl<const WITH_AVX512: bool> Lanes for Wide<WITH_AVX512> {
     type Twins = WideTwins;
@@ -301,9 +315,7 @@ impl<const WITH_AVX512: bool> Lanes for Wide<WITH_AVX512> {
         let products = self.products(vectors);
         // SAFETY: see above.
         unsafe {
-            let four = _mm256_max_ps(products, _mm256_permute2f128_ps::<0x01>(products, products));
-            let two = _mm256_max_ps(four, _mm256_permute_ps::<0b01_00_11_10>(four));
-            let all = _mm256_max_ps(two, _mm256_permute_ps::<0b10_11_00_01>(two));
+            let all = greatest_lane(products);
             let mask = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_EQ_OQ>(products, all)) as u32;
             (_mm256_cvtss_f32(all), (mask | 0x80).trailing_zeros() as usize)
         }
@@ -322,6 +334,33 @@ impl<const WITH_AVX512: bool> Lanes for Wide<WITH_AVX512> {
             _mm256_storeu_ps(low.as_mut_ptr(), least);
             _mm256_storeu_ps(high.as_mut_ptr(), greatest);
             [low.into_iter().fold(f32::INFINITY, f32::min), high.into_iter().fold(f32::NEG_INFINITY, f32::max)]
+        }
+    }
+    #[inline(always)]
+    fn farthest_product(self, vectors: &[[[f32; 8]; 3]]) -> (usize, [f32; 2]) {
+        // SAFETY: see above.
+        unsafe {
+            let mut greatest = _mm256_set1_ps(f32::NEG_INFINITY);
+            let mut second = greatest;
+            let (mut place, mut block) = (_mm256_setzero_si256(), _mm256_setzero_si256());
+            for [x, y, z] in vectors {
+                let products = self.products([x, y, z]);
+                let is_greater = _mm256_castps_si256(_mm256_cmp_ps::<_CMP_GT_OQ>(products, greatest));
+                place = _mm256_blendv_epi8(place, block, is_greater);
+                second = _mm256_max_ps(second, _mm256_min_ps(greatest, products));
+                greatest = _mm256_max_ps(greatest, products);
+                block = _mm256_add_epi32(block, _mm256_set1_epi32(8));
+            }
+            let all = greatest_lane(greatest);
+            let is_greatest = _mm256_cmp_ps::<_CMP_EQ_OQ>(greatest, all);
+            let mask = _mm256_movemask_ps(is_greatest) as u32;
+            let lane = (mask | 0x80).trailing_zeros() as usize;
+            let mut places = [0_u32; 8];
+            _mm256_storeu_si256(places.as_mut_ptr().cast(), place);
+            // Of two that are equal one is the second.
+            let others =
+                if mask & mask.wrapping_sub(1) == 0 { _mm256_blendv_ps(greatest, second, is_greatest) } else { all };
+            (places[lane] as usize + lane, [_mm256_cvtss_f32(all), _mm256_cvtss_f32(greatest_lane(others))])
         }
     }
     #[inline(always)]

@@ -243,6 +243,7 @@ impl HullSurface {
             polygon_starts: Vec::new(),
             polygon_search: PolygonSearch::new(),
             vertex_blocks: Vec::new(),
+            rough_blocks: Vec::new(),
             fan: None,
             contact_faces: ContactFaces::default(),
             mass,

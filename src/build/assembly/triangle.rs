@@ -87,11 +87,14 @@ fn move_planes(polyhedron: &mut Polyhedron, positions: &[Vector; 3]) {
 }
 
 fn move_neighbours(polyhedron: &mut Polyhedron, positions: &[Vector; 3]) {
-    let Polyhedron { vertices, edges, vertex_blocks, .. } = polyhedron;
+    let Polyhedron { vertices, edges, vertex_blocks, rough_blocks, .. } = polyhedron;
     // The last one is repeated.
     for (lane, position) in [0, 1, 2, 2].map(|v: usize| &positions[v]).into_iter().enumerate() {
         vertex_blocks.iter_mut().for_each(|block| {
             [block.x[lane], block.y[lane], block.z[lane]] = (*position).into();
+        });
+        rough_blocks.iter_mut().filter(|_| lane < 3).for_each(|block| {
+            [0, 1, 2].into_iter().for_each(|axis| block[axis][lane] = position[axis] as f32);
         });
     }
     for (v, vertex) in (0..).zip(vertices) {

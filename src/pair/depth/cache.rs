@@ -7,7 +7,7 @@ use crate::polyhedron::Polyhedron;
 use crate::solve::exact::VertexPair;
 use crate::solve::facets::Facet;
 use crate::solve::frame::Frame;
-use crate::solve::polytope::{NO_TWIN, Polytope, Pyramid, SearchStart, triangle_of};
+use crate::solve::polytope::{Polytope, Pyramid, SearchStart};
 use crate::solve::state::FeatureId;
 
 /// Vertices of a polytope that is kept.
@@ -70,8 +70,11 @@ const FACE_OF_FIRST: u8 = 1;
 const FACE_OF_SECOND: u8 = 2;
 const EDGES: u8 = 3;
 
-/// Three corners, three neighbouring triangles, and which side of each is the common one, in two bits each.
-type PackedTriangle = [u8; 7];
+/// No vertex of the kept polytope.
+const NO_PLACE: u8 = u8::MAX;
+
+/// Three corners.
+type PackedTriangle = [u8; 3];
 
 impl Default for DepthCache {
     fn default() -> Self {
@@ -82,7 +85,7 @@ impl Default for DepthCache {
             direction: [0; 3],
             pyramids: [KeptPyramid::default(); PYRAMIDS],
             pairs: [[0; 2]; MOST_VERTICES],
-            triangles: [[0; 7]; MOST_TRIANGLES],
+            triangles: [[0; 3]; MOST_TRIANGLES],
             counts: [0; 4],
         }
     }
@@ -90,8 +93,7 @@ impl Default for DepthCache {
 
 impl DepthCache {
     /// Puts the kept polytope into an empty one, its positions computed for the pair's poses, and returns where to begin. The
-    /// polytope stays empty where none is kept, or what is kept has vertices that the bodies have not; it need not be
-    /// [closed](Polytope::is_closed).
+    /// polytope stays empty where none is kept, or what is kept has vertices that the bodies have not; it need not be a cycle.
     #[inline(always)]
     pub fn unpack<L: Lanes, const V: usize, const T: usize>(
         &self,
@@ -145,13 +147,8 @@ impl DepthCache {
         vertices: usize,
         triangles: usize,
     ) -> bool {
-        let packed = self.triangles[..triangles].iter();
-        for (&[a, b, c, ..], corners) in packed.clone().zip(&mut polytope.corners) {
+        for (&[a, b, c], corners) in self.triangles[..triangles].iter().zip(&mut polytope.corners) {
             *corners = [a, b, c, a];
-        }
-        for (&[.., x, y, z, sides], twins) in packed.zip(&mut polytope.twins) {
-            let [x, y, z, sides] = [x, y, z, sides].map(u16::from);
-            *twins = [x << 2 | sides & 3, y << 2 | sides >> 2 & 3, z << 2 | sides >> 4 & 3, NO_TWIN];
         }
         let largest = polytope.corners[..triangles].as_flattened().iter().fold(0, |a, b| a.max(*b));
         usize::from(largest) < vertices
@@ -291,22 +288,28 @@ impl DepthCache {
         first_triangles: usize,
     ) {
         self.remember(frame, direction);
-        let (vertices, triangles) = (polytope.vertex_count, polytope.triangle_count);
-        let is_small = vertices <= MOST_VERTICES && (4..=MOST_TRIANGLES).contains(&triangles) && triangle < triangles;
-        if !is_small {
-            self.counts = [0, 0, 0, 0];
+        self.counts = [0; 4];
+        let triangles = polytope.triangle_count;
+        if !((4..=MOST_TRIANGLES).contains(&triangles) && triangle < triangles) {
             return;
         }
-        let byte = |count: usize| count.min(255) as u8;
-        self.counts = [byte(vertices), byte(triangles), byte(triangle), byte(first_triangles)];
-        self.pairs[..vertices].copy_from_slice(&polytope.pairs[..vertices]);
-        let surface = polytope.corners.iter().zip(&polytope.twins);
-        for (packed, (corners, twins)) in self.triangles[..triangles].iter_mut().zip(surface) {
-            let [x, y, z, _] = *twins;
-            let sides = (x & 3) | (y & 3) << 2 | (z & 3) << 4;
-            let [first, second, third] = [x, y, z].map(|twin| triangle_of(twin) as u8);
-            *packed = [corners[0], corners[1], corners[2], first, second, third, sides as u8];
+        // Vertices that no triangle has any more are left out.
+        let (mut places, mut vertices) = ([NO_PLACE; V], 0);
+        for (packed, corners) in self.triangles.iter_mut().zip(&polytope.corners[..triangles]) {
+            for (own, corner) in packed.iter_mut().zip(corners) {
+                let corner = usize::from(*corner);
+                if places[corner] == NO_PLACE {
+                    if vertices == MOST_VERTICES {
+                        return;
+                    }
+                    self.pairs[vertices] = polytope.pairs[corner];
+                    places[corner] = vertices as u8;
+                    vertices += 1;
+                }
+                *own = places[corner];
+            }
         }
+        self.counts = [vertices, triangles, triangle, first_triangles].map(|count| count.min(255) as u8);
     }
 
     /// Whether a polytope is kept, or a facet of objects that overlapped.

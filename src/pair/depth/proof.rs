@@ -67,7 +67,7 @@ impl Kernel for Proof<'_> {
             ProofFrom::Search(lower) => {
                 let start = SearchStart { triangle: None, direction: None, first_triangles: 0, only_known: false };
                 let wanted = Wanted { width: 0.0, relative: 0.0, steps: u32::MAX, lower };
-                polytope::expand(&frame, &mut polytope, &start, &wanted);
+                polytope::expand::<L, _, _, 4>(&frame, &mut polytope, &start, &wanted);
             }
         }
         Some(listed((0..polytope.triangle_count).map(|triangle| polytope.pairs_of(triangle))))

@@ -40,7 +40,7 @@ const LITTLE_WORK: usize = 3_000;
 
 /// … and below this less than making one. One is made there where the direction of least overlap has turned by no more than the
 /// angle of this cosine, 4°, since the search before: then the next query moves it on.
-const MOST_WORK: usize = 16_000;
+const MOST_WORK: usize = 10_000;
 const COHERENT: f64 = 0.9975;
 
 /// How wide an interval may be, over the pair's size or distance, a little less than is promised. By all facets it is wider where
@@ -160,14 +160,14 @@ impl<L: Lanes> Work for ByPolytope<'_, '_, L> {
         let mut start = query.cache.unpack(frame, &mut polytope);
         let steps = query.config.step_budget;
         start.only_known = start.triangle.is_some() && query.work() <= MOST_WORK;
-        let mut found = query.search(frame, &mut polytope, &start, steps);
+        let mut found = query.search::<L, _, _, 1>(frame, &mut polytope, &start, steps);
         if found.expansion.ending == Ending::Outdated {
             if let Some(found) = query.search_facets(frame, WIDEST) {
                 return Some(found);
             }
             start = SearchStart { triangle: None, direction: None, only_known: false, ..start };
             polytope.clear();
-            found = query.search(frame, &mut polytope, &start, steps);
+            found = query.search::<L, _, _, 1>(frame, &mut polytope, &start, steps);
         }
         let was_told = start.triangle.is_some() || start.direction.is_some();
         // State from an earlier query must not make an answer worse.
@@ -256,7 +256,7 @@ impl<'a> DepthQuery<'a> {
     }
 
     #[inline(always)]
-    fn search<L: Lanes, const V: usize, const T: usize>(
+    fn search<L: Lanes, const V: usize, const T: usize, const W: usize>(
         &mut self,
         frame: &Frame<L>,
         polytope: &mut Polytope<V, T>,
@@ -265,7 +265,7 @@ impl<'a> DepthQuery<'a> {
     ) -> FoundPolytope {
         let DepthConfig { absolute_error, relative_error, .. } = *self.config;
         let wanted = Wanted { width: absolute_error, relative: relative_error, steps, lower: 0.0 };
-        let mut expansion = polytope::expand(frame, polytope, start, &wanted);
+        let mut expansion = polytope::expand::<L, V, T, W>(frame, polytope, start, &wanted);
         if expansion.ending == Ending::Outdated {
             return FoundPolytope::without_triangles(expansion);
         }
@@ -299,7 +299,7 @@ impl<L: Lanes> Work for InLarge<'_, '_, L> {
     #[inline(always)]
     fn run(&mut self) -> FoundPolytope {
         let mut polytope = Polytope::<255, 508>::EMPTY;
-        self.search.search(self.frame, &mut polytope, &self.start, self.search.config.step_budget)
+        self.search.search::<L, _, _, 4>(self.frame, &mut polytope, &self.start, self.search.config.step_budget)
     }
 }
 
@@ -321,7 +321,7 @@ impl<L: Lanes> Work for SearchAgain<'_, '_, L> {
         let start = SearchStart { triangle: None, direction: None, first_triangles: 0, only_known: false };
         self.polytope.clear();
         let left = self.search.config.step_budget - steps;
-        let mut found = self.search.search(self.frame, self.polytope, &start, left);
+        let mut found = self.search.search::<L, _, _, 1>(self.frame, self.polytope, &start, left);
         found.expansion.steps += steps;
         found.expansion.supports += supports;
         found

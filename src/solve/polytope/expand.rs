@@ -1,10 +1,10 @@
 //! The search: from the last polytope, or a first one, until both bounds meet.
 
+use super::cycle::{Apex, Demand, Edges, insert, take_out};
 use super::planes::{evaluate, nearest};
 use super::sliver::{sharpen, straighten};
-use super::storage::{NO_PLANE, Polytope, half_edge, next, triangle_of};
+use super::storage::{NO_PLANE, Polytope};
 use super::support::{Support, support};
-use super::surgery::{Demand, replace};
 use super::{Rounding, centre_of_differences, degree, first};
 use crate::base::math::Vector;
 use crate::base::simd::Lanes;
@@ -94,9 +94,9 @@ pub struct Expansion {
     pub supports: u32,
 }
 
-/// The search in a polytope that is closed, or is not but is [as told](Polytope::is_closed), with its positions computed; or empty.
+/// The search in a polytope that is closed, or is not but is [no cycle](Edges::are_cycle), with its positions computed; or empty.
 #[inline(always)]
-pub fn expand<L: Lanes, const V: usize, const T: usize>(
+pub fn expand<L: Lanes, const V: usize, const T: usize, const W: usize>(
     frame: &Frame<L>,
     polytope: &mut Polytope<V, T>,
     start: &SearchStart,
@@ -110,7 +110,8 @@ pub fn expand<L: Lanes, const V: usize, const T: usize>(
         width: if wanted.width > rounding.provable { wanted.width } else { rounding.provable },
         best: Best { upper: f64::INFINITY, excess: 0.0, direction: Vector::zeros(), farthest: [0; 2] },
         lower: wanted.lower,
-        demand: Demand { centre: centre_of_differences(frame), about_origin: false, least: NO_PLANE, grows: true },
+        demand: Demand { centre: centre_of_differences(frame), about_origin: false, least: NO_PLANE },
+        edges: Edges::<V, W>::EMPTY,
         steps: 0,
         supports: 0,
         first_triangles: start.first_triangles,
@@ -142,7 +143,7 @@ struct Best {
     farthest: VertexPair,
 }
 
-struct Expander<'a, L> {
+struct Expander<'a, L, const V: usize, const W: usize> {
     frame: &'a Frame<'a, L>,
     rounding: Rounding,
     /// How wide the interval may be …
@@ -153,6 +154,7 @@ struct Expander<'a, L> {
     lower: f64,
     best: Best,
     demand: Demand,
+    edges: Edges<V, W>,
     steps: u32,
     supports: u32,
     first_triangles: usize,
@@ -175,14 +177,9 @@ enum Advance {
     Separated,
 }
 
-impl<L: Lanes> Expander<'_, L> {
+impl<L: Lanes, const V: usize, const W: usize> Expander<'_, L, V, W> {
     #[inline(always)]
-    fn run<const V: usize, const T: usize>(
-        &mut self,
-        polytope: &mut Polytope<V, T>,
-        start: &SearchStart,
-        most_steps: u32,
-    ) -> Ending {
+    fn run<const T: usize>(&mut self, polytope: &mut Polytope<V, T>, start: &SearchStart, most_steps: u32) -> Ending {
         let mut is_warm = self.takes_over(polytope, start);
         self.is_as_kept = is_warm;
         if self.best.upper < 0.0 {
@@ -217,7 +214,7 @@ impl<L: Lanes> Expander<'_, L> {
     /// Upper bounds of differences too flat for a search: across the part of a polytope that exists, and along the axes of the
     /// world.
     #[cold]
-    fn measure_flat<const V: usize, const T: usize>(&mut self, polytope: &Polytope<V, T>) -> Ending {
+    fn measure_flat<const T: usize>(&mut self, polytope: &Polytope<V, T>) -> Ending {
         if polytope.triangle_count > 0 {
             let (triangle, distance) = nearest::<L, V, T>(polytope);
             if distance > NO_PLANE {
@@ -233,11 +230,7 @@ impl<L: Lanes> Expander<'_, L> {
 
     /// Whether the polytope of the last query is worth going on with. Its best direction is tried in any case: at a tie it stays.
     #[inline(always)]
-    fn takes_over<const V: usize, const T: usize>(
-        &mut self,
-        polytope: &mut Polytope<V, T>,
-        start: &SearchStart,
-    ) -> bool {
+    fn takes_over<const T: usize>(&mut self, polytope: &mut Polytope<V, T>, start: &SearchStart) -> bool {
         let count = polytope.triangle_count;
         let Some(triangle) = start.triangle.filter(|triangle| *triangle < count) else { return false };
         let least = evaluate::<L, V, T>(polytope, &self.rounding, &self.demand.centre, 0, count);
@@ -261,7 +254,7 @@ impl<L: Lanes> Expander<'_, L> {
         // Whether it is closed is asked last: for poses far from the last ones it is not needed.
         nearer_than(polytope, self.target()) <= MOST_STALE
             && count <= MOST_KEPT.max(self.first_triangles * 3 / 2)
-            && polytope.is_closed()
+            && self.edges.are_cycle(&polytope.corners[..count], polytope.vertex_count)
     }
 
     /// The target for the nearest triangle's distance: so near to the upper bound, and more than 0, which proves the verdict,
@@ -297,12 +290,7 @@ impl<L: Lanes> Expander<'_, L> {
 
     /// Expands until the interval is narrow enough.
     #[inline(always)]
-    fn grow<const V: usize, const T: usize>(
-        &mut self,
-        polytope: &mut Polytope<V, T>,
-        most_steps: u32,
-        is_warm: bool,
-    ) -> Ending {
+    fn grow<const T: usize>(&mut self, polytope: &mut Polytope<V, T>, most_steps: u32, is_warm: bool) -> Ending {
         let mut straightened = None;
         loop {
             let (triangle, distance) = nearest::<L, V, T>(polytope);
@@ -312,10 +300,7 @@ impl<L: Lanes> Expander<'_, L> {
             if self.steps >= most_steps {
                 return Ending::Spent;
             }
-            if self.is_as_kept {
-                polytope.count_uses();
-                self.is_as_kept = false;
-            }
+            self.is_as_kept = false;
             self.steps += 1;
             match self.step(polytope, triangle, is_warm, &mut straightened) {
                 Advance::On => {}
@@ -328,7 +313,7 @@ impl<L: Lanes> Expander<'_, L> {
     /// Expands beyond the nearest triangle; where that fails it gives it a better plane. `straightened` is the triangle that got
     /// one last.
     #[inline(always)]
-    fn step<const V: usize, const T: usize>(
+    fn step<const T: usize>(
         &mut self,
         polytope: &mut Polytope<V, T>,
         triangle: usize,
@@ -368,85 +353,19 @@ impl<L: Lanes> Expander<'_, L> {
         if sharpen(polytope, &self.rounding, triangle, direction) { Advance::On } else { Advance::Stuck }
     }
 
-    /// Inserts a support vertex beyond a triangle; a vertex that the polytope has already by a flip, or by taking a corner of the
-    /// triangle out. Flips have to raise the least distance, so that they cannot go round in circles.
+    /// Inserts a support vertex beyond a triangle. Where the polytope has it already, that has to raise the least distance, so that
+    /// the search cannot go round in circles.
     #[inline(always)]
-    fn insert<const V: usize, const T: usize>(
-        &mut self,
-        polytope: &mut Polytope<V, T>,
-        triangle: usize,
-        found: &Support,
-    ) -> bool {
+    fn insert<const T: usize>(&mut self, polytope: &mut Polytope<V, T>, triangle: usize, found: &Support) -> bool {
         let known = polytope.find(found.pair);
-        let Some(apex) = known.or_else(|| polytope.add_vertex(found.pair, found.position)) else { return false };
+        let added = || polytope.add_vertex(found.pair, found.position);
+        let Some(vertex) = known.or_else(added) else { return false };
+        let apex = Apex { vertex, is_known: known.is_some() && polytope.has_triangle(vertex) };
         let before = polytope.distances[triangle];
-        let is_flip = known.is_some();
         let raised = before + self.rounding.plane;
-        self.demand.least = if is_flip && before > 0.0 { raised + 1e-9 * raised } else { NO_PLANE };
-        self.demand.grows = true;
-        let mut region = polytope.begin_region();
-        polytope.add_to_region(&mut region, triangle);
-        if !polytope.find_visible(&mut region, apex, &self.rounding) {
-            return false;
-        }
-        if replace::<L, V, T>(polytope, region, apex, &self.rounding, &self.demand) {
-            return true;
-        }
-        is_flip && polytope.corners_of(triangle).into_iter().any(|corner| self.take_out(polytope, corner))
-    }
-
-    /// Takes a vertex of few triangles out: the hole is filled by a fan from one of its neighbours, the nearest first.
-    #[inline(always)]
-    fn take_out<const V: usize, const T: usize>(&mut self, polytope: &mut Polytope<V, T>, vertex: u8) -> bool {
-        let Some(ring) = Ring::around(polytope, vertex) else { return false };
-        let from = polytope.position(vertex);
-        let mut by_distance: [(f64, u8); MOST_AROUND] = [(f64::INFINITY, 0); MOST_AROUND];
-        for (entry, &neighbour) in by_distance.iter_mut().zip(&ring.neighbours[..ring.count]) {
-            *entry = ((polytope.position(neighbour) - from).norm_squared(), neighbour);
-        }
-        by_distance[..ring.count].sort_unstable_by(|a, b| a.0.total_cmp(&b.0));
-        self.demand.grows = false;
-        by_distance[..ring.count.min(3)].iter().any(|(_, neighbour)| {
-            let mut region = polytope.begin_region();
-            for &triangle in &ring.triangles[..ring.count] {
-                polytope.add_to_region(&mut region, usize::from(triangle));
-            }
-            replace::<L, V, T>(polytope, region, *neighbour, &self.rounding, &self.demand)
-        })
-    }
-}
-
-/// A vertex with more triangles around it is not taken out.
-const MOST_AROUND: usize = 10;
-
-/// The triangles around a vertex.
-struct Ring {
-    triangles: [u16; MOST_AROUND],
-    neighbours: [u8; MOST_AROUND],
-    count: usize,
-}
-
-impl Ring {
-    fn around<const V: usize, const T: usize>(polytope: &Polytope<V, T>, vertex: u8) -> Option<Ring> {
-        let triangles = 0..polytope.triangle_count;
-        let corner =
-            |t: usize| polytope.corners_of(t).iter().position(|corner| *corner == vertex).map(|k| half_edge(t, k));
-        let first = triangles.into_iter().find_map(corner)?;
-        let mut ring = Ring { triangles: [0; MOST_AROUND], neighbours: [0; MOST_AROUND], count: 0 };
-        let mut at = first;
-        loop {
-            if ring.count == MOST_AROUND {
-                return None;
-            }
-            ring.triangles[ring.count] = triangle_of(at) as u16;
-            ring.neighbours[ring.count] = polytope.tail(next(at));
-            ring.count += 1;
-            at = polytope.twin(next(next(at)));
-            if at == first {
-                break;
-            }
-        }
-        // If the surface is pinched, there are more triangles than around one side of it.
-        (ring.count >= 3 && ring.count == usize::from(polytope.uses[usize::from(vertex)])).then_some(ring)
+        self.demand.least = if apex.is_known && before > 0.0 { raised + 1e-9 * raised } else { NO_PLANE };
+        insert::<L, V, T, W>(polytope, &mut self.edges, triangle, apex, &self.rounding, &self.demand)
+            || (apex.is_known
+                && take_out::<L, V, T, W>(polytope, &mut self.edges, triangle, &self.rounding, &self.demand))
     }
 }

@@ -1,7 +1,7 @@
 //! The first polytope of a pair: from supports in a few directions.
 
 use super::planes::evaluate;
-use super::storage::{Polytope, half_edge};
+use super::storage::Polytope;
 use super::support::{Support, support, vertex_beyond};
 use super::{Rounding, SHORTEST_NORMAL, centre_of_differences};
 use crate::base::math::Vector;
@@ -43,13 +43,7 @@ pub fn make<L: Lanes, const V: usize, const T: usize>(
 
 /// Adds a vertex; whether it is a new one.
 fn add<const V: usize, const T: usize>(polytope: &mut Polytope<V, T>, found: &Support) -> bool {
-    if polytope.pairs[..polytope.vertex_count].contains(&found.pair) {
-        return false;
-    }
-    polytope.pairs[polytope.vertex_count] = found.pair;
-    polytope.positions[polytope.vertex_count] = found.position;
-    polytope.vertex_count += 1;
-    true
+    polytope.find(found.pair).is_none() && polytope.add_vertex(found.pair, found.position).is_some()
 }
 
 /// Two tips and three vertices around the line between them; those and the lower tip where the upper one is among them. No if two
@@ -85,21 +79,14 @@ fn bipyramid<L: Lanes, const V: usize, const T: usize>(
     for i in 0..3 {
         let (own, following) = (i as u8, ((i + 1) % 3) as u8);
         polytope.corners[i] = [3, following, own, 0];
-        polytope.join(half_edge(i, 0), half_edge((i + 1) % 3, 2));
         if has_tip {
             polytope.corners[3 + i] = [4, own, following, 0];
-            polytope.join(half_edge(i, 1), half_edge(3 + i, 1));
-            polytope.join(half_edge(3 + i, 2), half_edge(3 + (i + 1) % 3, 0));
         }
     }
     if !has_tip {
         polytope.corners[3] = [0, 1, 2, 0];
-        for i in 0..3 {
-            polytope.join(half_edge(i, 1), half_edge(3, i));
-        }
     }
     polytope.triangle_count = if has_tip { 6 } else { 4 };
-    polytope.count_uses();
     evaluate::<L, V, T>(polytope, rounding, centre, 0, polytope.triangle_count).height > rounding.plane
 }
 
@@ -162,13 +149,7 @@ fn tetrahedron<L: Lanes, const V: usize, const T: usize>(
     for (own, [a, b, c]) in polytope.corners.iter_mut().zip(corners) {
         *own = [a, b, c, 0];
     }
-    for [triangle, k, other, side] in
-        [[0, 0, 1, 0], [0, 1, 2, 0], [0, 2, 3, 0], [1, 1, 3, 2], [1, 2, 2, 1], [2, 2, 3, 1]]
-    {
-        polytope.join(half_edge(triangle, k), half_edge(other, side));
-    }
     polytope.triangle_count = 4;
-    polytope.count_uses();
     let centre = (0..4).map(|vertex| polytope.position(vertex)).sum::<Vector>() * 0.25;
     (evaluate::<L, V, T>(polytope, rounding, &centre, 0, 4).height > 0.0).then_some(centre)
 }

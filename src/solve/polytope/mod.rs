@@ -18,7 +18,7 @@
 mod storage;
 mod planes;
 mod support;
-mod surgery;
+mod cycle;
 mod sliver;
 mod first;
 mod degree;
@@ -36,7 +36,7 @@ pub use expand::{Ending, Expansion, SearchStart, Wanted, expand};
 pub use planes::evaluate;
 pub use pyramid::{Failure, Pyramid, Rest};
 pub use raise::raise;
-pub use storage::{NO_TWIN, Polytope, triangle_of};
+pub use storage::Polytope;
 pub use support::{HEIGHTS, farthest, heights, support};
 pub use witness::{Witness, witness};
 

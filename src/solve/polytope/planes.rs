@@ -85,28 +85,24 @@ fn components<L: Lanes, const V: usize>(
     ])
 }
 
-/// The triangle of the least distance, and that; of several the first.
+/// The triangle of the least distance, and that; of several any.
 #[inline(always)]
 pub fn nearest<L: Lanes, const V: usize, const T: usize>(polytope: &Polytope<V, T>) -> (usize, f64) {
-    let distances = &polytope.distances[..polytope.triangle_count];
-    let mut least = L::splat(f64::INFINITY);
-    let (fours, rest) = distances.as_chunks::<4>();
+    let (mut least, mut place) = (L::splat(f64::INFINITY), L::splat(0.0));
+    let (mut at, step) = (L::load(&[0.0, 1.0, 2.0, 3.0]), L::splat(4.0));
+    let (fours, rest) = polytope.distances[..polytope.triangle_count].as_chunks::<4>();
     for four in fours {
-        least = least.min(L::load(four));
+        let distance = L::load(four);
+        place = at.where_greater(least, distance, place);
+        least = least.min(distance);
+        at = at.add(step);
     }
-    let mut value = least.least().0;
-    for distance in rest {
+    let (mut value, lane) = least.least();
+    let mut nearest = place.to_array()[lane & 3] as usize;
+    for (place, distance) in rest.iter().enumerate() {
         if *distance < value {
-            value = *distance;
+            (nearest, value) = (4 * fours.len() + place, *distance);
         }
     }
-    let wanted = L::splat(value);
-    for (place, four) in fours.iter().enumerate() {
-        let found = L::load(four).at_most(wanted);
-        if found != 0 {
-            return (4 * place + found.trailing_zeros() as usize, value);
-        }
-    }
-    let place = rest.iter().position(|distance| *distance == value).map_or(0, |place| 4 * fours.len() + place);
-    (place, value)
+    (nearest, value)
 }

@@ -1,0 +1,432 @@
+//! The one way in which a polytope changes: triangles give way to the cone from a vertex over their rim.
+//!
+//! The polytope is an oriented cycle: each directed edge is there once, and so is its opposite, or neither is. The rim of any
+//! triangles is the boundary of their sum, and the cone over it has the same one; so the rest with the cone is a cycle again,
+//! whichever triangles go, connected or not.
+//!
+//! Edges are bits: row a of `out` has bit b where there is an edge from a to b, and row b of `into` has bit a. So the rim's edges
+//! from a vertex are those of `out` that `into` has not. No neighbours are kept, and none are walked to.
+
+use super::Rounding;
+use super::planes::evaluate;
+use super::storage::{NO_PLANE, Polytope};
+use crate::base::math::Vector;
+use crate::base::simd::Lanes;
+
+/// The directed edges of some triangles over V ≤ 64·W vertices, all zero but while they are in use.
+pub struct Edges<const V: usize, const W: usize> {
+    out: [[u64; W]; V],
+    into: [[u64; W]; V],
+}
+
+impl<const V: usize, const W: usize> Edges<V, W> {
+    /// No edges.
+    pub const EMPTY: Edges<V, W> = {
+        assert!(V <= 64 * W, "a bit for each vertex");
+        Edges { out: [[0; W]; V], into: [[0; W]; V] }
+    };
+
+    /// Adds the edges of a triangle; whether one of them was there already.
+    #[inline(always)]
+    fn add(&mut self, [a, b, c]: [u8; 3]) -> bool {
+        let mut doubled = 0;
+        for (tail, head) in [(a, b), (b, c), (c, a)] {
+            let (tail, head) = (usize::from(tail), usize::from(head));
+            let (out, into) = (&mut self.out[tail][head / 64], &mut self.into[head][tail / 64]);
+            doubled |= *out & 1 << (head % 64);
+            *out |= 1 << (head % 64);
+            *into |= 1 << (tail % 64);
+        }
+        doubled != 0
+    }
+
+    /// Whether a triangle has the opposite of one of the edges.
+    #[inline(always)]
+    fn touch(&self, [a, b, c]: [u8; 3]) -> bool {
+        let mut found = 0;
+        for (tail, head) in [(b, a), (c, b), (a, c)] {
+            found |= self.out[usize::from(tail)][usize::from(head) / 64] >> (head % 64);
+        }
+        found & 1 != 0
+    }
+
+    /// The heads of the rim's edges from a vertex, which are taken out.
+    #[inline(always)]
+    fn take(&mut self, tail: u8) -> [u64; W] {
+        let tail = usize::from(tail);
+        let mut heads = [0; W];
+        for (word, head) in heads.iter_mut().enumerate() {
+            *head = self.out[tail][word] & !self.into[tail][word];
+        }
+        (self.out[tail], self.into[tail]) = ([0; W], [0; W]);
+        heads
+    }
+
+    /// Whether triangles are a cycle whose edges are there once each. For corners nothing is known but that they are vertices.
+    #[inline(always)]
+    pub fn are_cycle(&mut self, triangles: &[[u8; 4]], vertices: usize) -> bool {
+        let mut is_doubled = false;
+        for &[a, b, c, _] in triangles {
+            is_doubled |= self.add([a, b, c]);
+        }
+        let mut differing = 0;
+        for (out, into) in self.out[..vertices].iter_mut().zip(&mut self.into[..vertices]) {
+            for word in 0..W {
+                differing |= out[word] ^ into[word];
+            }
+            (*out, *into) = ([0; W], [0; W]);
+        }
+        !is_doubled && differing == 0
+    }
+}
+
+/// The requirements on new triangles.
+#[derive(Debug, Clone, Copy)]
+pub struct Demand {
+    /// The point inside from which the polytope is looked at.
+    pub centre: Vector,
+    /// Whether they are to look away from the origin instead of from the centre.
+    pub about_origin: bool,
+    /// No plane may be nearer to the origin than this.
+    pub least: f64,
+}
+
+/// Triangles beyond which no more are taken in that are not as demanded.
+const MOST_TAKEN: usize = 60;
+
+/// Puts the cone from a vertex over the rim of the triangles that it is beyond, by more than rounding, in their place; `beyond` is
+/// one of them. Triangles of the cone that are not as demanded take in what is behind them. Whether all are; else nothing changes.
+#[inline(always)]
+pub fn insert<L: Lanes, const V: usize, const T: usize, const W: usize>(
+    polytope: &mut Polytope<V, T>,
+    edges: &mut Edges<V, W>,
+    beyond: usize,
+    apex: Apex,
+    rounding: &Rounding,
+    demand: &Demand,
+) -> bool {
+    let mut region = visible::<L, V, T>(polytope, apex.vertex, rounding);
+    region.add(beyond);
+    replace::<L, V, T, W>(polytope, edges, &mut region, beyond, apex, rounding, demand)
+}
+
+/// Takes a corner of a triangle out: what is around it gives way to the cone from another corner of the triangle.
+#[inline(always)]
+pub fn take_out<L: Lanes, const V: usize, const T: usize, const W: usize>(
+    polytope: &mut Polytope<V, T>,
+    edges: &mut Edges<V, W>,
+    triangle: usize,
+    rounding: &Rounding,
+    demand: &Demand,
+) -> bool {
+    let corners = polytope.corners_of(triangle);
+    for (k, vertex) in [(1, 0), (2, 0), (2, 1), (0, 1), (0, 2), (1, 2)] {
+        let mut region = around(polytope, corners[vertex]);
+        let apex = Apex { vertex: corners[k], is_known: true };
+        if replace::<L, V, T, W>(polytope, edges, &mut region, triangle, apex, rounding, demand) {
+            return true;
+        }
+    }
+    false
+}
+
+/// The triangles that have a vertex.
+fn around<const V: usize, const T: usize>(polytope: &Polytope<V, T>, vertex: u8) -> Region {
+    let mut region = Region { words: [0; MOST_WORDS], count: polytope.triangle_count.div_ceil(64) };
+    for triangle in 0..polytope.triangle_count {
+        if polytope.corners_of(triangle).contains(&vertex) {
+            region.add(triangle);
+        }
+    }
+    region
+}
+
+/// Puts the cone from a vertex over the rim of a region in its place, see [`insert`]; `beyond` is in the region.
+#[inline(always)]
+fn replace<L: Lanes, const V: usize, const T: usize, const W: usize>(
+    polytope: &mut Polytope<V, T>,
+    edges: &mut Edges<V, W>,
+    region: &mut Region,
+    beyond: usize,
+    apex: Apex,
+    rounding: &Rounding,
+    demand: &Demand,
+) -> bool {
+    for _ in 0..MOST_TAKEN {
+        let from = polytope.triangle_count;
+        let Some(to) = lay_cone(polytope, edges, region, beyond, apex.vertex) else { return false };
+        let folded = if apex.is_known { folded(polytope, region, apex.vertex, from, to) } else { Folded::Nowhere };
+        let wrong = match folded {
+            Folded::Nowhere => match judge::<L, V, T>(polytope, from, to, rounding, demand) {
+                Verdict::AsDemanded => {
+                    polytope.triangle_count = to;
+                    remove(polytope, region);
+                    return true;
+                }
+                Verdict::Wrong(triangle) => triangle,
+                Verdict::Refused => return false,
+            },
+            Folded::At(triangle) => triangle,
+            Folded::Apart => return false,
+        };
+        let [tail, head, _] = polytope.corners_of(wrong);
+        let Some(behind) = with_edge(&polytope.corners[..from], head, tail) else { return false };
+        region.add(behind);
+    }
+    false
+}
+
+/// The vertex of a cone.
+#[derive(Debug, Clone, Copy)]
+pub struct Apex {
+    /// Which.
+    pub vertex: u8,
+    /// Whether it was a vertex of the polytope before.
+    pub is_known: bool,
+}
+
+/// Triangles, a bit for each.
+struct Region {
+    words: [u64; MOST_WORDS],
+    /// Words in use.
+    count: usize,
+}
+
+/// Words for as many triangles as there are in any polytope.
+const MOST_WORDS: usize = 8;
+
+impl Region {
+    #[inline(always)]
+    fn add(&mut self, triangle: usize) {
+        self.words[triangle / 64 % MOST_WORDS] |= 1 << (triangle % 64);
+    }
+
+    #[inline(always)]
+    fn contains(&self, triangle: usize) -> bool {
+        self.words[triangle / 64 % MOST_WORDS] >> (triangle % 64) & 1 != 0
+    }
+}
+
+/// The triangles whose planes a vertex is beyond, by more than rounding. Those without a plane are none of them.
+#[inline(always)]
+fn visible<L: Lanes, const V: usize, const T: usize>(
+    polytope: &mut Polytope<V, T>,
+    apex: u8,
+    rounding: &Rounding,
+) -> Region {
+    const { assert!(T <= 64 * MOST_WORDS, "a bit for each triangle") };
+    let target = L::load(&polytope.positions[usize::from(apex)]);
+    let [x, y, z] = [target.splat_x(), target.splat_y(), target.splat_z()];
+    // The distance was lessened by the rounding of a plane, which may be as much in each of both heights.
+    let [error, none] = [L::splat(2.0 * rounding.plane), L::splat(NO_PLANE)];
+    let count = polytope.triangle_count;
+    // Triangles are looked at in fours.
+    polytope.distances[count..count + 3].fill(f64::INFINITY);
+    let mut region = Region { words: [0; MOST_WORDS], count: count.div_ceil(64) };
+    let mut first = 0;
+    while first < count {
+        let [along_x, along_y, along_z] = &polytope.normals;
+        let height = x.mul_add(four(along_x, first), y.mul_add(four(along_y, first), z.mul(four(along_z, first))));
+        let distance: L = four(&polytope.distances, first);
+        let seen = height.greater(distance.add(error)) & distance.greater(none);
+        region.words[first / 64 % MOST_WORDS] |= u64::from(seen) << (first % 64);
+        first += 4;
+    }
+    region
+}
+
+/// Four numbers from a place on.
+#[inline(always)]
+fn four<L: Lanes, const T: usize>(numbers: &[f64; T], first: usize) -> L {
+    let &[a, b, c, d] = &numbers[first..first + 4] else { return L::splat(f64::INFINITY) };
+    L::load(&[a, b, c, d])
+}
+
+/// Lays out the cone from a vertex over the rim of some triangles behind all others, and says where it ends. `None` where there is
+/// no room, or an edge would be there twice.
+#[inline(always)]
+fn lay_cone<const V: usize, const T: usize, const W: usize>(
+    polytope: &mut Polytope<V, T>,
+    edges: &mut Edges<V, W>,
+    region: &mut Region,
+    beyond: usize,
+    apex: u8,
+) -> Option<usize> {
+    let from = polytope.triangle_count;
+    connect(polytope, edges, region, beyond);
+    let (mut to, mut is_refused) = (from, false);
+    for (word, mut triangles) in region.words[..region.count].iter().copied().enumerate() {
+        while triangles != 0 {
+            let corners = polytope.corners_of(64 * word + triangles.trailing_zeros() as usize);
+            triangles &= triangles - 1;
+            for tail in corners {
+                let mut count = 0;
+                for (word, mut heads) in edges.take(tail).into_iter().enumerate() {
+                    while heads != 0 {
+                        let head = (64 * word) as u8 + heads.trailing_zeros() as u8;
+                        heads &= heads - 1;
+                        count += 1;
+                        // Over its own edges a cone is nothing.
+                        if tail != apex && head != apex {
+                            is_refused |= to == Polytope::<V, T>::TRIANGLE_ROOM;
+                            polytope.corners[to] = [tail, head, apex, 0];
+                            to += usize::from(to < Polytope::<V, T>::TRIANGLE_ROOM);
+                        }
+                    }
+                }
+                // The edge from the apex to the tail would be there twice.
+                is_refused |= count > 1 && tail != apex;
+            }
+        }
+    }
+    (!is_refused && to > from).then_some(to)
+}
+
+/// Leaves in a region what hangs together with one of its triangles over edges, and adds its edges. (Of a polytope that bodies have
+/// moved a vertex may be beyond others, too.)
+#[inline(always)]
+fn connect<const V: usize, const T: usize, const W: usize>(
+    polytope: &Polytope<V, T>,
+    edges: &mut Edges<V, W>,
+    region: &mut Region,
+    from: usize,
+) {
+    let mut open = region.words;
+    region.words = [0; MOST_WORDS];
+    region.add(from);
+    open[from / 64 % MOST_WORDS] &= !(1 << (from % 64));
+    // No edge of the polytope is there twice.
+    edges.add(polytope.corners_of(from));
+    let mut has_grown = true;
+    while has_grown {
+        has_grown = false;
+        for (word, open) in open[..region.count].iter_mut().enumerate() {
+            let mut triangles = *open;
+            while triangles != 0 {
+                let triangle = 64 * word + triangles.trailing_zeros() as usize;
+                triangles &= triangles - 1;
+                let corners = polytope.corners_of(triangle);
+                if edges.touch(corners) {
+                    edges.add(corners);
+                    region.add(triangle);
+                    *open &= !(1 << (triangle % 64));
+                    has_grown = true;
+                }
+            }
+        }
+    }
+}
+
+/// Where the cone from a vertex of the polytope lies on triangles outside the region, so that an edge would be there twice.
+enum Folded {
+    Nowhere,
+    /// This triangle of the cone lies on the one behind it.
+    At(usize),
+    /// They have an edge of the apex in common.
+    Apart,
+}
+
+#[cold]
+#[inline(never)]
+fn folded<const V: usize, const T: usize>(
+    polytope: &Polytope<V, T>,
+    region: &Region,
+    apex: u8,
+    from: usize,
+    to: usize,
+) -> Folded {
+    let mut folded = Folded::Nowhere;
+    for triangle in (0..from).filter(|triangle| !region.contains(*triangle)) {
+        let [following, preceding] = match polytope.corners_of(triangle) {
+            [a, b, c] if a == apex => [b, c],
+            [a, b, c] if b == apex => [c, a],
+            [a, b, c] if c == apex => [a, b],
+            _ => continue,
+        };
+        for new in from..to {
+            let [tail, head, _] = polytope.corners_of(new);
+            if tail == preceding && head == following {
+                return Folded::At(new);
+            }
+            if tail == following || head == preceding {
+                folded = Folded::Apart;
+            }
+        }
+    }
+    folded
+}
+
+/// The verdict on the new triangles.
+enum Verdict {
+    AsDemanded,
+    /// Without what is behind this triangle they may be.
+    Wrong(usize),
+    Refused,
+}
+
+/// Evaluates the new triangles.
+#[inline(always)]
+fn judge<L: Lanes, const V: usize, const T: usize>(
+    polytope: &mut Polytope<V, T>,
+    from: usize,
+    to: usize,
+    rounding: &Rounding,
+    demand: &Demand,
+) -> Verdict {
+    let least = evaluate::<L, V, T>(polytope, rounding, &demand.centre, from, to);
+    let side = if demand.about_origin { least.distance } else { least.height };
+    if side > 0.0 && least.distance + rounding.plane > demand.least {
+        return Verdict::AsDemanded;
+    }
+    find_wrong(polytope, from, to, rounding, demand)
+}
+
+/// The first triangle that looks the wrong way, before any that is too near.
+#[cold]
+#[inline(never)]
+fn find_wrong<const V: usize, const T: usize>(
+    polytope: &Polytope<V, T>,
+    from: usize,
+    to: usize,
+    rounding: &Rounding,
+    demand: &Demand,
+) -> Verdict {
+    for triangle in from..to {
+        let distance = polytope.distances[triangle];
+        let corner = polytope.position(polytope.corners[triangle][0]);
+        let height = polytope.normal(triangle).dot(&(corner - demand.centre));
+        let side = if demand.about_origin { distance } else { height };
+        if distance == NO_PLANE || !(side > 0.0) {
+            return Verdict::Wrong(triangle);
+        }
+        if !(distance + rounding.plane > demand.least) {
+            break;
+        }
+    }
+    Verdict::Refused
+}
+
+/// The triangle that has an edge.
+#[cold]
+fn with_edge(triangles: &[[u8; 4]], tail: u8, head: u8) -> Option<usize> {
+    triangles.iter().position(|&[a, b, c, _]| [(a, b), (b, c), (c, a)].contains(&(tail, head)))
+}
+
+/// Takes triangles out, the last first, and moves the last of all to the place of each.
+#[inline(always)]
+fn remove<const V: usize, const T: usize>(polytope: &mut Polytope<V, T>, region: &Region) {
+    for (word, mut triangles) in region.words[..region.count].iter().copied().enumerate().rev() {
+        while triangles != 0 {
+            let bit = 63 - triangles.leading_zeros() as usize;
+            triangles ^= 1 << bit;
+            let (hole, last) = (64 * word + bit, polytope.triangle_count - 1);
+            polytope.triangle_count = last;
+            polytope.corners[hole] = polytope.corners[last];
+            polytope.distances[hole] = polytope.distances[last];
+            polytope.certain[hole] = polytope.certain[last];
+            for axis in &mut polytope.normals {
+                axis[hole] = axis[last];
+            }
+        }
+    }
+}
