@@ -786,7 +786,7 @@ typedef struct swiftprox_depth_answer {
  */
 typedef struct swiftprox_depth_cache {
   /** Opaque. */
-  uint32_t words[352];
+  uint32_t words[256];
 } swiftprox_depth_cache;
 
 /** Options of a depth query. Initialise with SWIFTPROX_DEPTH_CONFIG_DEFAULT. */

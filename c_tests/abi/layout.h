@@ -99,8 +99,8 @@ MEMBER(swiftprox_depth_answer, feature1, 152, 12)
 MEMBER(swiftprox_depth_answer, feature2, 164, 12)
 MEMBER(swiftprox_depth_answer, statistics, 176, 16)
 
-STRUCT(swiftprox_depth_cache, 1408, 4)
-MEMBER(swiftprox_depth_cache, words, 0, 1408)
+STRUCT(swiftprox_depth_cache, 1024, 4)
+MEMBER(swiftprox_depth_cache, words, 0, 1024)
 
 STRUCT(swiftprox_depth_config, 40, 8)
 MEMBER(swiftprox_depth_config, struct_size, 0, 8)

@@ -56,7 +56,7 @@ impl CDepthConfig {
 #[repr(C)]
 pub struct CDepthCache {
     /// Opaque.
-    pub words: [u32; 352],
+    pub words: [u32; 256],
 }
 
 // A `DepthCache` lives in the words, which leave it room to grow; any bytes make a valid one.

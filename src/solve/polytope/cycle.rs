@@ -430,3 +430,80 @@ fn remove<const V: usize, const T: usize>(polytope: &mut Polytope<V, T>, region:
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::simd::Portable;
+    use crate::random::Random;
+
+    const ROUNDING: Rounding = Rounding { difference: 1e-15, plane: 1e-14, determinant: 1e-14, provable: 1e-13 };
+
+    fn tetrahedron() -> Polytope<64, 128> {
+        let mut polytope = Polytope::EMPTY;
+        for (i, [x, y, z]) in
+            [[1.0, 1.0, 1.0], [1.0, -1.0, -1.0], [-1.0, 1.0, -1.0], [-1.0, -1.0, 1.0]].into_iter().enumerate()
+        {
+            polytope.add_vertex([i as u32, 0], [x, y, z, 0.0]);
+        }
+        polytope.corners[..4].copy_from_slice(&[[0, 1, 2, 0], [0, 2, 3, 0], [0, 3, 1, 0], [3, 2, 1, 0]]);
+        polytope.triangle_count = 4;
+        evaluate::<Portable, 64, 128>(&mut polytope, &ROUNDING, &Vector::zeros(), 0, 4);
+        polytope
+    }
+
+    /// Points of a sphere come in one by one, and each time what is left is a closed surface with all of them around the centre. Of
+    /// a known vertex the same triangles come again, or nothing changes; and no cycle is left where a corner is another one.
+    #[test]
+    fn what_is_inserted_leaves_a_cycle_around_the_centre() {
+        let mut random = Random::new(5);
+        let (mut polytope, mut edges) = (tetrahedron(), Edges::<64, 1>::EMPTY);
+        let demand = Demand { centre: Vector::zeros(), about_origin: false, least: NO_PLANE };
+        for count in 5..60 {
+            let point = random.direction() * 3_f64.sqrt();
+            let vertex = polytope.add_vertex([count, 0], [point.x, point.y, point.z, 0.0]).unwrap();
+            let farthest = (0..polytope.triangle_count).map(|t| polytope.normal(t).dot(&point) - polytope.distances[t]);
+            let (beyond, _) = farthest.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
+            let apex = Apex { vertex, is_known: false };
+            assert!(insert::<Portable, 64, 128, 1>(&mut polytope, &mut edges, beyond, apex, &ROUNDING, &demand));
+            assert_eq!(polytope.triangle_count, 2 * count as usize - 4);
+            assert!(edges.are_cycle(&polytope.corners[..polytope.triangle_count], polytope.vertex_count));
+            assert!(polytope.distances[..polytope.triangle_count].iter().all(|distance| *distance > 0.1));
+        }
+        let triangles = polytope.corners[..polytope.triangle_count].to_vec();
+        for place in 0..triangles.len() {
+            let mut damaged = triangles.clone();
+            damaged[place][place % 3] = (damaged[place][place % 3] + 1) % 59;
+            assert!(!edges.are_cycle(&damaged, polytope.vertex_count), "{place}");
+            assert!(!edges.are_cycle(&[&triangles[..], &triangles[place..=place]].concat(), polytope.vertex_count));
+        }
+        // Nor is a surface that is there twice, though it is closed.
+        assert!(!edges.are_cycle(&triangles.repeat(2), polytope.vertex_count));
+        assert!(edges.are_cycle(&triangles, polytope.vertex_count));
+    }
+
+    /// Four sides of a ring of vertices stand on a fifth; above, the ring is closed along the lower diagonal. A vertex beyond fills the
+    /// dent, and the triangle that its cone would lie on gives way, too.
+    #[test]
+    fn a_known_vertex_fills_a_dent() {
+        let (mut polytope, mut edges) = (Polytope::<64, 128>::EMPTY, Edges::<64, 1>::EMPTY);
+        let ring = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.5], [-1.0, 0.0, 0.0], [0.0, -1.0, 0.5], [0.0, 0.0, -1.0]];
+        for (i, [x, y, z]) in (0..).zip(ring) {
+            polytope.add_vertex([i, 0], [x, y, z, 0.0]);
+        }
+        let triangles = [[0, 1, 2, 0], [0, 2, 3, 0], [4, 1, 0, 0], [4, 2, 1, 0], [4, 3, 2, 0], [4, 0, 3, 0]];
+        polytope.corners[..6].copy_from_slice(&triangles);
+        polytope.triangle_count = 6;
+        let centre = Vector::new(0.0, 0.0, -0.4);
+        evaluate::<Portable, 64, 128>(&mut polytope, &ROUNDING, &centre, 0, 6);
+        let demand = Demand { centre, about_origin: false, least: NO_PLANE };
+        let apex = Apex { vertex: 3, is_known: true };
+        assert!(insert::<Portable, 64, 128, 1>(&mut polytope, &mut edges, 0, apex, &ROUNDING, &demand));
+        assert_eq!(polytope.triangle_count, 6);
+        assert!(edges.are_cycle(&polytope.corners[..6], 5));
+        assert!(
+            (0..5)
+                .all(|v| (0..6).all(|t| polytope.normal(t).dot(&polytope.position(v)) < polytope.distances[t] + 1e-12))
+        );
+    }
+}
