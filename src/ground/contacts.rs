@@ -1,30 +1,34 @@
 //! Contacts of a body with a ground, with normals of the surface.
 
 use super::PlacedGround;
+use super::allowed::Search;
 use super::answer::GroundContacts;
 use super::corner::{Behind, behind_face};
-use super::grouping::group;
-use super::lowest::{Lowest, Margin, local_point};
-use super::reach::{LEAST_STRETCH, Reach};
+use super::grouping::{group, least_gap};
+use super::inside::triangle_over;
+use super::lowest::{Lowest, Margin};
+use super::normals::TILT;
+use super::reach::Reach;
 use super::room::{Room, Touch};
 use super::tree::{Bounds, Visit};
 use crate::base::error::Result;
-use crate::base::math::{UNIT_ROUNDOFF, Vector, is_unit};
+use crate::base::math::Vector;
 use crate::base::memory::push;
 use crate::base::simd::environment::with_default;
 use crate::pair::{
-    self, DepthAnswer, DepthCache, DepthConfig, Feature, FeatureKind, ManifoldConfig, ManifoldPoint, Outcome,
-    PairConfig, Placed, SignedDistance, SignedDistanceCache, add_points, manifold_along,
+    self, DepthAnswer, DepthCache, DepthConfig, ManifoldConfig, ManifoldPoint, Outcome, PairConfig, Placed,
+    SignedDistance, SignedDistanceCache, add_points, manifold_along,
 };
 use crate::shape::{Triangle, TriangleShape};
 
 /// Finds the contacts of a body, which is object 1, with a ground that it meets or is up to `config.margin` apart from. Writes
 /// them over the contents of `found`.
 ///
-/// The ground pushes out of the front of its triangles. A triangle acts on bodies whose centre of mass is not behind its plane.
-/// The normal of a contact is the one along which the body and the triangle are nearest, or overlap least, if that is in the
-/// normal cone of the surface at the touched point; else it is the triangle's. So no contact holds up a body that slides over a
-/// flat or concave edge. Contacts with one normal are one, however many triangles they are on.
+/// The ground pushes out of the front of its triangles. A triangle acts on bodies whose centre of mass is not behind its plane, or
+/// not by more than the [thickness](crate::ground::Ground::with_thickness) of the ground.
+/// The normal of a contact is the one along which the body and the triangle are nearest, or overlap least, of those in the normal
+/// cone of the surface at the touched point. So no contact holds up a body that slides over a flat or concave edge, and none is
+/// deeper than the body is in. Contacts with one normal are one, however many triangles they are on.
 ///
 /// A gap is that of the body's point over the point on the triangle, along the normal, and holds for them. Whether a body touches a
 /// triangle is as certain as [`pair::signed_distance`] says. There is no cache, so that four points of a reduced contact are chosen
@@ -81,6 +85,8 @@ pub(crate) fn add_contacts(
         let mut meeting = Meeting { body, ground, reach, within, all, shape, touches, points, lowest: 0, missed: None };
         ground.ground.tree().walk(&bounds, &mut meeting)?;
         meeting.keep_missed()?;
+        meeting.push_out()?;
+        meeting.leave_out_needless();
         group(found, config.reduces, body.shape.polyhedron().radius)
     })
 }
@@ -98,39 +104,47 @@ struct Meeting<'a> {
     points: &'a mut Vec<ManifoldPoint>,
     /// The vertex that was lowest over the last triangle.
     lowest: u32,
-    /// The deepest contact along the normal of a triangle that has no points over it.
+    /// Of the contacts with triangles that have no points over them the one that overlaps least.
     missed: Option<(u32, SignedDistance)>,
 }
 
 impl Visit for Meeting<'_> {
-    fn goes_to(&mut self, gap: f64) -> bool {
-        gap * LEAST_STRETCH <= self.all.margin
+    fn goes_to(&mut self, _: &Bounds, gap: f64) -> bool {
+        gap * self.reach.stretch <= self.all.margin
     }
 
     fn triangle(&mut self, triangle: u32) -> Result<bool> {
         let own = self.ground.ground.triangle(triangle);
-        let is_behind = own.normal.dot(&(self.reach.centre - own.corners[0])) < 0.0;
-        if is_behind || !self.goes_to(Bounds::of(&own.corners).gap(&self.reach.bounds)) {
+        let is_behind = own.normal.dot(&(self.reach.centre - own.corners[0])) < -self.ground.ground.thickness();
+        if is_behind || !self.is_near(&Bounds::of(&own.corners)) {
             return Ok(true);
         }
-        let Some(mut contact) = self.nearest(&own)? else { return Ok(true) };
-        let normal = self.reach.local_normal(&contact.normal.into());
-        let is_allowed = self.ground.ground.allows(triangle, &normal);
-        let is_over = is_allowed || {
-            let up = self.reach.world_normal(&own.normal);
-            let corner = self.ground.pose.transform(&own.corners[0]);
-            contact = along(&up, &corner, &contact, &self.body);
-            let foot = self.reach.point(&contact.world2.into());
-            contact.local2 = foot.into();
-            contact.feature2 = Feature { kind: FeatureKind::Face, ids: [triangle, 0] };
-            is_over(&own.corners, &own.normal, &foot)
-        };
-        self.touch(triangle, &contact, is_over)?;
+        let Some(nearest) = self.nearest(&own)? else { return Ok(true) };
+        let normal = self.reach.local_normal(&nearest.normal.into());
+        if self.ground.ground.allows(triangle, &normal) {
+            self.touch(triangle, &nearest, true, None)?;
+            return Ok(true);
+        }
+        let search = Search::new(self.body, self.ground, &self.reach, &own);
+        let best = search.best();
+        let gap = best.gap - self.body.shape.swept_radius();
+        // What is apart, but behind the triangle along all of its normals, is before another one.
+        let is_before = nearest.outcome == Outcome::Intersecting || gap > 0.0;
+        if is_before && gap <= self.all.margin {
+            let (contact, is_over) = search.contact(&best, &nearest);
+            let is_met = nearest.outcome == Outcome::Intersecting;
+            let beside = is_met.then(|| search.beside(&best, &nearest)).flatten();
+            self.touch(triangle, &contact, is_over, beside)?;
+        }
         Ok(true)
     }
 }
 
 impl Meeting<'_> {
+    fn is_near(&mut self, bounds: &Bounds) -> bool {
+        self.goes_to(bounds, bounds.gap(&self.reach.bounds))
+    }
+
     /// The signed distance of the body and a triangle, which is shown; `None` beyond the margin.
     fn nearest(&mut self, own: &Triangle) -> Result<Option<SignedDistance>> {
         let lowest = Lowest::new(self.body, self.ground, own, &self.reach, self.lowest);
@@ -169,23 +183,30 @@ impl Meeting<'_> {
 
 impl Meeting<'_> {
     /// Notes where faces meet along a contact's normal; where they do not, the contact's own points if they are over the triangle.
-    fn touch(&mut self, triangle: u32, contact: &SignedDistance, is_over: bool) -> Result<()> {
+    fn touch(
+        &mut self,
+        triangle: u32,
+        contact: &SignedDistance,
+        is_over: bool,
+        beside: Option<ManifoldPoint>,
+    ) -> Result<()> {
         let bodies = [self.body, self.shape.shown().at(self.ground.pose)];
         let first_point = self.points.len();
         // A point that is not over the triangle is none of the points that faces have in common, however deep it is.
         let far = SignedDistance { lower: f64::INFINITY, upper: f64::INFINITY, ..*contact };
         let along = if is_over { contact } else { &far };
-        let manifold = add_points(self.points, |sink| manifold_along(bodies, along, &self.all, sink))?;
+        let mut manifold = add_points(self.points, |sink| manifold_along(bodies, along, &self.all, sink))?;
         // Without a reference it is the contact's own pair of points.
         if manifold.reference == 0 && !is_over {
             self.points.truncate(first_point);
-            let is_deeper = self.missed.is_none_or(|(_, missed)| contact.upper < missed.upper);
-            if contact.outcome == Outcome::Intersecting && is_deeper {
+            let is_less = self.missed.is_none_or(|(_, missed)| contact.upper > missed.upper);
+            if contact.outcome == Outcome::Intersecting && is_less {
                 self.missed = Some((triangle, *contact));
             }
             return Ok(());
         }
-        push(self.touches, Touch { triangle, manifold, first_point })
+        (manifold.lower, manifold.upper) = least_gap(&self.points[first_point..]);
+        push(self.touches, Touch { triangle, manifold, first_point, beside })
     }
 
     /// A body that meets the ground has a contact, if only beside the triangle.
@@ -193,53 +214,62 @@ impl Meeting<'_> {
         let is_met = self.touches.iter().any(|touch| touch.manifold.outcome == Outcome::Intersecting);
         if let Some((triangle, contact)) = self.missed.filter(|_| !is_met) {
             self.shape.show(&self.ground.ground.triangle(triangle));
-            self.touch(triangle, &contact, true)?;
+            self.touch(triangle, &contact, true, None)?;
         }
         Ok(())
     }
 }
 
-/// A contact turned to the normal of its triangle, given one of the triangle's corners in the world. Its points are a low point
-/// of the body, the witness point unless it was above, and the point below that on the plane. `lower` and `upper` become its
-/// height over the plane.
-fn along(up: &Vector, corner: &Vector, contact: &SignedDistance, body: &Placed) -> SignedDistance {
-    debug_assert!(is_unit(up));
-    let (polyhedron, radius) = (body.shape.polyhedron(), body.shape.swept_radius());
-    let normal = Vector::from(contact.normal);
-    // A point of the polyhedron; from there it is the radius to the ball's lowest.
-    let (own, feature1) = if normal.dot(up) > 0.0 {
-        (Vector::from(contact.world1) + normal * radius, contact.feature1)
-    } else {
-        let (vertex, _) = polyhedron.support(&body.pose.rotate_back(&-up), 0);
-        let feature = Feature { kind: FeatureKind::Vertex, ids: [polyhedron.vertex_labels[vertex as usize], 0] };
-        (body.pose.transform(&polyhedron.local_position(vertex)), feature)
-    };
-    let lowest = own - up * radius;
-    let height = up.dot(&(lowest - corner));
-    // Points are right to some 8u of where they are, the normal to 8u, and so are the product and the radius.
-    let error = 64.0 * UNIT_ROUNDOFF * (lowest.lp_norm(1) + corner.lp_norm(1) + radius);
-    SignedDistance {
-        distance: height,
-        lower: height - error,
-        upper: height + error,
-        normal: (*up).into(),
-        local1: local_point(body.pose, &lowest).into(),
-        world1: lowest.into(),
-        world2: (lowest - up * height).into(),
-        feature1,
-        ..*contact
+impl Meeting<'_> {
+    /// Pushes a body out of a solid ground in which it touches no triangle: by the nearest one, which its centre of mass is behind.
+    fn push_out(&mut self) -> Result<()> {
+        if !self.touches.is_empty() || self.ground.ground.thickness() == 0.0 {
+            return Ok(());
+        }
+        let Some(triangle) = triangle_over(self.ground.ground, &self.reach.centre)? else { return Ok(()) };
+        let own = self.ground.ground.triangle(triangle);
+        let contact = Search::new(self.body, self.ground, &self.reach, &own).from_inside();
+        // Its centre may be inside where the body is not, as that of an open surface.
+        if contact.upper >= 0.0 {
+            return Ok(());
+        }
+        self.shape.show(&own);
+        self.touch(triangle, &contact, true, None)
     }
-}
 
-/// Whether a point of the plane of a triangle is in it, rounding included.
-fn is_over(corners: &[Vector; 3], normal: &Vector, point: &Vector) -> bool {
-    debug_assert!(is_unit(normal));
-    (0..3).all(|k| {
-        let [tail, head] = [corners[k], corners[(k + 1) % 3]];
-        let inward = normal.cross(&(head - tail));
-        let rounding = 64.0 * UNIT_ROUNDOFF * (point.lp_norm(1) + tail.lp_norm(1));
-        inward.dot(&(point - tail)) >= -rounding * inward.norm()
-    })
+    /// Leaves out contacts whose triangles a body no longer meets once another contact has pushed it out, if they are more than
+    /// twice as deep as that or push it back.
+    fn leave_out_needless(&mut self) {
+        let deepness = |touch: &Touch| -touch.lower();
+        self.touches.sort_unstable_by(|a, b| deepness(a).total_cmp(&deepness(b)).then(a.triangle.cmp(&b.triangle)));
+        let mut kept = self.touches.iter().take_while(|touch| deepness(touch) <= 0.0).count();
+        let first = kept;
+        for at in first..self.touches.len() {
+            let normal = Vector::from(self.touches[at].manifold.normal);
+            let is_needless = self.touches[first..kept].iter().any(|other| {
+                let is_back = normal.dot(&Vector::from(other.manifold.normal)) < 0.0;
+                (is_back || deepness(&self.touches[at]) > 2.0 * deepness(other))
+                    && self.frees(other, self.touches[at].triangle)
+            });
+            if !is_needless {
+                self.touches.swap(kept, at);
+                kept += 1;
+            }
+        }
+        self.touches.truncate(kept);
+    }
+
+    /// Whether a body that a contact has pushed out is clear of a triangle along the contact's normal.
+    fn frees(&self, contact: &Touch, triangle: u32) -> bool {
+        let normal = Vector::from(contact.manifold.normal);
+        let (polyhedron, pose) = (self.body.shape.polyhedron(), self.body.pose);
+        let (vertex, _) = polyhedron.support(&pose.rotate_back(&-normal), 0);
+        let low = normal.dot(&pose.transform(&polyhedron.local_position(vertex))) - self.body.shape.swept_radius();
+        let corners = self.ground.ground.triangle(triangle).corners;
+        let heights = corners.map(|corner| normal.dot(&self.ground.pose.transform(&corner)));
+        let high = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        low - contact.lower() >= high - TILT * polyhedron.radius
+    }
 }
 
 #[cfg(test)]
