@@ -5,7 +5,7 @@
 use super::PlacedGround;
 use super::lowest::local_point;
 use super::reach::Reach;
-use crate::base::math::{UNIT_ROUNDOFF, Vector, is_unit};
+use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector, is_unit};
 use crate::pair::{
     Feature, FeatureKind, ManifoldPoint, Outcome, Placed, SignedDistance, feature_of_vertices, label, witness,
 };
@@ -21,6 +21,12 @@ pub(super) struct Best {
     pub normal: Vector,
     pub gap: f64,
     place: Place,
+}
+
+impl Best {
+    pub fn is_along_own_normal(&self) -> bool {
+        matches!(self.place, Place::Face(_))
+    }
 }
 
 /// What touches what.
@@ -62,8 +68,9 @@ impl<'a> Search<'a> {
     }
 
     /// The best normal. Rounding may hide which of two that are about as good is better.
-    pub fn best(&self) -> Best {
-        let low = self.lowest(&self.up, 0);
+    /// `start` is a vertex that may be the lowest.
+    pub fn best(&self, start: u32) -> Best {
+        let low = self.lowest(&self.up, start);
         let gap = self.up.dot(&(low.point - self.corners[0]));
         let mut best = Best { normal: self.up, gap, place: Place::Face(low.vertex) };
         for k in 0..3 {
@@ -93,6 +100,12 @@ impl<'a> Search<'a> {
     /// is better than the best, the lowest vertex there either is one of them or divides what is left in two.
     fn across(&self, k: usize, own: Low, far: &Vector, best: &mut Best) {
         let [tail, head] = [self.corners[k], self.corners[(k + 1) % 3]];
+        // Along the normals between, the vertex that is below the side is a height of which the ends are the most, while it is
+        // negative.
+        if best.gap < 0.0 && far.dot(&(own.point - tail)) <= best.gap && own.normal.dot(&(own.point - tail)) <= best.gap
+        {
+            return;
+        }
         let end = self.lowest(far, own.vertex);
         let gap = far.dot(&(end.point - tail));
         if gap > best.gap {
@@ -112,9 +125,16 @@ impl<'a> Search<'a> {
             }
             tried += 1;
             let low = self.lowest(&normal, one.vertex);
-            if normal.dot(&(low.point - tail)) >= bound - least_step {
+            let height = normal.dot(&(low.point - tail));
+            if height >= bound - least_step {
                 *best = Best { normal, gap: bound, place: Place::Side(k, vertices) };
-            } else if count + 2 <= MOST_TRIED {
+                continue;
+            }
+            // Two vertices may be as low as this at the normal that divides.
+            if height > best.gap {
+                *best = Best { normal, gap: height, place: Place::Side(k, [low.vertex; 2]) };
+            }
+            if count + 2 <= MOST_TRIED {
                 (open[count], open[count + 1]) = ((one, low), (low, other));
                 count += 2;
             }
@@ -131,13 +151,15 @@ impl<'a> Search<'a> {
         let corner = self.corners[k as usize];
         let local = local_point(pose, &corner) - polyhedron.centre;
         for (face, plane) in (0..).zip(&polyhedron.faces) {
+            // In the body's frame, where lengths are a little others if its rotation is not quite rigid.
             let gap = plane.planes.value(0, &local);
-            if !(gap > best.gap && gap <= 0.0) {
+            if !(gap > 1.05 * best.gap && gap <= 0.0) {
                 continue;
             }
-            let normal = -pose.rotate(&plane.normal).normalize();
+            let normal = normal_of_face(pose, &plane.normal);
+            let gap = normal.dot(&(self.lowest(&normal, 0).point - corner));
             let in_ground = self.reach.local_normal(&normal);
-            if self.ground.ground.is_normal_at_vertex(3 * self.own.label + k, &in_ground) {
+            if gap > best.gap && self.ground.ground.is_normal_at_vertex(3 * self.own.label + k, &in_ground) {
                 *best = Best { normal, gap, place: Place::Corner(k as usize, face) };
             }
         }
@@ -166,16 +188,8 @@ impl<'a> Search<'a> {
             Place::Face(lowest) => {
                 let point = self.point(lowest);
                 let contact = self.between(&normal, &point, &(point - normal * gap), [vertex(lowest), face], found);
-                if self.is_over(&contact.local2.into()) {
-                    return (contact, true);
-                }
-                // Another point of the body that is below the triangle.
-                let towards = Vector::from(found.normal);
-                let own = Vector::from(found.world1) + towards * self.body.shape.swept_radius();
-                let height = normal.dot(&(own - self.corners[0]));
-                let inner = self.between(&normal, &own, &(own - normal * height), [found.feature1, face], found);
-                let is_below = normal.dot(&towards) > 0.0 && self.is_over(&inner.local2.into());
-                if is_below { (inner, true) } else { (contact, false) }
+                let is_over = self.is_over(&contact.local2.into());
+                (contact, is_over)
             }
             Place::Beside(lowest) => {
                 let point = self.point(lowest);
@@ -209,16 +223,21 @@ impl<'a> Search<'a> {
         }
     }
 
-    /// The body's lowest point along the triangle's normal, if that is best and the point beside the triangle: what another triangle
-    /// does not push out, which the body need not touch.
-    pub fn beside(&self, best: &Best, found: &SignedDistance) -> Option<ManifoldPoint> {
-        let Place::Face(lowest) = best.place else { return None };
-        let (point, label) = (self.point(lowest), self.body.shape.polyhedron().vertex_labels[lowest as usize]);
-        let features = [(FeatureKind::Vertex, label), (FeatureKind::Face, self.own.label)];
-        let features = features.map(|(kind, label)| Feature { kind, ids: [label, 0] });
-        let contact = self.between(&best.normal, &point, &(point - best.normal * best.gap), features, found);
-        let is_beside = !self.is_over(&contact.local2.into());
-        is_beside.then(|| witness(&contact))
+    /// Another point of the body that is below the triangle: that of the direction in which they overlap least.
+    pub fn inner(&self, best: &Best, nearest: &SignedDistance) -> Option<SignedDistance> {
+        let (normal, towards) = (best.normal, Vector::from(nearest.normal));
+        let own = Vector::from(nearest.world1) + towards * self.body.shape.swept_radius();
+        let face = Feature { kind: FeatureKind::Face, ids: [self.own.label, 0] };
+        let height = normal.dot(&(own - self.corners[0]));
+        let inner = self.between(&normal, &own, &(own - normal * height), [nearest.feature1, face], nearest);
+        let is_below = normal.dot(&towards) > 0.0 && self.is_over(&inner.local2.into());
+        is_below.then_some(inner)
+    }
+
+    /// The contact of the body's lowest point along the triangle's normal, which is beside the triangle, as a point: what another
+    /// triangle does not push out, which the body need not touch.
+    pub fn beside(&self, best: &Best, contact: &SignedDistance) -> Option<ManifoldPoint> {
+        best.is_along_own_normal().then(|| witness(contact))
     }
 
     /// The feature that holds a point between two vertices, which need not have an edge.
@@ -269,6 +288,12 @@ impl<'a> Search<'a> {
             inward.dot(&(point - tail)) >= -rounding * inward.norm()
         })
     }
+}
+
+/// The inward normal of a body's face in the world, also of a pose that is not quite rigid.
+fn normal_of_face(pose: &Pose, local: &Vector) -> Vector {
+    let inverse = pose.rotation().try_inverse();
+    -inverse.map_or_else(|| pose.rotate(local), |inverse| inverse.tr_mul(local)).normalize()
 }
 
 /// The normal between two, across a side from `tail`, along which the lower of their lowest vertices is highest; how high that is,

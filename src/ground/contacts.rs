@@ -16,8 +16,8 @@ use crate::base::math::Vector;
 use crate::base::memory::push;
 use crate::base::simd::environment::with_default;
 use crate::pair::{
-    self, DepthAnswer, DepthCache, DepthConfig, ManifoldConfig, ManifoldPoint, Outcome, PairConfig, Placed,
-    SignedDistance, SignedDistanceCache, add_points, manifold_along,
+    self, ManifoldConfig, ManifoldPoint, Outcome, PairAnswer, PairCache, PairConfig, Placed, SignedDistance,
+    SignedDistanceCache, add_points, manifold_along,
 };
 use crate::shape::{Triangle, TriangleShape};
 
@@ -82,7 +82,8 @@ pub(crate) fn add_contacts(
         };
         // Four points are chosen of all triangles' together.
         let all = ManifoldConfig { reduces: false, ..*config };
-        let mut meeting = Meeting { body, ground, reach, within, all, shape, touches, points, lowest: 0, missed: None };
+        let mut meeting =
+            Meeting { body, ground, reach: &reach, within, all, shape, touches, points, lowest: 0, missed: None };
         ground.ground.tree().walk(&bounds, &mut meeting)?;
         meeting.keep_missed()?;
         meeting.push_out()?;
@@ -95,7 +96,7 @@ pub(crate) fn add_contacts(
 struct Meeting<'a> {
     body: Placed<'a>,
     ground: PlacedGround<'a>,
-    reach: Reach,
+    reach: &'a Reach,
     within: PairConfig,
     all: ManifoldConfig,
     /// The query's triangle.
@@ -119,25 +120,49 @@ impl Visit for Meeting<'_> {
         if is_behind || !self.is_near(&Bounds::of(&own.corners)) {
             return Ok(true);
         }
-        let Some(nearest) = self.nearest(&own)? else { return Ok(true) };
-        let normal = self.reach.local_normal(&nearest.normal.into());
-        if self.ground.ground.allows(triangle, &normal) {
+        let nearest = match self.nearest(&own)? {
+            Found::Beyond => return Ok(true),
+            Found::Nearest(nearest) => Some(nearest),
+            Found::Meeting => None,
+        };
+        let is_allowed = |nearest: &SignedDistance| {
+            let normal = self.reach.local_normal(&nearest.normal.into());
+            self.ground.ground.allows(triangle, &normal)
+        };
+        if let Some(nearest) = nearest.filter(is_allowed) {
             self.touch(triangle, &nearest, true, None)?;
             return Ok(true);
         }
-        let search = Search::new(self.body, self.ground, &self.reach, &own);
-        let best = search.best();
+        let search = Search::new(self.body, self.ground, self.reach, &own);
+        let best = search.best(self.lowest);
         let gap = best.gap - self.body.shape.swept_radius();
-        // What is apart, but behind the triangle along all of its normals, is before another one.
-        let is_before = nearest.outcome == Outcome::Intersecting || gap > 0.0;
-        if is_before && gap <= self.all.margin {
-            let (contact, is_over) = search.contact(&best, &nearest);
-            let is_met = nearest.outcome == Outcome::Intersecting;
-            let beside = is_met.then(|| search.beside(&best, &nearest)).flatten();
-            self.touch(triangle, &contact, is_over, beside)?;
+        let found = nearest.unwrap_or(SignedDistance { outcome: Outcome::Intersecting, ..SignedDistance::default() });
+        let is_met = found.outcome == Outcome::Intersecting;
+        // What is apart, but behind the triangle along all of its normals by more than rounding, is before another one.
+        let rounding = TILT * self.body.shape.polyhedron().radius;
+        if !(is_met || gap > -rounding) || gap > self.all.margin {
+            return Ok(true);
         }
+        let (mut contact, mut is_over) = search.contact(&best, &found);
+        let beside = if is_met && !is_over { search.beside(&best, &contact) } else { None };
+        if !is_over && best.is_along_own_normal() {
+            let nearest = if nearest.is_some() { found } else { self.depth()? };
+            if let Some(inner) = search.inner(&best, &nearest) {
+                (contact, is_over) = (inner, true);
+            }
+        }
+        self.touch(triangle, &contact, is_over, beside)?;
         Ok(true)
     }
+}
+
+/// What is known of a body and a triangle.
+enum Found {
+    /// They are farther apart than the margin.
+    Beyond,
+    Nearest(SignedDistance),
+    /// They have points in common; how deep they are is open.
+    Meeting,
 }
 
 impl Meeting<'_> {
@@ -145,39 +170,52 @@ impl Meeting<'_> {
         self.goes_to(bounds, bounds.gap(&self.reach.bounds))
     }
 
-    /// The signed distance of the body and a triangle, which is shown; `None` beyond the margin.
-    fn nearest(&mut self, own: &Triangle) -> Result<Option<SignedDistance>> {
-        let lowest = Lowest::new(self.body, self.ground, own, &self.reach, self.lowest);
+    /// How near the body is to a triangle, which is shown unless that is beyond the margin.
+    fn nearest(&mut self, own: &Triangle) -> Result<Found> {
+        let lowest = Lowest::new(self.body, self.ground, own, self.reach, self.lowest);
         self.lowest = lowest.vertex;
         let margin = Margin { radius: self.body.shape.swept_radius(), margin: self.all.margin };
         if margin.is_beyond(lowest.lower) {
-            return Ok(None);
+            return Ok(Found::Beyond);
         }
-        let mut contact = lowest.contact(self.body, own, &self.reach, margin);
-        if contact.is_none() {
+        let is_meeting = lowest.is_through(self.body, own, self.reach);
+        let mut contact = if is_meeting { None } else { lowest.contact(self.body, own, self.reach, margin) };
+        if contact.is_none() && !is_meeting {
             contact = match behind_face(self.body, self.ground, own, &lowest, margin) {
-                Behind::Beyond => return Ok(None),
+                Behind::Beyond => return Ok(Found::Beyond),
                 Behind::Nearest(contact) => Some(contact),
                 Behind::Open => None,
             };
         }
         self.shape.show(own);
-        if contact.is_some() {
-            return Ok(contact);
+        if is_meeting {
+            return Ok(Found::Meeting);
+        }
+        if let Some(contact) = contact {
+            return Ok(Found::Nearest(contact));
         }
         // That takes longer than all before.
         let bodies = [self.body, self.shape.complete().at(self.ground.pose)];
-        if lowest.is_through(own, &self.reach) {
-            let config = DepthConfig { rotation_limit: self.within.rotation_limit, ..DepthConfig::default() };
-            let mut deep = DepthAnswer::default();
-            pair::depth(bodies, &mut DepthCache::default(), &config, &mut deep)?;
-            if deep.outcome == Outcome::Intersecting {
-                return Ok(Some((&deep).into()));
-            }
+        if margin.radius == 0.0 {
+            let mut answer = PairAnswer::default();
+            pair::distance(bodies, &mut PairCache::default(), &self.within, &mut answer)?;
+            return Ok(match answer.outcome {
+                Outcome::Intersecting => Found::Meeting,
+                Outcome::Beyond => Found::Beyond,
+                _ => Found::Nearest((&answer).into()),
+            });
         }
         let mut contact = SignedDistance::default();
         pair::signed_distance(bodies, &mut SignedDistanceCache::default(), &self.within, &mut contact)?;
-        Ok(Some(contact).filter(|contact| contact.outcome != Outcome::Beyond))
+        Ok(if contact.outcome == Outcome::Beyond { Found::Beyond } else { Found::Nearest(contact) })
+    }
+
+    /// How deep the body is in the triangle that is shown, which it meets.
+    fn depth(&mut self) -> Result<SignedDistance> {
+        let bodies = [self.body, self.shape.complete().at(self.ground.pose)];
+        let mut contact = SignedDistance::default();
+        pair::signed_distance(bodies, &mut SignedDistanceCache::default(), &self.within, &mut contact)?;
+        Ok(contact)
     }
 }
 
@@ -228,7 +266,7 @@ impl Meeting<'_> {
         }
         let Some(triangle) = triangle_over(self.ground.ground, &self.reach.centre)? else { return Ok(()) };
         let own = self.ground.ground.triangle(triangle);
-        let contact = Search::new(self.body, self.ground, &self.reach, &own).from_inside();
+        let contact = Search::new(self.body, self.ground, self.reach, &own).from_inside();
         // Its centre may be inside where the body is not, as that of an open surface.
         if contact.upper >= 0.0 {
             return Ok(());
@@ -237,19 +275,19 @@ impl Meeting<'_> {
         self.touch(triangle, &contact, true, None)
     }
 
-    /// Leaves out contacts whose triangles a body no longer meets once another contact has pushed it out, if they are more than
-    /// twice as deep as that or push it back.
+    /// Leaves out contacts whose triangles a body no longer meets once another contact has pushed it out, if they are certainly more
+    /// than twice as deep as that or push it back.
     fn leave_out_needless(&mut self) {
-        let deepness = |touch: &Touch| -touch.lower();
-        self.touches.sort_unstable_by(|a, b| deepness(a).total_cmp(&deepness(b)).then(a.triangle.cmp(&b.triangle)));
-        let mut kept = self.touches.iter().take_while(|touch| deepness(touch) <= 0.0).count();
-        let first = kept;
+        let most_deep = |touch: &Touch| -touch.least_gap()[0];
+        self.touches.sort_unstable_by(|a, b| most_deep(a).total_cmp(&most_deep(b)).then(a.triangle.cmp(&b.triangle)));
+        let first = self.touches.iter().take_while(|touch| touch.least_gap()[1] >= 0.0).count();
+        let mut kept = first;
         for at in first..self.touches.len() {
-            let normal = Vector::from(self.touches[at].manifold.normal);
+            let touch = &self.touches[at];
+            let (normal, deep) = (Vector::from(touch.manifold.normal), -touch.least_gap()[1]);
             let is_needless = self.touches[first..kept].iter().any(|other| {
                 let is_back = normal.dot(&Vector::from(other.manifold.normal)) < 0.0;
-                (is_back || deepness(&self.touches[at]) > 2.0 * deepness(other))
-                    && self.frees(other, self.touches[at].triangle)
+                (deep > 2.0 * most_deep(other) || is_back && deep > 0.0) && self.frees(other, touch.triangle)
             });
             if !is_needless {
                 self.touches.swap(kept, at);
@@ -268,7 +306,7 @@ impl Meeting<'_> {
         let corners = self.ground.ground.triangle(triangle).corners;
         let heights = corners.map(|corner| normal.dot(&self.ground.pose.transform(&corner)));
         let high = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        low - contact.lower() >= high - TILT * polyhedron.radius
+        low - contact.least_gap()[0] >= high - TILT * polyhedron.radius
     }
 }
 

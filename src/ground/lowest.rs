@@ -70,9 +70,18 @@ impl Lowest {
         })
     }
 
-    /// Whether the vertex is below the triangle's plane, and its foot on it in the triangle.
-    pub fn is_through(&self, triangle: &Triangle, reach: &Reach) -> bool {
-        self.height < 0.0 && is_inside(triangle, &reach.point(&(self.world - self.up * self.height)), 0.0)
+    /// Whether body and triangle certainly have a point in common: where the way from the vertex below its plane to the centre of
+    /// mass above crosses it. The heights of both are off by the error, the place where the way crosses by as much and by the part
+    /// of the way that this makes.
+    pub fn is_through(&self, body: Placed, triangle: &Triangle, reach: &Reach) -> bool {
+        let polyhedron = body.shape.polyhedron();
+        let way = body.pose.transform(&polyhedron.mass.centre_of_mass) - self.world;
+        let rise = self.up.dot(&way);
+        if !(self.height < -self.error && rise + self.height > self.error) {
+            return false;
+        }
+        let error = 8.0 * self.error * (1.0 + way.norm() / rise);
+        is_inside(triangle, &reach.point(&(self.world - way * (self.height / rise))), error)
     }
 }
 

@@ -26,9 +26,10 @@ pub(super) struct Touch {
 }
 
 impl Touch {
-    /// The least gap of its points, or of the body's lowest.
-    pub fn lower(&self) -> f64 {
-        self.beside.map_or(self.manifold.lower, |beside| beside.gap_lower.min(self.manifold.lower))
+    /// The least gap of its points, or of the body's lowest, as an interval.
+    pub fn least_gap(&self) -> [f64; 2] {
+        let Manifold { lower, upper, .. } = self.manifold;
+        self.beside.map_or([lower, upper], |beside| [beside.gap_lower.min(lower), beside.gap_upper.min(upper)])
     }
 }
 
