@@ -166,7 +166,7 @@ impl<'a> Search<'a> {
     }
 
     /// The contact of a body behind the triangle, along the triangle's normal.
-    pub fn from_inside(&self) -> SignedDistance {
+    pub fn push_from_behind(&self) -> SignedDistance {
         let low = self.lowest(&self.up, 0);
         let gap = self.up.dot(&(low.point - self.corners[0]));
         let label = self.body.shape.polyhedron().vertex_labels[low.vertex as usize];

@@ -266,7 +266,7 @@ impl Meeting<'_> {
         }
         let Some(triangle) = triangle_over(self.ground.ground, &self.reach.centre)? else { return Ok(()) };
         let own = self.ground.ground.triangle(triangle);
-        let contact = Search::new(self.body, self.ground, self.reach, &own).from_inside();
+        let contact = Search::new(self.body, self.ground, self.reach, &own).push_from_behind();
         // Its centre may be inside where the body is not, as that of an open surface.
         if contact.upper >= 0.0 {
             return Ok(());

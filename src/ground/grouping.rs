@@ -104,10 +104,9 @@ fn keep_four(grouping: &mut Grouping, size: f64) -> Result<()> {
                 continue;
             }
             *is_taken = true;
-            for at in other.first_point..other.first_point + other.manifold.point_count as usize {
-                push(places, at)?;
-                push(own, gathered[at])?;
-            }
+            let range = other.first_point..other.first_point + other.manifold.point_count as usize;
+            extend(places, range.clone())?;
+            extend(own, gathered[range].iter().copied())?;
         }
         four_of_points(own, &normal, size).for_each(|at| stays[places[at]] = true);
     }
