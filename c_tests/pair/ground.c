@@ -124,6 +124,24 @@ static void what_a_program_may_do_wrong(void)
     swiftprox_shape_release(body);
 }
 
+/* An object asked about below the box of the heights: only in a solid it has a contact. */
+static void down_and_solid(swiftprox_scene *scene, swiftprox_object_id id, const swiftprox_ground *ground, swiftprox_scratch *scratch)
+{
+    const double below[12] = {1, 0, 0, 2, 0, 1, 0, 2, 0, 0, 1, -0.75};
+    const swiftprox_ground *solid = NULL;
+    swiftprox_object_set set = {0};
+    swiftprox_scene_ground_answer answer;
+    set.ids = &id;
+    set.count = 1;
+    set.poses = below;
+    CHECK_OK(swiftprox_scene_ground_contacts(scene, &set, ground, identity, NULL, NULL, scratch, &answer));
+    CHECK(answer.contact_count == 0);
+    CHECK_OK(swiftprox_ground_create_solid(ground, 1, &solid));
+    CHECK_OK(swiftprox_scene_ground_contacts(scene, &set, solid, identity, NULL, NULL, scratch, &answer));
+    CHECK(answer.contact_count == 1 && answer.contacts[0].contact.manifold.normal[2] == 1);
+    swiftprox_ground_release(solid);
+}
+
 /* Cubes of a scene over a level grid and a half-space: two are 0.125 in, one of these in another group, one is fixed, one above. */
 static void objects_of_a_scene(void)
 {
@@ -163,6 +181,7 @@ static void objects_of_a_scene(void)
     CHECK_OK(swiftprox_scene_half_space_contacts(scene, NULL, &floor, &config, NULL, scratch, &answer));
     CHECK(answer.contact_count == 2 && answer.point_count == 8 && answer.contacts[0].contact.triangle == UINT32_MAX);
     CHECK(answer.points[0].gap_lower <= -0.125 && -0.125 <= answer.points[0].gap_upper);
+    down_and_solid(scene, ids[0], ground, scratch);
     CHECK_OK(swiftprox_scene_ground_contacts(scene, NULL, ground, identity, NULL, &second, scratch, &answer));
     CHECK(answer.contact_count == 1 && answer.contacts[0].object.bits == ids[1].bits);
     set.ids = ids + 2;

@@ -6,9 +6,7 @@ use super::PlacedGround;
 use super::lowest::local_point;
 use super::reach::Reach;
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector, is_unit};
-use crate::pair::{
-    Feature, FeatureKind, ManifoldPoint, Outcome, Placed, SignedDistance, feature_of_vertices, label, witness,
-};
+use crate::pair::{Feature, FeatureKind, Outcome, Placed, SignedDistance, feature_of_vertices, label};
 use crate::shape::Triangle;
 use crate::solve::state::FeatureId;
 
@@ -232,12 +230,6 @@ impl<'a> Search<'a> {
         let inner = self.between(&normal, &own, &(own - normal * height), [nearest.feature1, face], nearest);
         let is_below = normal.dot(&towards) > 0.0 && self.is_over(&inner.local2.into());
         is_below.then_some(inner)
-    }
-
-    /// The contact of the body's lowest point along the triangle's normal, which is beside the triangle, as a point: what another
-    /// triangle does not push out, which the body need not touch.
-    pub fn beside(&self, best: &Best, contact: &SignedDistance) -> Option<ManifoldPoint> {
-        best.is_along_own_normal().then(|| witness(contact))
     }
 
     /// The feature that holds a point between two vertices, which need not have an edge.

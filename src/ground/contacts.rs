@@ -17,7 +17,7 @@ use crate::base::memory::push;
 use crate::base::simd::environment::with_default;
 use crate::pair::{
     self, ManifoldConfig, ManifoldPoint, Outcome, PairAnswer, PairCache, PairConfig, Placed, SignedDistance,
-    SignedDistanceCache, add_points, manifold_along,
+    SignedDistanceCache, add_points, manifold_along, witness,
 };
 use crate::shape::{Triangle, TriangleShape};
 
@@ -144,7 +144,7 @@ impl Visit for Meeting<'_> {
             return Ok(true);
         }
         let (mut contact, mut is_over) = search.contact(&best, &found);
-        let beside = if is_met && !is_over { search.beside(&best, &contact) } else { None };
+        let beside = (is_met && !is_over).then(|| witness(&contact));
         if !is_over && best.is_along_own_normal() {
             let nearest = if nearest.is_some() { found } else { self.depth()? };
             if let Some(inner) = search.inner(&best, &nearest) {

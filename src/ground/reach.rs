@@ -18,13 +18,16 @@ fn least_stretch(pose: &Pose) -> f64 {
 const ROUNDING: f64 = 256.0 * UNIT_ROUNDOFF;
 
 impl PlacedGround<'_> {
-    /// A box in the world around the whole ground, a little larger than it need be: its least and its greatest corner.
+    /// A box in the world around all that the ground acts on, a little larger than it need be: its least and its greatest corner.
     pub(crate) fn world_box(&self) -> [Vector; 2] {
         let Bounds { lower, upper } = *self.ground.tree().bounds();
         let (middle, half) = (0.5 * lower + 0.5 * upper, 0.5 * upper - 0.5 * lower);
         let at = self.pose.transform(&middle);
         let size = self.pose.translation().lp_norm(1) + 2.0 * (middle.lp_norm(1) + half.lp_norm(1));
-        let half = (self.pose.rotation().abs() * half).add_scalar(ROUNDING * size);
+        // What is inside a closed surface is inside its box.
+        let thickness = Some(self.ground.thickness()).filter(|thickness| thickness.is_finite()).unwrap_or(0.0);
+        let beyond = thickness * self.pose.most_stretched() + ROUNDING * size;
+        let half = (self.pose.rotation().abs() * half).add_scalar(beyond);
         [at - half, at + half]
     }
 }

@@ -1,7 +1,7 @@
 //! No body is kicked: what a contact says is about how far the body is in, on the edges, seams and rims of any ground.
 
 use super::contacts::contacts;
-use swiftprox::ground::{Ground, HeightGrid, ground_distance};
+use swiftprox::ground::{Ground, GroundContact, HeightGrid, ground_distance};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{PairConfig, Query};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
@@ -182,11 +182,23 @@ pub fn moved_in(body: &Shape, from: &Pose, direction: &Vector, step: f64, ground
     None
 }
 
-/// What a body that was moved in by a step is told: at least one contact, and none that is more than twice as deep as the step.
+/// What a body that was moved in by a step is told: at least one contact, and none that is more than twice as deep as the step. Moving
+/// along a contact by its depth frees the body of its triangle.
 pub fn judge(body: &Shape, pose: &Pose, step: f64, ground: &Ground) -> Result<(), String> {
     let found = contacts(body, pose, ground, 0.0, false);
     if found.contacts.is_empty() && distance(body, pose, ground) == 0.0 {
         return Err("none".into());
+    }
+    for contact in &found.contacts {
+        let normal = Vector::from(contact.manifold.normal);
+        let out = Pose::new(&pose.rotation(), &(pose.translation() - normal * contact.manifold.lower));
+        let is_same = |other: &&GroundContact| {
+            other.triangle == contact.triangle && (Vector::from(other.manifold.normal) - normal).norm() < 1e-6
+        };
+        let after = contacts(body, &out, ground, 0.0, false);
+        if let Some(again) = after.contacts.iter().find(is_same).filter(|again| again.manifold.upper < -1e-9) {
+            return Err(format!("deep again: {contact:?} {again:?}"));
+        }
     }
     match found.contacts.iter().find(|contact| contact.manifold.lower < -2.0 * step - 1e-9) {
         Some(contact) => Err(format!("{:.1} times: {contact:?}", -contact.manifold.lower / step)),
