@@ -7,6 +7,7 @@ use super::lowest::local_point;
 use super::reach::Reach;
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector, is_unit};
 use crate::pair::{Feature, FeatureKind, Outcome, Placed, SignedDistance, feature_of_vertices, label};
+use crate::polyhedron::Face;
 use crate::shape::Triangle;
 use crate::solve::state::FeatureId;
 
@@ -181,17 +182,18 @@ impl<'a> Search<'a> {
         let polyhedron = self.body.shape.polyhedron();
         let vertex =
             |vertex: u32| Feature { kind: FeatureKind::Vertex, ids: [polyhedron.vertex_labels[vertex as usize], 0] };
-        let face = Feature { kind: FeatureKind::Face, ids: [self.own.label, 0] };
+        let face_feature = Feature { kind: FeatureKind::Face, ids: [self.own.label, 0] };
         match place {
             Place::Face(lowest) => {
                 let point = self.point(lowest);
-                let contact = self.between(&normal, &point, &(point - normal * gap), [vertex(lowest), face], found);
+                let contact =
+                    self.between(&normal, &point, &(point - normal * gap), [vertex(lowest), face_feature], found);
                 let is_over = self.is_over(&contact.local2.into());
                 (contact, is_over)
             }
             Place::Beside(lowest) => {
                 let point = self.point(lowest);
-                (self.between(&normal, &point, &(point - normal * gap), [vertex(lowest), face], found), false)
+                (self.between(&normal, &point, &(point - normal * gap), [vertex(lowest), face_feature], found), false)
             }
             Place::Side(k, [one, other]) => {
                 let [tail, side] = [self.corners[k], self.corners[(k + 1) % 3] - self.corners[k]];
@@ -209,14 +211,16 @@ impl<'a> Search<'a> {
                 let on = self.corners[k];
                 let own = on + normal * gap;
                 let local = local_point(self.body.pose, &own) - polyhedron.centre;
-                let rounding = 256.0
-                    * UNIT_ROUNDOFF
-                    * (polyhedron.radius + own.lp_norm(1) + self.body.pose.translation().lp_norm(1));
-                let is_inside =
-                    polyhedron.faces.iter().all(|face| face.planes.value(0, &local) <= face.slack + rounding);
+                let lengths = polyhedron.radius + own.lp_norm(1) + self.body.pose.translation().lp_norm(1);
+                let is_off = |face: &Face| face.planes.value(0, &local) > face.slack + 256.0 * UNIT_ROUNDOFF * lengths;
+                if polyhedron.faces.iter().any(is_off) {
+                    let Low { vertex: lowest, point, .. } = self.lowest(&normal, 0);
+                    let on = point - normal * gap;
+                    return (self.between(&normal, &point, &on, [vertex(lowest), face_feature], found), false);
+                }
                 let feature1 = label(polyhedron, FeatureId::Face(face), &local);
                 let feature2 = Feature { kind: FeatureKind::Vertex, ids: [self.own.labels[k], 0] };
-                (self.between(&normal, &own, &on, [feature1, feature2], found), is_inside)
+                (self.between(&normal, &own, &on, [feature1, feature2], found), true)
             }
         }
     }

@@ -5,7 +5,7 @@ use super::allowed::Search;
 use super::answer::GroundContacts;
 use super::corner::{Behind, behind_face};
 use super::grouping::{group, least_gap};
-use super::inside::triangle_over;
+use super::inside::{nearest_point, triangle_over};
 use super::lowest::{Lowest, Margin};
 use super::normals::TILT;
 use super::reach::Reach;
@@ -172,7 +172,8 @@ impl Meeting<'_> {
 
     /// How near the body is to a triangle, which is shown unless that is beyond the margin.
     fn nearest(&mut self, own: &Triangle) -> Result<Found> {
-        let lowest = Lowest::new(self.body, self.ground, own, self.reach, self.lowest);
+        let up = self.reach.world_normal(&own.normal);
+        let lowest = Lowest::new(self.body, self.ground, own, &up, self.lowest);
         self.lowest = lowest.vertex;
         let margin = Margin { radius: self.body.shape.swept_radius(), margin: self.all.margin };
         if margin.is_beyond(lowest.lower) {
@@ -184,6 +185,7 @@ impl Meeting<'_> {
             contact = match behind_face(self.body, self.ground, own, &lowest, margin) {
                 Behind::Beyond => return Ok(Found::Beyond),
                 Behind::Nearest(contact) => Some(contact),
+                Behind::Open if self.is_aside(own, margin) => return Ok(Found::Beyond),
                 Behind::Open => None,
             };
         }
@@ -208,6 +210,22 @@ impl Meeting<'_> {
         let mut contact = SignedDistance::default();
         pair::signed_distance(bodies, &mut SignedDistanceCache::default(), &self.within, &mut contact)?;
         Ok(if contact.outcome == Outcome::Beyond { Found::Beyond } else { Found::Nearest(contact) })
+    }
+
+    /// Whether the body is beyond the margin along the way from the triangle to its centre, or to the vertex that is lowest there.
+    fn is_aside(&self, own: &Triangle, margin: Margin) -> bool {
+        let (mut point, mut vertex) = (self.reach.centre, self.lowest);
+        (0..2).any(|_| {
+            let way = point - nearest_point(&own.corners, &point).0;
+            let up = self.ground.pose.rotate(&way);
+            let length = up.norm();
+            if !(length > f64::MIN_POSITIVE.sqrt()) {
+                return false;
+            }
+            let lowest = Lowest::new(self.body, self.ground, own, &(up / length), vertex);
+            (point, vertex) = (self.reach.point(&lowest.world), lowest.vertex);
+            margin.is_beyond(lowest.lower)
+        })
     }
 
     /// How deep the body is in the triangle that is shown, which it meets.

@@ -58,7 +58,7 @@ impl Visit for Nearest<'_> {
 }
 
 /// The point of a triangle nearest to another, and the side that it is on unless it is inside.
-fn nearest_point(corners: &[Vector; 3], point: &Vector) -> (Vector, Option<u32>) {
+pub(super) fn nearest_point(corners: &[Vector; 3], point: &Vector) -> (Vector, Option<u32>) {
     let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0]));
     let mut best: Option<(f64, Vector, u32)> = None;
     for k in 0..3 {

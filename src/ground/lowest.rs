@@ -12,8 +12,8 @@ use crate::solve::certificate::of_vertex;
 pub(super) struct Lowest {
     pub vertex: u32,
     /// Its position.
-    world: Vector,
-    /// The triangle's normal in the world.
+    pub world: Vector,
+    /// The direction that is up: the triangle's normal in the world, or another.
     pub up: Vector,
     /// Its height over the first corner of the triangle; all of the polyhedron is at least `lower` over the triangle.
     height: f64,
@@ -29,9 +29,8 @@ impl Lowest {
     /// right to 6u of its translation and of twice its local length, the difference of two to u of both, the product with the
     /// direction to 4u of it, the length of the direction to 4u, and the direction inside the body to 7u of twice its radius: all
     /// in all less than 64u of those lengths.
-    pub fn new(body: Placed, ground: PlacedGround, triangle: &Triangle, reach: &Reach, start: u32) -> Lowest {
-        let (polyhedron, pose) = (body.shape.polyhedron(), body.pose);
-        let up = reach.world_normal(&triangle.normal);
+    pub fn new(body: Placed, ground: PlacedGround, triangle: &Triangle, up: &Vector, start: u32) -> Lowest {
+        let (polyhedron, pose, up) = (body.shape.polyhedron(), body.pose, *up);
         let downwards = pose.rotate_back(&-up);
         let (vertex, _) = polyhedron.support(&downwards, start);
         let world = pose.transform(&polyhedron.local_position(vertex));

@@ -235,12 +235,12 @@ fn no_body_is_kicked_on_a_roof() {
     for angle in [30.0, 45.0, 60.0, 75.0, 90.0, 105.0, 120.0, 135.0, 150.0] {
         for cells in [1, 7] {
             let ground = roof(f64::to_radians(angle), cells);
-            let (own, bad) = judge_all(&mut random, &ground, 1.0, 150, 0.005);
+            let (own, bad) = judge_all(&mut random, &ground, 1.0, 90, 0.005);
             judged += own;
             wrong.extend(bad.into_iter().map(|what| format!("{angle}° in {cells}, {what}")));
         }
     }
     println!("{judged} judged, {} wrong", wrong.len());
     wrong.iter().take(5).for_each(|what| println!("{what}"));
-    assert!(judged > 1500 && wrong.is_empty(), "{judged} {}", wrong.len());
+    assert!(judged > 1000 && wrong.is_empty(), "{judged} {}", wrong.len());
 }

@@ -118,7 +118,7 @@ fn no_body_is_kicked_on_a_closed_surface() {
     for (name, reach, soup) in &soups {
         for thickness in [0.0, f64::INFINITY] {
             let ground = ground_of(soup).with_thickness(thickness).unwrap();
-            let (own, bad) = judge_all(&mut random, &ground, *reach, 120, 0.005);
+            let (own, bad) = judge_all(&mut random, &ground, *reach, 60, 0.005);
             judged += own;
             println!("{name}, {thickness} thick: {} of {own}", bad.len());
             wrong.extend(bad.into_iter().map(|what| format!("{name}, {thickness} thick, {what}")));
@@ -126,7 +126,7 @@ fn no_body_is_kicked_on_a_closed_surface() {
     }
     println!("{judged} judged, {} wrong", wrong.len());
     wrong.iter().take(8).for_each(|what| println!("{what}"));
-    assert!(judged > 1500 && wrong.is_empty(), "{judged} {}", wrong.len());
+    assert!(judged > 900 && wrong.is_empty(), "{judged} {}", wrong.len());
 }
 
 /// A plate of heights or a block pushes out of its front what is behind it, from half in to wholly inside.
