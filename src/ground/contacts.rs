@@ -265,10 +265,13 @@ impl Meeting<'_> {
         push(self.touches, Touch { triangle, manifold, first_point, beside })
     }
 
+    fn is_met(&self) -> bool {
+        self.touches.iter().any(|touch| touch.manifold.outcome == Outcome::Intersecting)
+    }
+
     /// A body that meets the ground has a contact, if only beside the triangle.
     fn keep_missed(&mut self) -> Result<()> {
-        let is_met = self.touches.iter().any(|touch| touch.manifold.outcome == Outcome::Intersecting);
-        if let Some((triangle, contact)) = self.missed.filter(|_| !is_met) {
+        if let Some((triangle, contact)) = self.missed.filter(|_| !self.is_met()) {
             self.shape.show(&self.ground.ground.triangle(triangle));
             self.touch(triangle, &contact, true, None)?;
         }
@@ -279,7 +282,7 @@ impl Meeting<'_> {
 impl Meeting<'_> {
     /// Pushes a body out of a solid ground in which it touches no triangle: by the nearest one, which its centre of mass is behind.
     fn push_out(&mut self) -> Result<()> {
-        if !self.touches.is_empty() || self.ground.ground.thickness() == 0.0 {
+        if self.is_met() || self.ground.ground.thickness() == 0.0 {
             return Ok(());
         }
         let Some(triangle) = triangle_over(self.ground.ground, &self.reach.centre)? else { return Ok(()) };
