@@ -50,7 +50,8 @@ static void a_cube_on_a_level_grid(void)
 static void tiles_and_solids(void)
 {
     double heights[25] = {0}, poses[24] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 4, 0, 1, 0, 0, 0, 0, 1, 0};
-    const double on_seam[12] = {1, 0, 0, 4.1, 0, 1, 0, 1.9, 0, 0, 1, 0.375}, below[12] = {1, 0, 0, 4.1, 0, 1, 0, 1.9, 0, 0, 1, -0.75};
+    const double on_seam[12] = {1, 0, 0, 4.1, 0, 1, 0, 1.9, 0, 0, 1, 0.375};
+    const double below[12] = {1, 0, 0, 4.1, 0, 1, 0, 1.9, 0, 0, 1, -0.75};
     const swiftprox_shape *body = box(0.5, 0.5, 0.5);
     const swiftprox_ground *tiles[2] = {NULL, NULL}, *ground = NULL, *solid = NULL, *none = NULL;
     swiftprox_ground_info info;
@@ -125,7 +126,8 @@ static void what_a_program_may_do_wrong(void)
 }
 
 /* An object asked about below the box of the heights: only in a solid it has a contact. */
-static void down_and_solid(swiftprox_scene *scene, swiftprox_object_id id, const swiftprox_ground *ground, swiftprox_scratch *scratch)
+static void down_and_solid(swiftprox_scene *scene, swiftprox_object_id id, const swiftprox_ground *ground,
+                           swiftprox_scratch *scratch)
 {
     const double below[12] = {1, 0, 0, 2, 0, 1, 0, 2, 0, 0, 1, -0.75};
     const swiftprox_ground *solid = NULL;

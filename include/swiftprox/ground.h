@@ -115,8 +115,8 @@ swiftprox_status swiftprox_ground_create_from_heights(size_t rows,
                                                       const struct swiftprox_ground **ground);
 
 /**
- * Creates one ground from several, such as the tiles of a terrain: bodies slide over the seams. The caller owns it and gives it back
- * with swiftprox_ground_release. Shares of the others are not kept.
+ * Creates one ground from several, such as the tiles of a terrain: bodies slide over the seams. The caller owns it and gives it
+ * back with swiftprox_ground_release. Shares of the others are not kept.
  *
  * `grounds` holds `count` grounds, `poses` 12 numbers for each of them, row by row. Vertices and triangles keep their order: those
  * of the first ground, then those of the second. The new ground is as thick as the thickest of them.
@@ -239,9 +239,9 @@ typedef struct swiftprox_ground_count {
  * and one normal out of the ground. `contacts` and `points` receive what fits, and may be null if their capacity is 0. `count`
  * receives all numbers found. Points of contact c begin at its first_point; there are manifold.point_count.
  *
- * A triangle acts only on bodies whose centre of mass is not behind its plane by more than the ground's thickness. The normal is the
- * direction of least distance or overlap among those that are normal to the surface at the touched point. So bodies slide freely
- * over flat and concave edges, and no contact is much deeper than the body is in.
+ * A triangle acts only on bodies whose centre of mass is not behind its plane by more than the ground's thickness. The normal is
+ * the direction of least distance or overlap among those that are normal to the surface at the touched point. So bodies slide
+ * freely over flat and concave edges, and no contact is much deeper than the body is in.
  *
  * If config->reduces is set, at most four points stay on each side of the body. Contacts with normals within 45 degrees of the
  * deepest are on one side.

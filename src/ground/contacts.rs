@@ -296,8 +296,8 @@ impl Meeting<'_> {
         self.touch(triangle, &contact, true, None)
     }
 
-    /// Leaves out contacts whose triangles a body no longer meets once another contact has pushed it out, if they are certainly more
-    /// than twice as deep as that or push it back.
+    /// Leaves out contacts whose triangles a body no longer meets once another contact has pushed it out, if they are certainly
+    /// more than twice as deep as that or push it back.
     fn leave_out_needless(&mut self) {
         let most_deep = |touch: &Touch| -touch.least_gap()[0];
         self.touches.sort_unstable_by(|a, b| most_deep(a).total_cmp(&most_deep(b)).then(a.triangle.cmp(&b.triangle)));

@@ -3,7 +3,7 @@
 //! A body that slides over two triangles of a plane must not catch on the edge between them. So a contact keeps its own normal
 //! only if that is a normal of the surface at the feature that is touched: no point of the surface beside it is farther out along
 //! the normal, on any of the triangles around. That is the normal cone of the feature; for a flat or concave edge and for a
-//! vertex in a hollow only the triangles' normals are in it. Any other contact takes the best of the normals that are: `allowed.rs`.
+//! vertex in a hollow only the triangles' normals are in it. Any other contact takes the best of those that are: `allowed.rs`.
 
 use super::surface::Ground;
 use super::triangles::{NONE, next, previous};

@@ -163,8 +163,8 @@ impl Ground {
         Ground::from_triangles(&vertices, &triangles)?.with_thickness(thickness)
     }
 
-    /// The ground as a solid: it pushes out bodies whose centres of mass are behind a triangle by at most `thickness`, and those that
-    /// touch none, too. Infinity is for surfaces that are closed; by default it is 0.
+    /// The ground as a solid: it pushes out bodies whose centres of mass are behind a triangle by at most `thickness`, also those
+    /// that touch none. Infinity is for surfaces that are closed; by default it is 0.
     ///
     /// # Errors
     /// [`Error::Argument`] for a thickness that is negative or NaN.

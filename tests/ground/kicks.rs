@@ -182,8 +182,8 @@ pub fn moved_in(body: &Shape, from: &Pose, direction: &Vector, step: f64, ground
     None
 }
 
-/// What a body that was moved in by a step is told: at least one contact, and none that is more than twice as deep as the step. Moving
-/// along a contact by its depth frees the body of its triangle.
+/// What a body that was moved in by a step is told: at least one contact, and none that is more than twice as deep as the step.
+/// Moving along a contact by its depth frees the body of its triangle.
 pub fn judge(body: &Shape, pose: &Pose, step: f64, ground: &Ground) -> Result<(), String> {
     let found = contacts(body, pose, ground, 0.0, false);
     if found.contacts.is_empty() && distance(body, pose, ground) == 0.0 {
