@@ -46,6 +46,49 @@ static void a_cube_on_a_level_grid(void)
     swiftprox_shape_release(body);
 }
 
+/* Two tiles as one ground, and that as a solid: it pushes out a cube that is wholly below. */
+static void tiles_and_solids(void)
+{
+    double heights[25] = {0}, poses[24] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 0, 0, 4, 0, 1, 0, 0, 0, 0, 1, 0};
+    const double on_seam[12] = {1, 0, 0, 4.1, 0, 1, 0, 1.9, 0, 0, 1, 0.375};
+    const double below[12] = {1, 0, 0, 4.1, 0, 1, 0, 1.9, 0, 0, 1, -0.75};
+    const swiftprox_shape *body = box(0.5, 0.5, 0.5);
+    const swiftprox_ground *tiles[2] = {NULL, NULL}, *ground = NULL, *solid = NULL, *none = NULL;
+    swiftprox_ground_info info;
+    swiftprox_ground_contact contacts[4];
+    swiftprox_ground_count count;
+    swiftprox_manifold_point points[16];
+    swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
+    config.reduces = 1;
+    CHECK_OK(swiftprox_ground_create_from_heights(5, 5, 1, 1, heights, &tiles[0]));
+    tiles[1] = swiftprox_ground_retain(tiles[0]);
+    CHECK_OK(swiftprox_ground_create_from_grounds(tiles, poses, 2, &ground));
+    CHECK_OK(swiftprox_ground_get_info(ground, &info));
+    CHECK(info.vertex_count == 50 && info.triangle_count == 64);
+    CHECK_OK(swiftprox_pair_ground_contacts(body, on_seam, ground, identity, &config, contacts, 4, points, 16, &count));
+    CHECK(count.contact_count == 1 && count.point_count == 4 && contacts[0].manifold.normal[2] == 1);
+    CHECK_OK(swiftprox_pair_ground_contacts(body, below, ground, identity, &config, contacts, 4, points, 16, &count));
+    CHECK(count.contact_count == 0);
+    CHECK_OK(swiftprox_ground_create_solid(ground, 1, &solid));
+    CHECK_OK(swiftprox_pair_ground_contacts(body, below, solid, identity, &config, contacts, 4, points, 16, &count));
+    CHECK(count.contact_count == 1 && contacts[0].manifold.lower <= -1.25 && -1.25 <= contacts[0].manifold.upper);
+    CHECK(swiftprox_ground_create_solid(ground, -1, &none) == SWIFTPROX_ERROR_INVALID_ARGUMENT && none == NULL);
+    CHECK(swiftprox_ground_create_solid(ground, NAN, &none) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    CHECK(swiftprox_ground_create_solid(NULL, 1, &none) == SWIFTPROX_ERROR_NULL_POINTER);
+    CHECK(swiftprox_ground_create_from_grounds(tiles, poses, 0, &none) == SWIFTPROX_ERROR_INVALID_ARGUMENT && none == NULL);
+    CHECK(swiftprox_ground_create_from_grounds(NULL, poses, 2, &none) == SWIFTPROX_ERROR_NULL_POINTER);
+    CHECK(swiftprox_ground_create_from_grounds(tiles, NULL, 2, &none) == SWIFTPROX_ERROR_NULL_POINTER);
+    poses[12] = -1;
+    CHECK(swiftprox_ground_create_from_grounds(tiles, poses, 2, &none) == SWIFTPROX_ERROR_POSE);
+    swiftprox_ground_release(tiles[0]);
+    tiles[0] = NULL;
+    CHECK(swiftprox_ground_create_from_grounds(tiles, poses, 2, &none) == SWIFTPROX_ERROR_NULL_POINTER);
+    swiftprox_ground_release(tiles[1]);
+    swiftprox_ground_release(ground);
+    swiftprox_ground_release(solid);
+    swiftprox_shape_release(body);
+}
+
 static void what_a_program_may_do_wrong(void)
 {
     const double corners[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0}, mirror[12] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
@@ -80,6 +123,25 @@ static void what_a_program_may_do_wrong(void)
     swiftprox_ground_release(ground);
     swiftprox_ground_release(NULL);
     swiftprox_shape_release(body);
+}
+
+/* An object asked about below the box of the heights: only in a solid it has a contact. */
+static void down_and_solid(swiftprox_scene *scene, swiftprox_object_id id, const swiftprox_ground *ground,
+                           swiftprox_scratch *scratch)
+{
+    const double below[12] = {1, 0, 0, 2, 0, 1, 0, 2, 0, 0, 1, -0.75};
+    const swiftprox_ground *solid = NULL;
+    swiftprox_object_set set = {0};
+    swiftprox_scene_ground_answer answer;
+    set.ids = &id;
+    set.count = 1;
+    set.poses = below;
+    CHECK_OK(swiftprox_scene_ground_contacts(scene, &set, ground, identity, NULL, NULL, scratch, &answer));
+    CHECK(answer.contact_count == 0);
+    CHECK_OK(swiftprox_ground_create_solid(ground, 1, &solid));
+    CHECK_OK(swiftprox_scene_ground_contacts(scene, &set, solid, identity, NULL, NULL, scratch, &answer));
+    CHECK(answer.contact_count == 1 && answer.contacts[0].contact.manifold.normal[2] == 1);
+    swiftprox_ground_release(solid);
 }
 
 /* Cubes of a scene over a level grid and a half-space: two are 0.125 in, one of these in another group, one is fixed, one above. */
@@ -121,6 +183,7 @@ static void objects_of_a_scene(void)
     CHECK_OK(swiftprox_scene_half_space_contacts(scene, NULL, &floor, &config, NULL, scratch, &answer));
     CHECK(answer.contact_count == 2 && answer.point_count == 8 && answer.contacts[0].contact.triangle == UINT32_MAX);
     CHECK(answer.points[0].gap_lower <= -0.125 && -0.125 <= answer.points[0].gap_upper);
+    down_and_solid(scene, ids[0], ground, scratch);
     CHECK_OK(swiftprox_scene_ground_contacts(scene, NULL, ground, identity, NULL, &second, scratch, &answer));
     CHECK(answer.contact_count == 1 && answer.contacts[0].object.bits == ids[1].bits);
     set.ids = ids + 2;
@@ -167,6 +230,7 @@ int main(void)
 {
     a_cube_on_a_level_grid();
     objects_of_a_scene();
+    tiles_and_solids();
     what_a_program_may_do_wrong();
     return check_report("ground");
 }

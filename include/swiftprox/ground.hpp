@@ -48,6 +48,24 @@ class Ground
                                                              heights.data(), &result.value.ground_);
         return result;
     }
+    /** One ground of several, with a pose for each. */
+    static Result<Ground> try_from_grounds(Range<const swiftprox_ground *const> grounds, Range<const Pose> poses) noexcept
+    {
+        if (grounds.size() != poses.size()) {
+            return detail::refused<Ground>("each ground needs one pose");
+        }
+        Result<Ground> result;
+        result.status = swiftprox_ground_create_from_grounds(grounds.data(), detail::rows_of(poses), grounds.size(),
+                                                             &result.value.ground_);
+        return result;
+    }
+    /** A ground that pushes out what is behind its triangles by up to a thickness. */
+    Result<Ground> try_solid(double thickness) const noexcept
+    {
+        Result<Ground> result;
+        result.status = swiftprox_ground_create_solid(ground_, thickness, &result.value.ground_);
+        return result;
+    }
     Result<swiftprox_ground_info> try_info() const noexcept
     {
         Result<swiftprox_ground_info> result;
@@ -64,6 +82,11 @@ class Ground
     {
         return take(try_from_heights(heights, columns, row_spacing, column_spacing));
     }
+    static Ground from_grounds(Range<const swiftprox_ground *const> grounds, Range<const Pose> poses)
+    {
+        return take(try_from_grounds(grounds, poses));
+    }
+    Ground solid(double thickness) const { return take(try_solid(thickness)); }
     swiftprox_ground_info info() const { return take(try_info()); }
 #endif
 

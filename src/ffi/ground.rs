@@ -70,6 +70,45 @@ pub unsafe extern "C" fn swiftprox_ground_create_from_heights(
     })
 }
 
+/// Creates one ground from several, such as the tiles of a terrain: bodies slide over the seams. The caller owns it and gives it
+/// back with swiftprox_ground_release. Shares of the others are not kept.
+///
+/// `grounds` holds `count` grounds, `poses` 12 numbers for each of them, row by row. Vertices and triangles keep their order: those
+/// of the first ground, then those of the second. The new ground is as thick as the thickest of them.
+///
+/// On failure `*ground` is null. SWIFTPROX_ERROR_INVALID_ARGUMENT: count is 0. SWIFTPROX_ERROR_POSE: a pose is not a rotation.
+/// SWIFTPROX_ERROR_LIMIT: more than 2^30 triangles or 2^32 vertices in all.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_ground_create_from_grounds(
+    grounds: *const *const Ground,
+    poses: *const f64,
+    count: usize,
+    ground: *mut *const Ground,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
+    create(ground, || unsafe {
+        let grounds = array(grounds, count, "grounds")?;
+        let poses = array(poses.cast::<Pose>(), count, "poses")?;
+        let placed = grounds.iter().zip(poses).map(|(ground, pose)| Ok(input(*ground, "grounds")?.at(pose)));
+        Ok(Ground::from_grounds(&placed.collect::<Checked<Vec<_>>>()?)?)
+    })
+}
+
+/// Creates a solid ground from another. It pushes out bodies whose centres of mass are behind a triangle by up to `thickness`, even
+/// if they touch no triangle. Use infinity for closed surfaces. A thickness of 0 is that of other grounds. The caller owns it and
+/// gives it back with swiftprox_ground_release.
+///
+/// On failure `*solid` is null. SWIFTPROX_ERROR_INVALID_ARGUMENT: thickness is negative or NaN.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_ground_create_solid(
+    ground: *const Ground,
+    thickness: f64,
+    solid: *mut *const Ground,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    create(solid, || unsafe { Ok(input(ground, "ground")?.try_clone()?.with_thickness(thickness)?) })
+}
+
 /// Adds a share of a ground, and returns the ground. Give each share back with swiftprox_ground_release. Safe from any thread. For
 /// null it returns null.
 #[unsafe(no_mangle)]
@@ -158,9 +197,12 @@ pub struct GroundCount {
 /// and one normal out of the ground. `contacts` and `points` receive what fits, and may be null if their capacity is 0. `count`
 /// receives all numbers found. Points of contact c begin at its first_point; there are manifold.point_count.
 ///
-/// A triangle acts only on bodies whose centre of mass is not behind its plane. The normal is the direction of least distance or
-/// overlap, if that is normal to the surface at the touched point. Otherwise it is the triangle's. So bodies slide freely over flat
-/// and concave edges.
+/// A triangle acts only on bodies whose centre of mass is not behind its plane by more than the ground's thickness. The normal is
+/// the direction of least distance or overlap among those that are normal to the surface at the touched point. So bodies slide
+/// freely over flat and concave edges, and no contact is much deeper than the body is in.
+///
+/// If config->reduces is set, at most four points stay on each side of the body. Contacts with normals within 45 degrees of the
+/// deepest are on one side.
 ///
 /// On failure the counts are 0; contacts and points are unchanged. Same errors as swiftprox_pair_manifold. SWIFTPROX_ERROR_LIMIT: a
 /// capacity is larger than memory.

@@ -1,30 +1,34 @@
 //! Contacts of a body with a ground, with normals of the surface.
 
 use super::PlacedGround;
+use super::allowed::Search;
 use super::answer::GroundContacts;
 use super::corner::{Behind, behind_face};
-use super::grouping::group;
-use super::lowest::{Lowest, Margin, local_point};
-use super::reach::{LEAST_STRETCH, Reach};
+use super::grouping::{group, least_gap};
+use super::inside::{nearest_point, triangle_over};
+use super::lowest::{Lowest, Margin};
+use super::normals::TILT;
+use super::reach::Reach;
 use super::room::{Room, Touch};
 use super::tree::{Bounds, Visit};
 use crate::base::error::Result;
-use crate::base::math::{UNIT_ROUNDOFF, Vector, is_unit};
+use crate::base::math::Vector;
 use crate::base::memory::push;
 use crate::base::simd::environment::with_default;
 use crate::pair::{
-    self, DepthAnswer, DepthCache, DepthConfig, Feature, FeatureKind, ManifoldConfig, ManifoldPoint, Outcome,
-    PairConfig, Placed, SignedDistance, SignedDistanceCache, add_points, manifold_along,
+    self, ManifoldConfig, ManifoldPoint, Outcome, PairAnswer, PairCache, PairConfig, Placed, SignedDistance,
+    SignedDistanceCache, add_points, manifold_along, witness,
 };
 use crate::shape::{Triangle, TriangleShape};
 
 /// Finds the contacts of a body, which is object 1, with a ground that it meets or is up to `config.margin` apart from. Writes
 /// them over the contents of `found`.
 ///
-/// The ground pushes out of the front of its triangles. A triangle acts on bodies whose centre of mass is not behind its plane.
-/// The normal of a contact is the one along which the body and the triangle are nearest, or overlap least, if that is in the
-/// normal cone of the surface at the touched point; else it is the triangle's. So no contact holds up a body that slides over a
-/// flat or concave edge. Contacts with one normal are one, however many triangles they are on.
+/// The ground pushes out of the front of its triangles. A triangle acts on bodies whose centre of mass is not behind its plane, or
+/// not by more than the [thickness](crate::ground::Ground::with_thickness) of the ground.
+/// The normal of a contact is the one along which the body and the triangle are nearest, or overlap least, of those in the normal
+/// cone of the surface at the touched point. So no contact holds up a body that slides over a flat or concave edge, and none is
+/// deeper than the body is in. Contacts with one normal are one, however many triangles they are on.
 ///
 /// A gap is that of the body's point over the point on the triangle, along the normal, and holds for them. Whether a body touches a
 /// triangle is as certain as [`pair::signed_distance`] says. There is no cache, so that four points of a reduced contact are chosen
@@ -78,9 +82,12 @@ pub(crate) fn add_contacts(
         };
         // Four points are chosen of all triangles' together.
         let all = ManifoldConfig { reduces: false, ..*config };
-        let mut meeting = Meeting { body, ground, reach, within, all, shape, touches, points, lowest: 0, missed: None };
+        let mut meeting =
+            Meeting { body, ground, reach: &reach, within, all, shape, touches, points, lowest: 0, missed: None };
         ground.ground.tree().walk(&bounds, &mut meeting)?;
         meeting.keep_missed()?;
+        meeting.push_out()?;
+        meeting.leave_out_needless();
         group(found, config.reduces, body.shape.polyhedron().radius)
     })
 }
@@ -89,7 +96,7 @@ pub(crate) fn add_contacts(
 struct Meeting<'a> {
     body: Placed<'a>,
     ground: PlacedGround<'a>,
-    reach: Reach,
+    reach: &'a Reach,
     within: PairConfig,
     all: ManifoldConfig,
     /// The query's triangle.
@@ -98,148 +105,230 @@ struct Meeting<'a> {
     points: &'a mut Vec<ManifoldPoint>,
     /// The vertex that was lowest over the last triangle.
     lowest: u32,
-    /// The deepest contact along the normal of a triangle that has no points over it.
+    /// Of the contacts with triangles that have no points over them the one that overlaps least.
     missed: Option<(u32, SignedDistance)>,
 }
 
 impl Visit for Meeting<'_> {
-    fn goes_to(&mut self, gap: f64) -> bool {
-        gap * LEAST_STRETCH <= self.all.margin
+    fn goes_to(&mut self, _: &Bounds, gap: f64) -> bool {
+        gap * self.reach.stretch <= self.all.margin
     }
 
     fn triangle(&mut self, triangle: u32) -> Result<bool> {
         let own = self.ground.ground.triangle(triangle);
-        let is_behind = own.normal.dot(&(self.reach.centre - own.corners[0])) < 0.0;
-        if is_behind || !self.goes_to(Bounds::of(&own.corners).gap(&self.reach.bounds)) {
+        let is_behind = own.normal.dot(&(self.reach.centre - own.corners[0])) < -self.ground.ground.thickness();
+        if is_behind || !self.is_near(&Bounds::of(&own.corners)) {
             return Ok(true);
         }
-        let Some(mut contact) = self.nearest(&own)? else { return Ok(true) };
-        let normal = self.reach.local_normal(&contact.normal.into());
-        let is_allowed = self.ground.ground.allows(triangle, &normal);
-        let is_over = is_allowed || {
-            let up = self.reach.world_normal(&own.normal);
-            let corner = self.ground.pose.transform(&own.corners[0]);
-            contact = along(&up, &corner, &contact, &self.body);
-            let foot = self.reach.point(&contact.world2.into());
-            contact.local2 = foot.into();
-            contact.feature2 = Feature { kind: FeatureKind::Face, ids: [triangle, 0] };
-            is_over(&own.corners, &own.normal, &foot)
+        let nearest = match self.nearest(&own)? {
+            Found::Beyond => return Ok(true),
+            Found::Nearest(nearest) => Some(nearest),
+            Found::Meeting => None,
         };
-        self.touch(triangle, &contact, is_over)?;
+        let is_allowed = |nearest: &SignedDistance| {
+            let normal = self.reach.local_normal(&nearest.normal.into());
+            self.ground.ground.allows(triangle, &normal)
+        };
+        if let Some(nearest) = nearest.filter(is_allowed) {
+            self.touch(triangle, &nearest, true, None)?;
+            return Ok(true);
+        }
+        let search = Search::new(self.body, self.ground, self.reach, &own);
+        let best = search.best(self.lowest);
+        let gap = best.gap - self.body.shape.swept_radius();
+        let found = nearest.unwrap_or(SignedDistance { outcome: Outcome::Intersecting, ..SignedDistance::default() });
+        let is_met = found.outcome == Outcome::Intersecting;
+        // What is apart, but behind the triangle along all of its normals by more than rounding, is before another one.
+        let rounding = TILT * self.body.shape.polyhedron().radius;
+        if !(is_met || gap > -rounding) || gap > self.all.margin {
+            return Ok(true);
+        }
+        let (mut contact, mut is_over) = search.contact(&best, &found);
+        let beside = (is_met && !is_over).then(|| witness(&contact));
+        if !is_over && best.is_along_own_normal() {
+            let nearest = if nearest.is_some() { found } else { self.depth()? };
+            if let Some(inner) = search.inner(&best, &nearest) {
+                (contact, is_over) = (inner, true);
+            }
+        }
+        self.touch(triangle, &contact, is_over, beside)?;
         Ok(true)
     }
 }
 
+/// What is known of a body and a triangle.
+enum Found {
+    /// They are farther apart than the margin.
+    Beyond,
+    Nearest(SignedDistance),
+    /// They have points in common; how deep they are is open.
+    Meeting,
+}
+
 impl Meeting<'_> {
-    /// The signed distance of the body and a triangle, which is shown; `None` beyond the margin.
-    fn nearest(&mut self, own: &Triangle) -> Result<Option<SignedDistance>> {
-        let lowest = Lowest::new(self.body, self.ground, own, &self.reach, self.lowest);
+    fn is_near(&mut self, bounds: &Bounds) -> bool {
+        self.goes_to(bounds, bounds.gap(&self.reach.bounds))
+    }
+
+    /// How near the body is to a triangle, which is shown unless that is beyond the margin.
+    fn nearest(&mut self, own: &Triangle) -> Result<Found> {
+        let up = self.reach.world_normal(&own.normal);
+        let lowest = Lowest::new(self.body, self.ground, own, &up, self.lowest);
         self.lowest = lowest.vertex;
         let margin = Margin { radius: self.body.shape.swept_radius(), margin: self.all.margin };
         if margin.is_beyond(lowest.lower) {
-            return Ok(None);
+            return Ok(Found::Beyond);
         }
-        let mut contact = lowest.contact(self.body, own, &self.reach, margin);
-        if contact.is_none() {
+        let is_meeting = lowest.is_through(self.body, own, self.reach);
+        let mut contact = if is_meeting { None } else { lowest.contact(self.body, own, self.reach, margin) };
+        if contact.is_none() && !is_meeting {
             contact = match behind_face(self.body, self.ground, own, &lowest, margin) {
-                Behind::Beyond => return Ok(None),
+                Behind::Beyond => return Ok(Found::Beyond),
                 Behind::Nearest(contact) => Some(contact),
+                Behind::Open if self.is_aside(own, margin) => return Ok(Found::Beyond),
                 Behind::Open => None,
             };
         }
         self.shape.show(own);
-        if contact.is_some() {
-            return Ok(contact);
+        if is_meeting {
+            return Ok(Found::Meeting);
+        }
+        if let Some(contact) = contact {
+            return Ok(Found::Nearest(contact));
         }
         // That takes longer than all before.
         let bodies = [self.body, self.shape.complete().at(self.ground.pose)];
-        if lowest.is_through(own, &self.reach) {
-            let config = DepthConfig { rotation_limit: self.within.rotation_limit, ..DepthConfig::default() };
-            let mut deep = DepthAnswer::default();
-            pair::depth(bodies, &mut DepthCache::default(), &config, &mut deep)?;
-            if deep.outcome == Outcome::Intersecting {
-                return Ok(Some((&deep).into()));
-            }
+        if margin.radius == 0.0 {
+            let mut answer = PairAnswer::default();
+            pair::distance(bodies, &mut PairCache::default(), &self.within, &mut answer)?;
+            return Ok(match answer.outcome {
+                Outcome::Intersecting => Found::Meeting,
+                Outcome::Beyond => Found::Beyond,
+                _ => Found::Nearest((&answer).into()),
+            });
         }
         let mut contact = SignedDistance::default();
         pair::signed_distance(bodies, &mut SignedDistanceCache::default(), &self.within, &mut contact)?;
-        Ok(Some(contact).filter(|contact| contact.outcome != Outcome::Beyond))
+        Ok(if contact.outcome == Outcome::Beyond { Found::Beyond } else { Found::Nearest(contact) })
+    }
+
+    /// Whether the body is beyond the margin along the way from the triangle to its centre, or to the vertex that is lowest there.
+    fn is_aside(&self, own: &Triangle, margin: Margin) -> bool {
+        let (mut point, mut vertex) = (self.reach.centre, self.lowest);
+        (0..2).any(|_| {
+            let way = point - nearest_point(&own.corners, &point).0;
+            let up = self.ground.pose.rotate(&way);
+            let length = up.norm();
+            if !(length > f64::MIN_POSITIVE.sqrt()) {
+                return false;
+            }
+            let lowest = Lowest::new(self.body, self.ground, own, &(up / length), vertex);
+            (point, vertex) = (self.reach.point(&lowest.world), lowest.vertex);
+            margin.is_beyond(lowest.lower)
+        })
+    }
+
+    /// How deep the body is in the triangle that is shown, which it meets.
+    fn depth(&mut self) -> Result<SignedDistance> {
+        let bodies = [self.body, self.shape.complete().at(self.ground.pose)];
+        let mut contact = SignedDistance::default();
+        pair::signed_distance(bodies, &mut SignedDistanceCache::default(), &self.within, &mut contact)?;
+        Ok(contact)
     }
 }
 
 impl Meeting<'_> {
     /// Notes where faces meet along a contact's normal; where they do not, the contact's own points if they are over the triangle.
-    fn touch(&mut self, triangle: u32, contact: &SignedDistance, is_over: bool) -> Result<()> {
+    fn touch(
+        &mut self,
+        triangle: u32,
+        contact: &SignedDistance,
+        is_over: bool,
+        beside: Option<ManifoldPoint>,
+    ) -> Result<()> {
         let bodies = [self.body, self.shape.shown().at(self.ground.pose)];
         let first_point = self.points.len();
         // A point that is not over the triangle is none of the points that faces have in common, however deep it is.
         let far = SignedDistance { lower: f64::INFINITY, upper: f64::INFINITY, ..*contact };
         let along = if is_over { contact } else { &far };
-        let manifold = add_points(self.points, |sink| manifold_along(bodies, along, &self.all, sink))?;
+        let mut manifold = add_points(self.points, |sink| manifold_along(bodies, along, &self.all, sink))?;
         // Without a reference it is the contact's own pair of points.
         if manifold.reference == 0 && !is_over {
             self.points.truncate(first_point);
-            let is_deeper = self.missed.is_none_or(|(_, missed)| contact.upper < missed.upper);
-            if contact.outcome == Outcome::Intersecting && is_deeper {
+            let is_less = self.missed.is_none_or(|(_, missed)| contact.upper > missed.upper);
+            if contact.outcome == Outcome::Intersecting && is_less {
                 self.missed = Some((triangle, *contact));
             }
             return Ok(());
         }
-        push(self.touches, Touch { triangle, manifold, first_point })
+        (manifold.lower, manifold.upper) = least_gap(&self.points[first_point..]);
+        push(self.touches, Touch { triangle, manifold, first_point, beside })
+    }
+
+    fn is_met(&self) -> bool {
+        self.touches.iter().any(|touch| touch.manifold.outcome == Outcome::Intersecting)
     }
 
     /// A body that meets the ground has a contact, if only beside the triangle.
     fn keep_missed(&mut self) -> Result<()> {
-        let is_met = self.touches.iter().any(|touch| touch.manifold.outcome == Outcome::Intersecting);
-        if let Some((triangle, contact)) = self.missed.filter(|_| !is_met) {
+        if let Some((triangle, contact)) = self.missed.filter(|_| !self.is_met()) {
             self.shape.show(&self.ground.ground.triangle(triangle));
-            self.touch(triangle, &contact, true)?;
+            self.touch(triangle, &contact, true, None)?;
         }
         Ok(())
     }
 }
 
-/// A contact turned to the normal of its triangle, given one of the triangle's corners in the world. Its points are a low point
-/// of the body, the witness point unless it was above, and the point below that on the plane. `lower` and `upper` become its
-/// height over the plane.
-fn along(up: &Vector, corner: &Vector, contact: &SignedDistance, body: &Placed) -> SignedDistance {
-    debug_assert!(is_unit(up));
-    let (polyhedron, radius) = (body.shape.polyhedron(), body.shape.swept_radius());
-    let normal = Vector::from(contact.normal);
-    // A point of the polyhedron; from there it is the radius to the ball's lowest.
-    let (own, feature1) = if normal.dot(up) > 0.0 {
-        (Vector::from(contact.world1) + normal * radius, contact.feature1)
-    } else {
-        let (vertex, _) = polyhedron.support(&body.pose.rotate_back(&-up), 0);
-        let feature = Feature { kind: FeatureKind::Vertex, ids: [polyhedron.vertex_labels[vertex as usize], 0] };
-        (body.pose.transform(&polyhedron.local_position(vertex)), feature)
-    };
-    let lowest = own - up * radius;
-    let height = up.dot(&(lowest - corner));
-    // Points are right to some 8u of where they are, the normal to 8u, and so are the product and the radius.
-    let error = 64.0 * UNIT_ROUNDOFF * (lowest.lp_norm(1) + corner.lp_norm(1) + radius);
-    SignedDistance {
-        distance: height,
-        lower: height - error,
-        upper: height + error,
-        normal: (*up).into(),
-        local1: local_point(body.pose, &lowest).into(),
-        world1: lowest.into(),
-        world2: (lowest - up * height).into(),
-        feature1,
-        ..*contact
+impl Meeting<'_> {
+    /// Pushes a body out of a solid ground in which it touches no triangle: by the nearest one, which its centre of mass is behind.
+    fn push_out(&mut self) -> Result<()> {
+        if self.is_met() || self.ground.ground.thickness() == 0.0 {
+            return Ok(());
+        }
+        let Some(triangle) = triangle_over(self.ground.ground, &self.reach.centre)? else { return Ok(()) };
+        let own = self.ground.ground.triangle(triangle);
+        let contact = Search::new(self.body, self.ground, self.reach, &own).push_from_behind();
+        // Its centre may be inside where the body is not, as that of an open surface.
+        if contact.upper >= 0.0 {
+            return Ok(());
+        }
+        self.shape.show(&own);
+        self.touch(triangle, &contact, true, None)
     }
-}
 
-/// Whether a point of the plane of a triangle is in it, rounding included.
-fn is_over(corners: &[Vector; 3], normal: &Vector, point: &Vector) -> bool {
-    debug_assert!(is_unit(normal));
-    (0..3).all(|k| {
-        let [tail, head] = [corners[k], corners[(k + 1) % 3]];
-        let inward = normal.cross(&(head - tail));
-        let rounding = 64.0 * UNIT_ROUNDOFF * (point.lp_norm(1) + tail.lp_norm(1));
-        inward.dot(&(point - tail)) >= -rounding * inward.norm()
-    })
+    /// Leaves out contacts whose triangles a body no longer meets once another contact has pushed it out, if they are certainly
+    /// more than twice as deep as that or push it back.
+    fn leave_out_needless(&mut self) {
+        let most_deep = |touch: &Touch| -touch.least_gap()[0];
+        self.touches.sort_unstable_by(|a, b| most_deep(a).total_cmp(&most_deep(b)).then(a.triangle.cmp(&b.triangle)));
+        let first = self.touches.iter().take_while(|touch| touch.least_gap()[1] >= 0.0).count();
+        let mut kept = first;
+        for at in first..self.touches.len() {
+            let touch = &self.touches[at];
+            let (normal, deep) = (Vector::from(touch.manifold.normal), -touch.least_gap()[1]);
+            let is_needless = self.touches[first..kept].iter().any(|other| {
+                let is_back = normal.dot(&Vector::from(other.manifold.normal)) < 0.0;
+                (deep > 2.0 * most_deep(other) || is_back && deep > 0.0) && self.frees(other, touch.triangle)
+            });
+            if !is_needless {
+                self.touches.swap(kept, at);
+                kept += 1;
+            }
+        }
+        self.touches.truncate(kept);
+    }
+
+    /// Whether a body that a contact has pushed out is clear of a triangle along the contact's normal.
+    fn frees(&self, contact: &Touch, triangle: u32) -> bool {
+        let normal = Vector::from(contact.manifold.normal);
+        let (polyhedron, pose) = (self.body.shape.polyhedron(), self.body.pose);
+        let (vertex, _) = polyhedron.support(&pose.rotate_back(&-normal), 0);
+        let low = normal.dot(&pose.transform(&polyhedron.local_position(vertex))) - self.body.shape.swept_radius();
+        let corners = self.ground.ground.triangle(triangle).corners;
+        let heights = corners.map(|corner| normal.dot(&self.ground.pose.transform(&corner)));
+        let high = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);
+        low - contact.least_gap()[0] >= high - TILT * polyhedron.radius
+    }
 }
 
 #[cfg(test)]

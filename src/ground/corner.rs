@@ -46,9 +46,10 @@ pub(super) fn behind_face(
     if margin.is_beyond(gap_of_own_box(body, &Bounds::of(&corners)) - error) {
         return Behind::Beyond;
     }
-    let is_solid = polyhedron.dimension == 3 && body.shape.extent().inner_radius > 0.0;
-    let Some(face) = most_parallel(polyhedron, lowest.vertex, &pose.rotate_back(&-lowest.up)).filter(|_| is_solid)
-    else {
+    if polyhedron.dimension < 3 || body.shape.extent().inner_radius <= 0.0 {
+        return Behind::Open;
+    }
+    let Some(face) = most_parallel(polyhedron, lowest.vertex, &pose.rotate_back(&-lowest.up)) else {
         return Behind::Open;
     };
     let plane = &polyhedron.faces[face as usize];
@@ -92,7 +93,7 @@ fn gap_of_own_box(body: Placed, bounds: &Bounds) -> f64 {
     aside.max()
 }
 
-/// The face at a vertex that is most parallel to a direction. `None` for a vertex without edges.
+/// The face of a solid body at a vertex that is most parallel to a direction. `None` for a vertex without edges.
 fn most_parallel(polyhedron: &Polyhedron, vertex: u32, towards: &Vector) -> Option<u32> {
     let edges = polyhedron.neighbour_blocks(vertex).flat_map(|block| block.edge).filter(|edge| *edge != NONE);
     let mut best = (None, f64::NEG_INFINITY);

@@ -1,8 +1,8 @@
 //! How far a body is from a ground: the least over its triangles, each answered by the pair layer.
 
 use super::PlacedGround;
-use super::reach::{LEAST_STRETCH, Reach};
-use super::tree::Visit;
+use super::reach::Reach;
+use super::tree::{Bounds, Visit};
 use crate::base::error::{Error, Result};
 use crate::base::simd::environment::with_default;
 use crate::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed, Query};
@@ -44,6 +44,8 @@ pub fn ground_distance(
         ground.pose.check(config.rotation_limit)?;
         let is_verdict = query == Query::Intersection && config.distance_tolerance == f64::INFINITY;
         let count = ground.ground.triangle_count() as u32;
+        let reach = Reach::new(body, ground)?;
+        let bounds = reach.bounds;
         let unsaid = PairAnswer { outcome: Outcome::Separated, upper: f64::INFINITY, ..PairAnswer::UNSAID };
         let mut least = Least {
             ask,
@@ -55,9 +57,9 @@ pub fn ground_distance(
             lower: f64::INFINITY,
             enough: if is_verdict { 0.0 } else { config.distance_tolerance },
             is_verdict,
+            reach,
         };
-        let reach = Reach::new(body, ground)?;
-        ground.ground.tree().walk(&reach.bounds, &mut least)?;
+        ground.ground.tree().walk(&bounds, &mut least)?;
         Ok(least.answer())
     })
 }
@@ -69,6 +71,7 @@ struct Least<'a> {
     ask: Ask,
     body: Placed<'a>,
     ground: PlacedGround<'a>,
+    reach: Reach,
     config: PairConfig,
     scratch: TriangleShape,
     nearest: GroundDistance,
@@ -80,8 +83,12 @@ struct Least<'a> {
 }
 
 impl Visit for Least<'_> {
-    fn goes_to(&mut self, gap: f64) -> bool {
-        let gap = gap * LEAST_STRETCH;
+    fn goes_to(&mut self, bounds: &Bounds, gap: f64) -> bool {
+        let mut gap = gap * self.reach.stretch;
+        // From far away, all triangles are about as far.
+        if gap <= self.enough && gap > self.body.shape.polyhedron().radius {
+            gap = gap.max(self.reach.gap_along_way(self.body, bounds));
+        }
         let goes = gap <= self.enough;
         if !goes {
             self.lower = self.lower.min(gap);
@@ -90,8 +97,13 @@ impl Visit for Least<'_> {
     }
 
     fn triangle(&mut self, triangle: u32) -> Result<bool> {
+        let own = self.ground.ground.triangle(triangle);
+        let bounds = Bounds::of(&own.corners);
+        if !self.goes_to(&bounds, bounds.gap(&self.reach.bounds)) {
+            return Ok(true);
+        }
         let mut answer = PairAnswer::default();
-        let shape = self.scratch.of(&self.ground.ground.triangle(triangle));
+        let shape = self.scratch.of(&own);
         let bodies = [self.body, shape.at(self.ground.pose)];
         if !self.is_verdict {
             self.config.distance_tolerance = self.enough;

@@ -12,8 +12,8 @@ use crate::solve::certificate::of_vertex;
 pub(super) struct Lowest {
     pub vertex: u32,
     /// Its position.
-    world: Vector,
-    /// The triangle's normal in the world.
+    pub world: Vector,
+    /// The direction that is up: the triangle's normal in the world, or another.
     pub up: Vector,
     /// Its height over the first corner of the triangle; all of the polyhedron is at least `lower` over the triangle.
     height: f64,
@@ -29,9 +29,8 @@ impl Lowest {
     /// right to 6u of its translation and of twice its local length, the difference of two to u of both, the product with the
     /// direction to 4u of it, the length of the direction to 4u, and the direction inside the body to 7u of twice its radius: all
     /// in all less than 64u of those lengths.
-    pub fn new(body: Placed, ground: PlacedGround, triangle: &Triangle, reach: &Reach, start: u32) -> Lowest {
-        let (polyhedron, pose) = (body.shape.polyhedron(), body.pose);
-        let up = reach.world_normal(&triangle.normal);
+    pub fn new(body: Placed, ground: PlacedGround, triangle: &Triangle, up: &Vector, start: u32) -> Lowest {
+        let (polyhedron, pose, up) = (body.shape.polyhedron(), body.pose, *up);
         let downwards = pose.rotate_back(&-up);
         let (vertex, _) = polyhedron.support(&downwards, start);
         let world = pose.transform(&polyhedron.local_position(vertex));
@@ -70,9 +69,18 @@ impl Lowest {
         })
     }
 
-    /// Whether the vertex is below the triangle's plane, and its foot on it in the triangle.
-    pub fn is_through(&self, triangle: &Triangle, reach: &Reach) -> bool {
-        self.height < 0.0 && is_inside(triangle, &reach.point(&(self.world - self.up * self.height)), 0.0)
+    /// Whether body and triangle certainly have a point in common: where the way from the vertex below its plane to the centre of
+    /// mass above crosses it. The heights of both are off by the error, the place where the way crosses by as much and by the part
+    /// of the way that this makes.
+    pub fn is_through(&self, body: Placed, triangle: &Triangle, reach: &Reach) -> bool {
+        let polyhedron = body.shape.polyhedron();
+        let way = body.pose.transform(&polyhedron.mass.centre_of_mass) - self.world;
+        let rise = self.up.dot(&way);
+        if !(self.height < -self.error && rise + self.height > self.error) {
+            return false;
+        }
+        let error = 8.0 * self.error * (1.0 + way.norm() / rise);
+        is_inside(triangle, &reach.point(&(self.world - way * (self.height / rise))), error)
     }
 }
 

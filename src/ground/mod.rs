@@ -5,6 +5,8 @@
 //! `normals.rs` has the rule.
 
 mod tree;
+mod triangles;
+mod covers;
 mod surface;
 mod reach;
 mod normals;
@@ -14,6 +16,8 @@ mod answer;
 mod grouping;
 mod lowest;
 mod corner;
+mod allowed;
+mod inside;
 mod contacts;
 
 use crate::base::math::Pose;

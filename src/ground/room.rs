@@ -21,13 +21,36 @@ pub(super) struct Touch {
     pub triangle: u32,
     pub manifold: Manifold,
     pub first_point: usize,
+    /// The body's lowest point, if it is beside the triangle: so deep it is in it.
+    pub beside: Option<ManifoldPoint>,
+}
+
+impl Touch {
+    /// The least gap of its points, or of the body's lowest, as an interval.
+    pub fn least_gap(&self) -> [f64; 2] {
+        let Manifold { lower, upper, .. } = self.manifold;
+        self.beside.map_or([lower, upper], |beside| [beside.gap_lower.min(lower), beside.gap_upper.min(upper)])
+    }
+}
+
+/// A contact of triangles with one normal.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Joined {
+    pub triangle: u32,
+    pub manifold: Manifold,
+    pub first_point: usize,
 }
 
 /// Room to join contacts in.
 #[derive(Debug, Default)]
 pub(super) struct Grouping {
     pub is_taken: Vec<bool>,
-    /// The points of one contact, and their ids with their places.
+    /// The points of one contact, or of those on one side of the body; their ids with their places, or their places among all.
     pub own: Vec<ManifoldPoint>,
     pub ids: Vec<(u64, usize)>,
+    pub places: Vec<usize>,
+    /// Contacts that are joined, all their points, and which of these stay.
+    pub joined: Vec<Joined>,
+    pub gathered: Vec<ManifoldPoint>,
+    pub stays: Vec<bool>,
 }

@@ -1,37 +1,28 @@
 //! The triangles of a ground: their corners, normals and neighbours, and the tree that finds those near a body.
 
+use super::PlacedGround;
+use super::covers::Covers;
 use super::tree::{Bounds, Tree};
+use super::triangles::{NONE, Record, Triangles, find_twins};
 use crate::base::error::{Error, Result, check_range};
-use crate::base::math::Vector;
-use crate::base::memory::{collected, filled, in_integers, with_capacity};
+use crate::base::math::{ROTATION_LIMIT, Vector};
+use crate::base::memory::{collected, in_integers, with_capacity};
 use crate::base::normal::{area_vector, normal_of};
 use crate::base::simd::environment::with_default;
 use crate::polyhedron::{LARGEST, SMALLEST};
 use crate::shape::Triangle;
 
-/// Across no side: the surface ends there, or its triangles there make no surface.
-pub(super) const NONE: u32 = u32::MAX;
-
 /// Half-edges are numbers of 32 bits, three of each triangle.
 const MOST_TRIANGLES: usize = 1 << 30;
-
-/// A triangle, in 48 bytes.
-#[derive(Debug, Clone, Copy, PartialEq)]
-struct Record {
-    corners: [u32; 3],
-    /// The twins of the half-edges 3t + k, from corner k to the next, or [`NONE`].
-    twins: [u32; 3],
-    /// Unit; 0 of triangles that are left out.
-    normal: Vector,
-}
 
 /// A surface of triangles, immutable, shared by any number of owners. The front of a triangle is where its corners go around
 /// counter-clockwise.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ground {
-    vertices: Vec<Vector>,
-    records: Vec<Record>,
+    triangles: Triangles,
     tree: Tree,
+    covers: Covers,
+    thickness: f64,
 }
 
 /// Heights over a grid in the plane of x and y.
@@ -48,8 +39,9 @@ pub struct HeightGrid<'a> {
 }
 
 impl Ground {
-    /// From triangles over vertices. Those without area, or smaller than 2⁻²⁰⁰, are left out: nothing meets them. Sides with equal
-    /// ends are one, if two triangles have it, the one way round and the other.
+    /// From triangles over vertices. Those without area, or smaller than 2⁻²⁰⁰, are left out: nothing meets them; so are copies of
+    /// others. Triangles are neighbours at a side that has equal ends and opposite directions; of several there, those that have
+    /// nothing before their fronts but each other. A side that lies on another triangle is no rim.
     ///
     /// # Errors
     /// [`Error::Mesh`]: a coordinate is not finite or beyond 2²⁰⁰, a triangle names a vertex that is not there, or no triangle has
@@ -136,23 +128,79 @@ impl Ground {
         let Some(tree) = Tree::new(boxes)? else {
             return Err(Error::Mesh(format!("none of the {} triangles of the ground has an area", records.len())));
         };
-        Ok(Ground { vertices, records, tree })
+        let triangles = Triangles { vertices, records };
+        let covers = Covers::new(&triangles, &tree)?;
+        Ok(Ground { triangles, tree, covers, thickness: 0.0 })
+    }
+
+    /// From grounds that are placed beside each other or overlap, in the order given: their vertices and triangles behind each
+    /// other. So no seam holds up a body. It is as thick as the thickest.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for none; [`Error::Pose`] for a pose that is no rotation; [`Error::Limit`] for more than 2³⁰ triangles
+    /// or 2³² vertices in all. Else as [`Ground::from_triangles`].
+    pub fn from_grounds(grounds: &[PlacedGround]) -> Result<Ground> {
+        if grounds.is_empty() {
+            return Err(Error::Argument("no grounds to make one of".into()));
+        }
+        let count = |of: fn(&Ground) -> usize| grounds.iter().map(|placed| of(placed.ground)).sum::<usize>();
+        if count(Ground::vertex_count) > u32::MAX as usize {
+            return Err(Error::Limit("grounds of more than 2^32 vertices".into()));
+        }
+        let mut vertices = with_capacity(count(Ground::vertex_count))?;
+        let mut triangles = with_capacity(count(Ground::triangle_count))?;
+        with_default(|| {
+            for PlacedGround { ground, pose } in grounds {
+                pose.check(ROTATION_LIMIT)?;
+                let first = vertices.len() as u32;
+                vertices.extend(ground.triangles.vertices.iter().map(|vertex| pose.transform(vertex)));
+                triangles
+                    .extend(ground.triangles.records.iter().map(|record| record.corners.map(|corner| first + corner)));
+            }
+            Ok(())
+        })?;
+        let thickness = grounds.iter().map(|placed| placed.ground.thickness).fold(0.0, f64::max);
+        Ground::from_triangles(&vertices, &triangles)?.with_thickness(thickness)
+    }
+
+    /// The ground as a solid: it pushes out bodies whose centres of mass are behind a triangle by at most `thickness`, also those
+    /// that touch none. Infinity is for surfaces that are closed; by default it is 0.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a thickness that is negative or NaN.
+    pub fn with_thickness(self, thickness: f64) -> Result<Ground> {
+        check_range("thickness", thickness, 0.0..=f64::INFINITY)?;
+        Ok(Ground { thickness, ..self })
+    }
+
+    /// A copy.
+    ///
+    /// # Errors
+    /// [`Error::Memory`].
+    pub fn try_clone(&self) -> Result<Ground> {
+        let (triangles, tree, covers) = (self.triangles.try_clone()?, self.tree.try_clone()?, self.covers.try_clone()?);
+        Ok(Ground { triangles, tree, covers, thickness: self.thickness })
+    }
+
+    /// How far it pushes out what is behind its triangles.
+    pub fn thickness(&self) -> f64 {
+        self.thickness
     }
 
     /// How many triangles it has, those included that are left out.
     pub fn triangle_count(&self) -> usize {
-        self.records.len()
+        self.triangles.records.len()
     }
 
     /// How many vertices it has.
     pub fn vertex_count(&self) -> usize {
-        self.vertices.len()
+        self.triangles.vertices.len()
     }
 
     /// Memory held, in bytes: less than 200 for each triangle where there are no more vertices than triangles.
     pub fn bytes(&self) -> usize {
-        let Ground { vertices, records, tree } = self;
-        size_of::<Ground>() + size_of_val(&vertices[..]) + size_of_val(&records[..]) + tree.heap_bytes()
+        let Ground { triangles, tree, covers, .. } = self;
+        size_of::<Ground>() + triangles.heap_bytes() + tree.heap_bytes() + covers.heap_bytes()
     }
 
     pub(super) fn tree(&self) -> &Tree {
@@ -161,69 +209,37 @@ impl Ground {
 
     /// A triangle, as the pair layer takes it.
     pub(super) fn triangle(&self, triangle: u32) -> Triangle {
-        let Record { corners, normal, .. } = self.records[triangle as usize];
-        Triangle { corners: corners.map(|v| self.vertices[v as usize]), normal, labels: corners, label: triangle }
+        let Record { corners, normal, .. } = self.triangles.records[triangle as usize];
+        Triangle {
+            corners: corners.map(|v| self.triangles.vertices[v as usize]),
+            normal,
+            labels: corners,
+            label: triangle,
+        }
     }
 
     /// The unit normal of a triangle, out of its front.
     pub(super) fn normal(&self, triangle: u32) -> Vector {
-        self.records[triangle as usize].normal
+        self.triangles.normal(triangle)
     }
 
     /// Start of a half-edge.
     pub(super) fn tail(&self, half_edge: u32) -> Vector {
-        self.vertices[self.records[half_edge as usize / 3].corners[half_edge as usize % 3] as usize]
+        self.triangles.tail(half_edge)
+    }
+
+    /// The triangles that a side without a twin lies on.
+    pub(super) fn covers_of_side(&self, half_edge: u32) -> &[(u32, u32)] {
+        self.covers.of_side(half_edge)
+    }
+
+    /// The triangles on which the start of a half-edge without a twin lies, those around it left out.
+    pub(super) fn covers_of_corner(&self, half_edge: u32) -> &[(u32, u32)] {
+        self.covers.of_corner(half_edge)
     }
 
     /// The half-edge on the other side, or [`NONE`].
     pub(super) fn twin(&self, half_edge: u32) -> u32 {
-        self.records[half_edge as usize / 3].twins[half_edge as usize % 3]
+        self.triangles.twin(half_edge)
     }
-}
-
-/// The next half-edge around a triangle.
-pub(super) fn next(half_edge: u32) -> u32 {
-    if half_edge % 3 == 2 { half_edge - 2 } else { half_edge + 1 }
-}
-
-/// The half-edge before.
-pub(super) fn previous(half_edge: u32) -> u32 {
-    if half_edge.is_multiple_of(3) { half_edge + 2 } else { half_edge - 1 }
-}
-
-/// Joins sides whose ends are at equal places. If three triangles share a side, or two that go the same way, none is a neighbour
-/// of another.
-fn find_twins(vertices: &[Vector], records: &mut [Record]) -> Result<()> {
-    let place_of = first_at_same_place(vertices)?;
-    let mut sides = with_capacity(3 * records.len())?;
-    for (t, record) in records.iter().enumerate().filter(|(_, record)| record.normal != Vector::zeros()) {
-        let places = record.corners.map(|v| place_of[v as usize]);
-        for k in 0..3 {
-            let [from, to] = [places[k], places[(k + 1) % 3]];
-            sides.push(([from.min(to), from.max(to)], (3 * t + k) as u32, from < to));
-        }
-    }
-    sides.sort_unstable();
-    for same in sides.chunk_by(|one, other| one.0 == other.0) {
-        if let &[(_, one, is_upwards), (_, other, is_too)] = same
-            && is_upwards != is_too
-        {
-            records[one as usize / 3].twins[one as usize % 3] = other;
-            records[other as usize / 3].twins[other as usize % 3] = one;
-        }
-    }
-    Ok(())
-}
-
-/// For each vertex, the first one with equal coordinates.
-fn first_at_same_place(vertices: &[Vector]) -> Result<Vec<u32>> {
-    let mut order: Vec<u32> = collected(0..vertices.len() as u32)?;
-    let key = |v: u32| <[f64; 3]>::from(vertices[v as usize]);
-    // No coordinate is a NaN or −0.
-    order.sort_unstable_by(|a, b| key(*a).partial_cmp(&key(*b)).unwrap_or(std::cmp::Ordering::Equal).then(a.cmp(b)));
-    let mut place_of = filled(0, vertices.len())?;
-    for same in order.chunk_by(|a, b| key(*a) == key(*b)) {
-        same.iter().for_each(|v| place_of[*v as usize] = same[0]);
-    }
-    Ok(place_of)
 }

@@ -30,10 +30,13 @@ impl Bounds {
 
     /// How far two boxes are apart, at least: differences of ends are right to u, the norm of them to 3u more.
     pub fn gap(&self, other: &Bounds) -> f64 {
+        self.way_to(other).norm() * (1.0 - 8.0 * f64::EPSILON)
+    }
+
+    /// The shortest way to another box.
+    pub fn way_to(&self, other: &Bounds) -> Vector {
         let between = |lower: f64, upper: f64| (lower - upper).max(0.0);
-        let gap =
-            Vector::from_fn(|k, _| between(self.lower[k], other.upper[k]).max(between(other.lower[k], self.upper[k])));
-        gap.norm() * (1.0 - 8.0 * f64::EPSILON)
+        Vector::from_fn(|k, _| between(other.lower[k], self.upper[k]) - between(self.lower[k], other.upper[k]))
     }
 }
 
@@ -57,8 +60,8 @@ pub(super) struct Tree {
 
 /// The actions of a walk at what it comes to.
 pub(super) trait Visit {
-    /// Whether to go to a node or triangle that is at least this far away.
-    fn goes_to(&mut self, gap: f64) -> bool;
+    /// Whether to go to the triangles in a box that is so far from the body's.
+    fn goes_to(&mut self, bounds: &Bounds, gap: f64) -> bool;
     /// Comes to a triangle; `false` ends the walk.
     ///
     /// # Errors
@@ -86,6 +89,12 @@ impl Tree {
         Ok(Some(Tree { nodes: copied(&nodes)?, triangles: collected(items.iter().map(|(triangle, _)| *triangle))? }))
     }
 
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn try_clone(&self) -> Result<Tree> {
+        Ok(Tree { nodes: copied(&self.nodes)?, triangles: copied(&self.triangles)? })
+    }
+
     /// The box of all triangles.
     pub fn bounds(&self) -> &Bounds {
         &self.nodes[0].bounds
@@ -107,10 +116,10 @@ impl Tree {
         while depth > 0 {
             depth -= 1;
             let (number, gap) = stack[depth];
-            if !visit.goes_to(gap) {
+            let node = &self.nodes[number as usize];
+            if !visit.goes_to(&node.bounds, gap) {
                 continue;
             }
-            let node = &self.nodes[number as usize];
             if node.count > 0 {
                 for &triangle in &self.triangles[node.at as usize..(node.at + node.count) as usize] {
                     if !visit.triangle(triangle)? {

@@ -33,7 +33,7 @@ pub use half_space::{HalfSpace, half_space_distance};
 pub(crate) use ladder::least_error;
 pub(crate) use manifold::{
     Fill, Known, Reference, Sink, add_points, four_of_points, half_space_manifold_into, manifold_along, manifold_into,
-    manifold_of,
+    manifold_of, witness,
 };
 pub use manifold::{
     Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, half_space_manifold, manifold, manifold_with_distance,

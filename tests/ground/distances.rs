@@ -2,7 +2,7 @@
 
 use super::hills;
 use swiftprox::error::Error;
-use swiftprox::ground::{Ground, ground_distance};
+use swiftprox::ground::{Ground, HeightGrid, ground_distance};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::{FeatureKind, Outcome, PairConfig, Query};
 use testkit::oracle::{Polytope, Truth, truth};
@@ -117,4 +117,45 @@ fn a_distance_beyond_the_doubles_names_its_triangle() {
     let found = found.unwrap();
     assert_eq!((found.answer.outcome, found.triangle), (Outcome::Separated, 0), "{found:?}");
     assert!(found.answer.lower > 1e308 && found.answer.upper == f64::INFINITY, "{found:?}");
+}
+
+/// From far above, all triangles of a ground are about as far: few are asked about, fewer than would take as long as a look at all
+/// heights.
+#[test]
+fn few_triangles_are_asked_about_from_far_away() {
+    let side = 500;
+    let mut random = Random::new(0xfa4);
+    for rough in [0.0, 1.0] {
+        let height = |i: usize, j: usize| rough * (2.0 * (0.05 * i as f64).sin() + (0.07 * j as f64).cos());
+        let heights: Vec<f64> = (0..side * side).map(|k| height(k / side, k % side)).collect();
+        let grid = HeightGrid { rows: side, columns: side, spacing: [0.5; 2], heights: &heights };
+        let ground = Ground::from_heights(&grid).unwrap();
+        let body = cuboid([0.5; 3]);
+        for above in [50.0, 500.0, 5000.0] {
+            let pose = Pose::new(&random.rotation(), &Vector::new(120.0, 125.0, above));
+            let least = |mut work: Box<dyn FnMut() + '_>| {
+                let times = (0..5).map(|_| {
+                    let begin = std::time::Instant::now();
+                    work();
+                    begin.elapsed()
+                });
+                times.min().unwrap()
+            };
+            let mut distance = 0.0;
+            let asked = least(Box::new(|| {
+                let (config, place) = (PairConfig::default(), Pose::IDENTITY);
+                let found = ground_distance(Query::Distance, body.at(&pose), ground.at(&place), &config).unwrap();
+                distance = found.answer.distance;
+            }));
+            let mut nearest = f64::INFINITY;
+            let scanned = least(Box::new(|| {
+                for (k, height) in heights.iter().enumerate() {
+                    let place = Vector::new((k % side) as f64 * 0.5, (k / side) as f64 * 0.5, *height);
+                    nearest = nearest.min((pose.translation() - place).norm());
+                }
+            }));
+            assert!(nearest - 1.5 < distance && distance < nearest, "{above}: {distance} {nearest}");
+            assert!(asked < scanned, "{above}: {asked:?}, all heights {scanned:?}");
+        }
+    }
 }

@@ -4,7 +4,9 @@ mod attack;
 mod contacts;
 mod distances;
 mod input;
+mod kicks;
 mod nearest;
+mod soups;
 
 use swiftprox::ground::{Ground, HeightGrid};
 use swiftprox::math::Vector;

@@ -30,6 +30,10 @@ impl Program {
             if u.arbitrary()? { ground_of_triangles(u, &mut ground)? } else { ground_of_heights(u, &mut ground)? }
         };
         assert_eq!(status == StatusCode::Ok, !ground.is_null(), "{}", last_message());
+        if u.arbitrary()? {
+            // SAFETY: as above; the share of the ground goes over to what is made of it.
+            ground = unsafe { made_of(u, ground)? };
+        }
         let given = if u.ratio(1, 16).unwrap_or(false) { null() } else { ground };
         let asked = self.ask_ground(u, given);
         // SAFETY: as many shares as are given back; null is ignored.
@@ -38,7 +42,7 @@ impl Program {
             swiftprox_ground_release(ground);
             swiftprox_ground_release(ground);
         }
-        Ok(if status == StatusCode::Ok { asked? } else { status })
+        Ok(if status == StatusCode::Ok && !ground.is_null() { asked? } else { status })
     }
 
     fn ask_ground(&mut self, u: &mut Unstructured, ground: *const Ground) -> Result<StatusCode> {
@@ -149,6 +153,29 @@ fn manifold_config(u: &mut Unstructured) -> Result<Option<Block>> {
     config.reduces = u.arbitrary()?;
     let limit = any_number(u, &mut last)?.to_ne_bytes();
     options(u, &config, &[(std::mem::offset_of!(CManifoldConfig, rotation_limit), &limit[..])])
+}
+
+/// A ground twice at two places, or as a solid, which the share given is returned for; null if it is refused.
+///
+/// # Safety
+/// A living ground or null.
+unsafe fn made_of(u: &mut Unstructured, ground: *const Ground) -> Result<*const Ground> {
+    let mut made = null();
+    // SAFETY: a pose is twelve doubles.
+    let poses = [any_pose(u)?, any_pose(u)?].map(|pose| unsafe { pose.at::<[f64; 12]>().read() });
+    // SAFETY: as many grounds and poses as are claimed.
+    let status = unsafe {
+        if u.arbitrary()? {
+            swiftprox_ground_create_from_grounds([ground; 2].as_ptr(), poses.as_ptr().cast(), 2, &mut made)
+        } else {
+            let mut last = 1.0;
+            swiftprox_ground_create_solid(ground, any_number(u, &mut last)?, &mut made)
+        }
+    };
+    assert_eq!(status == StatusCode::Ok, !made.is_null(), "{}", last_message());
+    // SAFETY: the share that was given.
+    unsafe { swiftprox_ground_release(ground) };
+    Ok(made)
 }
 
 /// # Safety

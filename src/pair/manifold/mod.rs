@@ -218,7 +218,7 @@ fn of_bodies(
 }
 
 /// The pair of witness points.
-fn witness(contact: &SignedDistance) -> ManifoldPoint {
+pub(crate) fn witness(contact: &SignedDistance) -> ManifoldPoint {
     let &SignedDistance { local1, local2, world1, world2, feature1, feature2, .. } = contact;
     let (gap_lower, gap_upper) = (contact.lower, contact.upper);
     let id = id_of(&feature1, &feature2);
