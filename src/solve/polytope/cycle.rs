@@ -482,8 +482,8 @@ mod tests {
         assert!(edges.are_cycle(&triangles, polytope.vertex_count));
     }
 
-    /// Four sides of a ring of vertices stand on a fifth; above, the ring is closed along the lower diagonal. A vertex beyond fills the
-    /// dent, and the triangle that its cone would lie on gives way, too.
+    /// Four sides of a ring of vertices stand on a fifth; above, the ring is closed along the lower diagonal. A vertex beyond fills
+    /// the dent, and the triangle that its cone would lie on gives way, too.
     #[test]
     fn a_known_vertex_fills_a_dent() {
         let (mut polytope, mut edges) = (Polytope::<64, 128>::EMPTY, Edges::<64, 1>::EMPTY);
