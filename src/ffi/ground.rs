@@ -10,6 +10,7 @@ use super::guard::{guard, keep_panics_quiet};
 use super::pair::{CPairConfig, read_config};
 use super::pointers::{array, input, output};
 use crate::base::math::Pose;
+use crate::base::memory::with_capacity;
 use crate::ground::{
     Ground, GroundContact, GroundContacts, GroundDistance, HeightGrid, ground_contacts, ground_distance,
 };
@@ -89,8 +90,11 @@ pub unsafe extern "C" fn swiftprox_ground_create_from_grounds(
     create(ground, || unsafe {
         let grounds = array(grounds, count, "grounds")?;
         let poses = array(poses.cast::<Pose>(), count, "poses")?;
-        let placed = grounds.iter().zip(poses).map(|(ground, pose)| Ok(input(*ground, "grounds")?.at(pose)));
-        Ok(Ground::from_grounds(&placed.collect::<Checked<Vec<_>>>()?)?)
+        let mut placed = with_capacity(count)?;
+        for (ground, pose) in grounds.iter().zip(poses) {
+            placed.push(input(*ground, "grounds")?.at(pose));
+        }
+        Ok(Ground::from_grounds(&placed)?)
     })
 }
 

@@ -3,7 +3,7 @@
 //! at a peak those of the body's faces. Best is the one along which they are farthest apart, or overlap least.
 
 use super::PlacedGround;
-use super::lowest::local_point;
+use super::lowest::{is_inside, local_point};
 use super::reach::Reach;
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector, is_unit};
 use crate::pair::{Feature, FeatureKind, Outcome, Placed, SignedDistance, feature_of_vertices, label};
@@ -277,12 +277,8 @@ impl<'a> Search<'a> {
 
     /// Whether a point of the plane of the triangle, in the ground's frame, is in it, rounding included.
     fn is_over(&self, point: &Vector) -> bool {
-        (0..3).all(|k| {
-            let [tail, head] = [self.own.corners[k], self.own.corners[(k + 1) % 3]];
-            let inward = self.own.normal.cross(&(head - tail));
-            let rounding = 64.0 * UNIT_ROUNDOFF * (point.lp_norm(1) + tail.lp_norm(1));
-            inward.dot(&(point - tail)) >= -rounding * inward.norm()
-        })
+        let farthest = self.own.corners.iter().map(|corner| corner.lp_norm(1)).fold(0.0, f64::max);
+        is_inside(self.own, point, -64.0 * UNIT_ROUNDOFF * (point.lp_norm(1) + farthest))
     }
 }
 

@@ -28,7 +28,7 @@ use crate::shape::{Triangle, TriangleShape};
 /// not by more than the [thickness](crate::ground::Ground::with_thickness) of the ground.
 /// The normal of a contact is the one along which the body and the triangle are nearest, or overlap least, of those in the normal
 /// cone of the surface at the touched point. So no contact holds up a body that slides over a flat or concave edge, and none is
-/// deeper than the body is in. Contacts with one normal are one, however many triangles they are on.
+/// much deeper than the body is in. Contacts with one normal are one, however many triangles they are on.
 ///
 /// A gap is that of the body's point over the point on the triangle, along the normal, and holds for them. Whether a body touches a
 /// triangle is as certain as [`pair::signed_distance`] says. There is no cache, so that four points of a reduced contact are chosen
@@ -146,7 +146,7 @@ impl Visit for Meeting<'_> {
         let (mut contact, mut is_over) = search.contact(&best, &found);
         let beside = (is_met && !is_over).then(|| witness(&contact));
         if !is_over && best.is_along_own_normal() {
-            let nearest = if nearest.is_some() { found } else { self.depth()? };
+            let nearest = if nearest.is_some() { found } else { self.signed_distance()? };
             if let Some(inner) = search.inner(&best, &nearest) {
                 (contact, is_over) = (inner, true);
             }
@@ -197,8 +197,8 @@ impl Meeting<'_> {
             return Ok(Found::Nearest(contact));
         }
         // That takes longer than all before.
-        let bodies = [self.body, self.shape.complete().at(self.ground.pose)];
         if margin.radius == 0.0 {
+            let bodies = [self.body, self.shape.complete().at(self.ground.pose)];
             let mut answer = PairAnswer::default();
             pair::distance(bodies, &mut PairCache::default(), &self.within, &mut answer)?;
             return Ok(match answer.outcome {
@@ -207,8 +207,7 @@ impl Meeting<'_> {
                 _ => Found::Nearest((&answer).into()),
             });
         }
-        let mut contact = SignedDistance::default();
-        pair::signed_distance(bodies, &mut SignedDistanceCache::default(), &self.within, &mut contact)?;
+        let contact = self.signed_distance()?;
         Ok(if contact.outcome == Outcome::Beyond { Found::Beyond } else { Found::Nearest(contact) })
     }
 
@@ -228,8 +227,8 @@ impl Meeting<'_> {
         })
     }
 
-    /// How deep the body is in the triangle that is shown, which it meets.
-    fn depth(&mut self) -> Result<SignedDistance> {
+    /// The signed distance of the body and the triangle that is shown.
+    fn signed_distance(&mut self) -> Result<SignedDistance> {
         let bodies = [self.body, self.shape.complete().at(self.ground.pose)];
         let mut contact = SignedDistance::default();
         pair::signed_distance(bodies, &mut SignedDistanceCache::default(), &self.within, &mut contact)?;

@@ -21,7 +21,7 @@ impl Covers {
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn new(triangles: &Triangles, tree: &Tree) -> Result<Covers> {
-        let mut covers = Covers::default();
+        let (mut covers, mut around) = (Covers::default(), Vec::new());
         for half_edge in 0..3 * triangles.records.len() as u32 {
             if triangles.twin(half_edge) != NONE || triangles.normal(half_edge / 3) == Vector::zeros() {
                 continue;
@@ -34,7 +34,7 @@ impl Covers {
                 Holding { triangles, key: half_edge, own: &[half_edge / 3], point, near, found: &mut covers.sides }
                     .find(tree)?;
             }
-            let mut around = Vec::new();
+            around.clear();
             let mut at = half_edge;
             while at != NONE {
                 push(&mut around, at / 3)?;

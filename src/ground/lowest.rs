@@ -117,8 +117,8 @@ pub(super) fn local_point(pose: &Pose, world: &Vector) -> Vector {
     pose.rotation().try_inverse().map_or_else(|| pose.rotate_back(&from), |back| back * from)
 }
 
-/// Whether a point of the plane of a triangle is in it, and so far from its sides.
-fn is_inside(triangle: &Triangle, point: &Vector, distance: f64) -> bool {
+/// Whether a point of the plane of a triangle is in it, and so far from its sides; less than 0 is so far beside it.
+pub(super) fn is_inside(triangle: &Triangle, point: &Vector, distance: f64) -> bool {
     (0..3).all(|k| {
         let [tail, head] = [triangle.corners[k], triangle.corners[(k + 1) % 3]];
         let inward = triangle.normal.cross(&(head - tail));

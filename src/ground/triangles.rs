@@ -2,7 +2,7 @@
 
 use crate::base::error::Result;
 use crate::base::math::Vector;
-use crate::base::memory::{collected, copied, filled, with_capacity};
+use crate::base::memory::{collected, copied, extend, filled, with_capacity};
 
 /// Across no side: the surface ends there, or its triangles there make no surface.
 pub(super) const NONE: u32 = u32::MAX;
@@ -89,7 +89,7 @@ pub(super) fn find_twins(vertices: &[Vector], records: &mut [Record]) -> Result<
             [_, _] => {}
             several => {
                 around.clear();
-                around.extend(several.iter().map(|side| (angle(vertices, records, several, side), *side)));
+                extend(&mut around, several.iter().map(|side| (angle(vertices, records, several, side), *side)))?;
                 // Along a sheet of two triangles, back to back, the one that faces backwards is met first.
                 around.sort_unstable_by(|(a, one), (b, other)| {
                     a.total_cmp(b).then(one.is_upwards.cmp(&other.is_upwards))

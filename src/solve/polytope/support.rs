@@ -331,12 +331,13 @@ pub fn heights<L: Lanes>([x, y, z]: [L; 3], block: &PointBlock) -> L {
 
 /// By how much the order of two heights in single precision, over the radius, may be wrong. With coordinates and a direction of
 /// length ≤ 1.02 rounded to it, and three roundings of a product, a height errs by 5.1·2⁻²⁴; both by 10.4·2⁻²⁴, and their
-/// difference by 2⁻²⁴ of itself.
+/// difference by 2⁻²⁴ of itself. What underflows is less than 2⁻¹⁴⁹, of a radius of at least 2⁻¹⁰⁰.
 const ROUGH_HEIGHTS: f64 = 12.0 / 16_777_216.0;
 
 /// The farthest of all vertices of a body that has them in blocks: as single precision shows, else as double precision does.
 #[inline(always)]
 fn farthest_in_blocks<L: Lanes>(polyhedron: &Polyhedron, towards: L) -> (u32, f64) {
+    debug_assert!(!(towards.to_vector().norm() > 1.03), "{:?}", towards.to_array());
     let (vertex, [greatest, second]) = towards.farthest_product(&polyhedron.rough_blocks);
     // False for a NaN; and there are zeros behind the vertices.
     if f64::from(greatest - second) > ROUGH_HEIGHTS * polyhedron.radius && vertex < polyhedron.vertices.len() {
