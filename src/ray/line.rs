@@ -95,11 +95,13 @@ impl<'a> Line<'a> {
         self.pose.rotate_back(direction)
     }
 
-    /// From the centre to about where the line along a unit vector comes into the sphere around the body, or passes it.
+    /// From the centre to about where the line along a unit vector comes into the sphere around the body, or passes it; of length 1
+    /// or less.
     pub fn towards_sphere(&self, along: &Vector) -> Vector {
         let across = along * self.centre.dot(along) - self.centre;
         let depth = (self.sphere() * self.sphere() - across.norm_squared()).max(0.0).sqrt();
-        (across - along * depth) / self.sphere()
+        let way = across - along * depth;
+        way / way.norm().max(self.sphere())
     }
 
     /// Its direction in the body's axes, rounded.
