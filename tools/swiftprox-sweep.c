@@ -24,38 +24,38 @@ static const char USAGE[] = "usage: swiftprox-sweep SCENE POSES --out FILE [--sh
 
 static const char HELP[] =
     "\n"
-    "Asks of many poses or edges of one object how near it comes to all others of a scene, over the ranks of MPI.\n"
+    "Computes for many poses or edges of one object how near it comes to all others of a scene, over the ranks of MPI.\n"
     "\n"
     "  SCENE              what swiftprox_scene_record has written, or a scene as text, see swiftprox-replay; its first\n"
     "                     object that is not fixed moves, all others stay where its last step has them; every rank reads it\n"
-    "  POSES              poses of that object, 12 numbers a line, the row-major 3x4 [R|T]; or edges, 24 numbers a line,\n"
+    "  POSES              poses of that object, 12 numbers per line, the row-major 3x4 [R|T]; or edges, 24 numbers per line,\n"
     "                     the poses at the times 0 and 1, between which it turns by the shortest way about its origin, which\n"
     "                     goes on a line; blank lines and lines that start with # are skipped; rank 0 reads it\n"
-    "  --out FILE         where results are written: to FILE.part first, which a later run goes on with; FILE.part.sums\n"
+    "  --out FILE         where results are written: to FILE.part first, which a later run continues; FILE.part.sums\n"
     "                     has its checksums\n"
     "  --share N          how many items a rank is handed at once (default: 256)\n"
-    "  --margin M         of edges: free means farther apart than this (default: 0)\n"
+    "  --margin M         for edges: free means farther apart than this (default: 0)\n"
     "  --input strict     refuse a mesh that is not closed and convex with an interior (the default)\n"
     "  --input flat       admit bodies without interior as well, such as a two-sided polygon\n"
-    "  --input hull       take the convex hull of the vertices, also of those of no face\n"
+    "  --input hull       take the convex hull of all vertices, with or without a face\n"
     "  --input patch      take the convex hull of the faces\n"
     "                     (nearly-convex: as flat, up to the precision of the coordinates)\n"
     "  --times FILE       write how many seconds of its rank's processor each share took, a line each\n"
     "                     and in the order in which they came\n"
     "  --help, --version  print this text, the version\n"
     "\n"
-    "Each result is a line, in the order of the items, numbers with 17 significant digits. Of a pose:\n"
+    "Each result is a line, in the order of the items, numbers with 17 significant digits. For a pose:\n"
     "  outcome lower upper object\n"
     "  outcome       separated or intersecting\n"
-    "  lower, upper  the distance to the nearest object is surely between them\n"
+    "  lower, upper  the distance to the nearest object is guaranteed to lie between them\n"
     "  object        the nearest one, or one that intersects, numbered from 0; - where there is none\n"
     "\n"
-    "Of an edge:\n"
+    "For an edge:\n"
     "  outcome t_lo t_hi clearance object\n"
     "  outcome    free, hit, near (rounding hides whether they meet) or budget\n"
     "  t_lo       farther apart than the margin up to this time\n"
-    "  t_hi       of a hit: no farther apart than the margin\n"
-    "  clearance  of a free edge: at least so far apart at all times\n"
+    "  t_hi       for a hit: no farther apart than the margin\n"
+    "  clearance  for a free edge: at least so far apart at all times\n"
     "  object     the one that is hit or near\n"
     "\n"
     "Results are bit for bit the same for any number of ranks, however often the sweep was killed and begun again.\n"
@@ -130,7 +130,7 @@ static int open_rank0(const struct arguments *arguments, const struct sweep_scen
         return BAD_INPUT;
     }
     if (rank0->items.kind == SWEEP_POSES && arguments->margin > 0) {
-        return program_refuse(&PROGRAM, "--margin has no meaning for poses, whose distances are said");
+        return program_refuse(&PROGRAM, "--margin has no meaning for poses, whose distances are printed");
     }
     rank0->times = arguments->times ? fopen(arguments->times, "w") : NULL;
     if (arguments->times && !rank0->times) {
