@@ -130,7 +130,7 @@ static void move_all(swiftprox_scene *scene, struct body *bodies)
     demand(swiftprox_scene_set_poses(scene, NULL, poses, BODIES));
 }
 
-/* Takes in what has changed; says how many pairs more touch than before. */
+/* Applies what has changed. Returns how many more pairs touch than before. */
 static long take_events(swiftprox_scene *scene, struct body *bodies, int step)
 {
     swiftprox_scene_events events; /* its lists are the scene's, valid until the next query about events */
@@ -192,7 +192,7 @@ int main(int argc, char **argv)
         move_all(scene, bodies);
         touching += take_events(scene, bodies, step);
     }
-    /* What the events add up to is what there is. */
+    /* The events add up to the present state. */
     swiftprox_scene_answer answer;
     demand(swiftprox_scene_query_intersection(scene, NULL, &answer));
     printf("%ld pairs touch in the end\n", touching);

@@ -41,7 +41,7 @@ struct flight {
     double poses[POSES][2][12];
     swiftprox_pair_answer answers[POSES];
     double distances[POSES];
-    double nanoseconds[ROWS]; /* a query */
+    double nanoseconds[ROWS]; /* per query */
     char title[512];
     char subtitle[160];
 };
@@ -291,7 +291,7 @@ static const char *base_name(const char *path)
     return slash ? slash + 1 : path;
 }
 
-/* The model in a file, or the convex hull of one that is not convex; says so. */
+/* The model in a file, or its convex hull if it is not convex; prints which. */
 static bool load_shape(const char *path, const swiftprox_shape **shape)
 {
     const swiftprox_status status = swiftprox_shape_create_from_file(path, NULL, shape);

@@ -8,7 +8,7 @@ int main(void)
     const double pose1[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}; /* rows of [R|T] */
     const double pose2[12] = {1, 0, 0, 1, 0, 1, 0, 1, 0, 0, 1, 1};
     const swiftprox_shape *tetrahedron;
-    swiftprox_pair_cache cache = {{0}}; /* all zero is cold; keep one for each pair */
+    swiftprox_pair_cache cache = {{0}}; /* all zero is cold; keep one per pair */
     swiftprox_pair_answer answer;
     if (swiftprox_shape_create_from_mesh(corners, 4, faces, NULL, 4, NULL, &tetrahedron) != SWIFTPROX_OK ||
         swiftprox_pair_distance((swiftprox_placed){tetrahedron, pose1}, (swiftprox_placed){tetrahedron, pose2}, &cache, NULL,
@@ -16,7 +16,7 @@ int main(void)
         fprintf(stderr, "%s\n", swiftprox_library_last_error_message());
         return 1;
     }
-    printf("distance %.17g, surely within [%.17g, %.17g]\n", answer.distance, answer.lower, answer.upper);
+    printf("distance %.17g, guaranteed within [%.17g, %.17g]\n", answer.distance, answer.lower, answer.upper);
     swiftprox_shape_release(tetrahedron);
     return 0;
 }

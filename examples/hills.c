@@ -1,4 +1,4 @@
-/* Hills and a scene: boxes come down on a ground of 128 triangles, and each step asks once what all of them rest on. */
+/* Hills and a scene: boxes come down on a ground of 128 triangles, and each step asks once what they rest on. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -99,7 +99,7 @@ int main(int argc, char **argv)
             const double pose[12] = {1, 0, 0, 4.2 + 8 * (i % 2), 0, 1, 0, 3.8 + 8 * (i / 2), 0, 0, 1, height};
             demand(swiftprox_scene_set_pose(scene, ids[i], pose));
         }
-        demand(swiftprox_scene_prepare(scene)); /* who is near is found by trees */
+        demand(swiftprox_scene_prepare(scene)); /* trees find the near objects */
         printf("height %.2f\n", height);
         print_contacts(scene, ground, scratch);
     }

@@ -37,7 +37,7 @@ int main(int argc, char** argv)
                         collide ? "a collision" : "apart", distances[k], normals[3 * k] + 0.0, normals[3 * k + 1] + 0.0,
                         normals[3 * k + 2] + 0.0);
         }
-        // What the old libraries could not say: how sure that is.
+        // The old libraries had no such interval.
         if (!collide) {
             const swiftprox_pair_answer* answer = scene.Get_Answer(0);
             std::printf("    for sure within %.0e\n", answer->upper - answer->lower > 1e-15 ? answer->upper - answer->lower : 1e-15);

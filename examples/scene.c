@@ -1,4 +1,4 @@
-/* A scene: a prism falls past a ball onto a box that stands still, and each step lists the pairs that are near each other. */
+/* A scene: a prism falls past a ball onto a box that stands still, and each step lists the near pairs. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -74,7 +74,7 @@ int main(int argc, char **argv)
     demand(swiftprox_scene_set_pose(scene, ball, at_the_side));
 
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
-    query.distance_tolerance = 1.0; /* who is farther apart is not listed */
+    query.distance_tolerance = 1.0; /* pairs farther apart are not reported */
 
     for (int step = 0; step < STEPS; step++) {
         const double upright[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};

@@ -11,16 +11,16 @@ try {
     const swiftprox::Shape box = swiftprox::Shape::from_points(corners);
     const swiftprox::Shape floor = box.scaled(4);
 
-    swiftprox::PairCache cache; // one for each pair
+    swiftprox::PairCache cache; // one per pair, kept from query to query
     const swiftprox_pair_answer answer =
         swiftprox::distance({floor, swiftprox::Pose()}, {box, swiftprox::Pose::at(0, 0, 7)}, cache);
-    std::printf("distance %.17g, surely within [%.17g, %.17g]\n", answer.distance, answer.lower, answer.upper);
+    std::printf("distance %.17g, guaranteed within [%.17g, %.17g]\n", answer.distance, answer.lower, answer.upper);
 
     swiftprox::Scene scene;
     scene.add(floor);
     const swiftprox_object_id falling = scene.add(box);
     swiftprox::SceneQuery query;
-    query.distance_tolerance = 1; // who is farther apart is not listed
+    query.distance_tolerance = 1; // pairs farther apart are not reported
     for (int step = 0; step < 4; ++step) {
         scene.set_pose(falling, swiftprox::Pose::at(0, 0, 7 - 0.75 * step));
         const swiftprox_scene_answer near = scene.query_distance(query);

@@ -14,7 +14,7 @@
 /* The smallest body is 0.1 high: what has moved by half of that has left its place. */
 static const double FALLEN = 0.05;
 
-/* Its name is that of the engine's. */
+/* It has the engine's name. */
 static struct program program = {
     "",
     "usage: mujoco_compare|bullet_compare|dart_compare [--quick] [FOLDER]\n",

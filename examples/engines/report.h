@@ -40,7 +40,7 @@ void report_add(struct report *report);
 /* Whether with swiftprox a scene stands, if it is to and has not fallen with the engine's collider. */
 bool report_stands_as_well(const struct played *played);
 
-/* Writes engines-ENGINE.csv and engines-ENGINE.svg into the folder. The exit status: that of success if all `is_good`. */
+/* Writes engines-ENGINE.csv and engines-ENGINE.svg into the folder. Returns the exit status: success if all `is_good`. */
 int report_end(const struct report *report, bool is_good);
 
 /* Microseconds since some moment. */

@@ -98,7 +98,7 @@ static struct state anywhere(const struct world *world)
     return state;
 }
 
-/* Grows the tree from its state nearest to a target, as far as the edge there is proved free. Whether that is all the way. */
+/* Grows the tree from its state nearest to a target, as far as the edge is proved free. Returns whether it got there. */
 static bool grow(struct world *world, struct tree *tree, const struct state *target)
 {
     size_t nearest = 0;
@@ -119,7 +119,7 @@ static bool grow(struct world *world, struct tree *tree, const struct state *tar
     return edge.is_free;
 }
 
-/* A tree that grows towards random states, and every fifth time towards the goal (LaValle 1998). Whether it came there. */
+/* A tree that grows towards random states, and every fifth time towards the goal (LaValle 1998). Returns whether it got there. */
 static bool search(struct world *world, struct tree *tree, const struct state *start, const struct state *goal)
 {
     *tree = (struct tree){.states = {*start}, .count = 1};

@@ -68,7 +68,7 @@ static const swiftprox_shape *second_shape(const struct cell *cell, const struct
     return pair->is_obstacle ? cell->obstacles[pair->second] : cell->bodies[pair->second];
 }
 
-/* A lower bound of the distance of a pair; beyond `enough` no more is said than that. */
+/* A lower bound of the distance of a pair; beyond `enough` it is no more than that. */
 static double distance(struct cell *cell, struct cell_pair *pair, const double *poses, double enough)
 {
     const double *const second = pair->is_obstacle ? cell->places[pair->second].start : poses + 12 * pair->second;

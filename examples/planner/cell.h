@@ -1,4 +1,4 @@
-/* A cell: bodies that move as a planner says, and obstacles that stay. Edges of the planner are proved free at all times. */
+/* A cell: bodies that a planner moves, and obstacles that stay. Edges of the planner are proved free at all times. */
 #ifndef EXAMPLES_PLANNER_CELL_H
 #define EXAMPLES_PLANNER_CELL_H
 

@@ -38,8 +38,8 @@ static const swiftprox_shape *make_box(double x, double y, double z)
 
 struct obstacle {
     const swiftprox_shape *shape;
-    swiftprox_motion motion;    /* it stays where it is */
-    swiftprox_pair_cache cache; /* what the pair of plank and obstacle remembers: all zero at first */
+    swiftprox_motion motion;    /* none: it rests */
+    swiftprox_pair_cache cache; /* the pair's cache: all zero at first */
 };
 
 struct world {
@@ -86,13 +86,13 @@ static void pose_of(struct state state, double pose[12])
     memcpy(pose, rows, sizeof rows);
 }
 
-/* Whether the plank, put there, is farther than the margin from all obstacles. */
+/* Returns whether the plank, at that state, is farther than the margin from all obstacles. */
 static int is_free(struct world *world, struct state state)
 {
     double pose[12];
     pose_of(state, pose);
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
-    query.distance_tolerance = MARGIN; /* who is farther apart is not listed */
+    query.distance_tolerance = MARGIN; /* pairs farther apart are not reported */
     swiftprox_scene_answer answer;
     demand(swiftprox_scene_query_placed(world->scene, &(swiftprox_placed){world->plank, pose}, 1, SWIFTPROX_QUERY_KIND_DISTANCE,
                                         &query, &answer));
@@ -106,7 +106,7 @@ static swiftprox_motion motion_between(struct state from, struct state to)
     pose_of(from, pose1);
     pose_of(to, pose2);
     swiftprox_motion motion;
-    demand(swiftprox_motion_between(pose1, pose2, NULL, 1.2, &motion, &end_error)); /* no corner is farther out than 1.2 */
+    demand(swiftprox_motion_between(pose1, pose2, NULL, 1.2, &motion, &end_error)); /* corners are within 1.2 of the centre */
     if (end_error > 1e-12) {
         fputs("the motion does not end where it should\n", stderr);
         exit(EXIT_FAILURE);
@@ -117,9 +117,9 @@ static swiftprox_motion motion_between(struct state from, struct state to)
 /* How far the plank gets on an edge. */
 struct edge {
     int is_free;
-    double clearance; /* free: at least that far from all obstacles, at all times */
+    double clearance; /* free: distance from all obstacles at all times, at least */
     double t_lo;      /* not free: farther than the margin from all up to this time ... */
-    double t_hi;      /* ... and at this one no farther from one; NaN where that is hidden */
+    double t_hi;      /* ... and at this time within it of one; NaN if rounding hides that */
 };
 
 static struct edge cast_edge(struct world *world, struct state from, struct state to)
@@ -139,7 +139,7 @@ static struct edge cast_edge(struct world *world, struct state from, struct stat
         }
         if (answer.outcome == SWIFTPROX_CAST_OUTCOME_FREE) {
             edge.clearance = fmin(edge.clearance, answer.clearance);
-        } else { /* hit, near or budget; of the others only what comes before counts */
+        } else { /* hit, near or budget: later contacts no longer matter */
             edge.is_free = 0;
             edge.t_lo = answer.t_lo;
             edge.t_hi = answer.t_hi;
@@ -149,7 +149,7 @@ static struct edge cast_edge(struct world *world, struct state from, struct stat
     return edge;
 }
 
-/* The last state of an edge that is hit, a hair before t_lo. Its pose is rounded, so it is asked about as it is. */
+/* The last state of an edge that is hit, a hair before t_lo. Its pose is rounded, so the state itself is tested. */
 static struct state last_valid(struct world *world, struct state from, struct state to, double t_lo)
 {
     const double t = fmax(0, t_lo - 1e-6);
@@ -170,7 +170,7 @@ static double apart(struct state a, struct state b)
     return hypot(a.x - b.x, a.y - b.y) + 0.5 * fabs(a.angle - b.angle);
 }
 
-/* Grows the tree from its state nearest to a target, as far as the edge there is free. Whether that is all the way. */
+/* Grows the tree from its state nearest to a target, as far as the edge is free. Returns whether it reached the target. */
 static int grow(struct world *world, struct tree *tree, struct state target)
 {
     size_t nearest = 0;
@@ -195,7 +195,7 @@ static double random_number(void)
     return (double)(bits >> 11) / 9007199254740992.0;
 }
 
-/* A tree that grows towards random states, and every fifth time towards the goal (LaValle 1998). Whether it came there. */
+/* A tree that grows towards random states, and every fifth time towards the goal (LaValle 1998). Returns whether it got there. */
 static int search(struct world *world, struct tree *tree, struct state start, struct state goal)
 {
     tree->states[0] = start;

@@ -106,7 +106,7 @@ static void move(swiftprox_scene *scene, struct body *body)
 
 struct contact {
     struct body *bodies[2];
-    uint64_t id;        /* of the point, among those of its pair */
+    uint64_t id;        /* identifies the point within its pair */
     double arms[2][3];  /* from the centre of each body to the point */
     double axes[3][3];  /* the normal, from body 2 to body 1, and two tangents */
     double gap;         /* less than 0: they overlap */
@@ -127,7 +127,7 @@ static void set_axes(struct contact *contact, const double normal[3])
     cross(normal, contact->axes[1], contact->axes[2]);
 }
 
-/* Fills in what the scene says of one point. */
+/* Makes a contact of one of the scene's points. */
 static struct contact contact_of(struct body *body1, struct body *body2, const double normal[3],
                                  const swiftprox_manifold_point *point)
 {
@@ -141,7 +141,7 @@ static struct contact contact_of(struct body *body1, struct body *body2, const d
     return contact;
 }
 
-/* Where all bodies meet, or will within a moment. */
+/* Finds where bodies meet, or will soon. */
 static void find_contacts(swiftprox_scene *scene, struct body *bodies, struct contacts *found)
 {
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
@@ -155,7 +155,7 @@ static void find_contacts(swiftprox_scene *scene, struct body *bodies, struct co
 
     found->count = 0;
     for (size_t i = 0; i < answer.count; i++) {
-        const swiftprox_contact *const contact = &contacts.contacts[i]; /* of answer.pairs[i] */
+        const swiftprox_contact *const contact = &contacts.contacts[i]; /* belongs to answer.pairs[i] */
         const swiftprox_manifold_point *const points = &contacts.points[contact->first_point];
         struct body *const body1 = &bodies[answer.pairs[i].user_data1];
         struct body *const body2 = &bodies[answer.pairs[i].user_data2];
@@ -211,7 +211,7 @@ static void solve(struct contact *contact, int axis)
     contact->impulses[axis] = clamped;
 }
 
-/* Begins with the impulses of the step before, where a point was there already: same bodies, same id. How many were. */
+/* Starts points that were there before, with the same bodies and id, at their last impulses. Returns how many were. */
 static size_t carry_on(struct contacts *contacts, const struct contacts *before)
 {
     size_t known = 0;
@@ -231,7 +231,7 @@ static size_t carry_on(struct contacts *contacts, const struct contacts *before)
     return known;
 }
 
-/* One step; how many contact points were known from the step before. */
+/* One step. Returns how many contact points were known from the step before. */
 static size_t step(swiftprox_scene *scene, struct body *bodies, struct contacts *contacts)
 {
     static struct contacts before;

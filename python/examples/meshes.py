@@ -1,4 +1,4 @@
-"""Meshes of trimesh, their distance, and a proof of it."""
+"""The distance of two trimesh meshes, and its proof."""
 import numpy as np
 import swiftprox
 import trimesh

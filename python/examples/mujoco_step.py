@@ -1,4 +1,4 @@
-"""Whether bodies of a MuJoCo model are apart after a step, for certain."""
+"""Checks that bodies of a MuJoCo model are apart after a step."""
 import mujoco
 import numpy as np
 import swiftprox

@@ -245,7 +245,7 @@ double least_distance(const Pairs &pairs, const DistanceOption &option, Distance
         }
     }
     if (least == std::numeric_limits<double>::infinity()) {
-        return 0; // as DART says it of no pairs
+        return 0; // DART returns 0 for no pairs
     }
     const double clamped = std::max(least, option.distanceLowerBound);
     if (result) {

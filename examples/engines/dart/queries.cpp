@@ -113,7 +113,7 @@ int main()
     group->removeAllShapeFrames();
     CHECK(group->distance(DistanceOption(), &result) == 0 && !result.found() && !group->collide());
 
-    // With a margin cubes that are nearly together have contacts, and are said to collide only where contacts are asked for.
+    // With a margin cubes that are nearly together have contacts, and collide only where contacts are asked for.
     const auto wary = collider_create(0.01);
     const auto below = wary->createCollisionGroup(left.get()), above = wary->createCollisionGroup(right.get());
     const auto both = wary->createCollisionGroup(left.get(), right.get());
