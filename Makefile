@@ -10,7 +10,7 @@
 # make loom                   the library's own threads under loom, in every order of their steps: loom/src/main.rs
 # make valgrind               C tests under valgrind and helgrind (a part of make test, too)
 # make bench                  the benchmark against parry3d and FCL: a CSV in benches/results and the charts in docs/charts
-# make figures                the figures of the paper, of levels, builds and verdicts: CSV files, docs/charts/figure-*.svg, tables of
+# make figures                the figures of the paper, of levels and builds: CSV files, docs/charts/figure-*.svg, tables of
 #                             docs/research/figures.md and docs/research/levels.md; TIMED=COMMAND goes before each of its measurements, e.g. taskset -c 1
 # make stability              the failure chart: every method on every hard case; CSV files, docs/charts/failures.svg, docs/stability.md
 # make legacy-bench           SWIFT.h beside figures of SWIFT 1.x and SWIFT++: time, and instructions where valgrind is

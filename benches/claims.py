@@ -256,22 +256,6 @@ def claims_table(rows):
                  [claim(rows) for claim in CLAIMS], rest="---")
 
 
-def choice_table(rows):
-    """For each query: in how many cells the automatic choice is within 10 % of the best fixed setting, and the worst ones."""
-    lines = []
-    found = choice_cells(rows)
-    for query in in_order(q for q, *_ in found):
-        here = {key: value for key, value in found.items() if key[0] == query}
-        fixed = {key: value for key, value in here.items()}
-        near = sum(1 for ratio, _, _ in fixed.values() if ratio <= 1.1)
-        ranked = sorted(fixed.items(), key=lambda item: -item[1][0])[:1]
-        worst = "; ".join(f"{ratio:.2f} ({model}, {orbit}, {step if step == 'random' else step + '°'}: {name})"
-                          for (_, orbit, model, step), (ratio, name, _) in ranked)
-        over = geometric_mean([ratio for ratio, _, _ in fixed.values()])
-        lines.append([query, f"{near} of {len(fixed)}", f"{over:.2f}", worst])
-    return table(["query", "cells within 10 %", "automatic / best, mean", "worst cell, and what is best there"], lines)
-
-
 PARTS = {"swiftprox-mesh": "body", "table": "table", "quadric": "quadric", "outer cuts": "outer cuts", "Dobkin-Kirkpatrick": "Dobkin-Kirkpatrick"}
 
 
@@ -302,22 +286,8 @@ def build_table(builds):
     return table(head, lines + [limit])
 
 
-SHOWN = ("0.1", "1", "10", "random")  # of the motions in the page's tables
-
-
-def verdict_table(rows):
-    """The verdict alone against libccd's MPR: means over the models."""
-    lines = []
-    for n in in_order(row["n"] for row in rows):
-        for orbit in ("small", "deep"):
-            here = [row for row in rows if (row["n"], row["orbit"]) == (n, orbit)]
-            for method in in_order(row["method"] for row in here):
-                lines.append([f"{n:,}", orbit, method] + [ns(mean(here, method=method, step=step)) for step in SHOWN])
-    return table(["vertices", "orbit", "method"] + [s if s == "random" else s + "°" for s in SHOWN], lines)
-
-
-def tables(rows, verdicts, builds):
-    return {"claims": claims_table(rows), "choice": choice_table(rows), "verdict": verdict_table(verdicts), "build": build_table(builds)}
+def tables(rows, builds):
+    return {"claims": claims_table(rows), "build": build_table(builds)}
 
 
 def fill(page, made):

@@ -3,7 +3,7 @@
 
 usage: figures.py [--check] RESULTS.csv ...
 
-The files are those that `make figures` writes, of figures, of verdicts beside libccd's and of builds, in any order.
+The files are those that `make figures` writes, of figures and of builds, in any order.
 
 Writes docs/charts/figure-*.svg, and in docs/research/figures.md and docs/research/levels.md replaces what stands between <!-- table: NAME --> and
 <!-- end -->. With --check it writes nothing and fails where a page differs, or a chart is not the drawing of these rows.
@@ -65,8 +65,8 @@ NAMES = {  # figure: title
 }
 
 def read_all(paths):
-    """On what each figure was measured, and the rows of all files: of figures, of verdicts beside peers, and of builds."""
-    heads, kinds = {}, {"figure": [], "disagreements": [], "bytes": []}
+    """On what each figure was measured, and the rows of all files: of figures, and of builds."""
+    heads, kinds = {}, {"figure": [], "bytes": []}
     for path in paths:
         head, rows = read(path)
         kind = next((kind for kind in kinds if kind in rows[0]), None)
@@ -199,8 +199,8 @@ def main():
     paths = arguments[1:] if check else arguments
     if not paths:
         sys.exit(__doc__)
-    heads, rows, verdicts, builds = read_all(paths)
-    made = claims.tables(rows, verdicts, builds)
+    heads, rows, builds = read_all(paths)
+    made = claims.tables(rows, builds)
     for page in PAGES:
         with open(page) as file:
             text = file.read()

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Measures the figures of the paper, of levels, builds and verdicts: CSV files in benches/results, each a minute or two. TIMED, a
+# Measures the figures of the paper, of levels and builds: CSV files in benches/results, each a minute or two. TIMED, a
 # command, goes before each measurement.
 set -e
 cd "${0%/*}/.."
@@ -11,4 +11,3 @@ $compare --figures choice --count 1800 --passes 15 --csv $results-choice.csv
 $compare --figures error --count 1800 --passes 5 --csv $results-error.csv
 $compare --figures size --count 900 --passes 3 --csv $results-size.csv
 $compare --build --n 1002,10002,100002 --passes 2 --csv $results-build.csv
-$compare --query intersection --n 1002,10002 --count 1800 --passes 5 --csv $results-verdict.csv
