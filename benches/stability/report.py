@@ -153,10 +153,9 @@ def longest_table():
     return table(("motion", "longest query", "of", "most steps", "of"), lines)
 
 
-def page(text, head, rows, costs):
+def page(text, rows, costs):
     """The page with its tables made anew."""
-    tables = {"longest": longest_table(), "totals": totals_table(rows), "cost": cost_table(costs),
-              "settings": "\n".join(f"- `{line.split(': ')[0]}`: {line.split(': ', 1)[1]}" for line in head[1:])}
+    tables = {"longest": longest_table(), "totals": totals_table(rows), "cost": cost_table(costs)}
 
     def anew(match):
         return f"<!-- table: {match[1]} -->\n{tables[match[1]]}\n<!-- end -->"
@@ -172,7 +171,7 @@ def main():
     head, rows, costs = read_both(counts_csv, cost_csv)
     with open(page_path) as file:
         text = file.read()
-    filled = page(text, head, rows, costs)
+    filled = page(text, rows, costs)
     if check and filled != text:
         sys.exit(f"{page_path} does not say what {counts_csv} says: run make charts")
     drawn = {svg: chart(head, rows), svg.replace(".svg", "-total.svg"): total_chart(head, rows)}

@@ -122,7 +122,7 @@ class Families(unittest.TestCase):
         stability.write_counts(counts_csv, rows, methods)
         stability.write_costs(cost, rows)
         head, counts, costs = report.read_both(counts_csv, cost)
-        page = report.page("<!-- table: totals -->\n<!-- end -->\n<!-- table: cost -->\n<!-- end -->\n", head, counts, costs)
+        page = report.page("<!-- table: totals -->\n<!-- end -->\n<!-- table: cost -->\n<!-- end -->\n", counts, costs)
         self.assertIn("| `swiftprox` | 0 |", page)
         self.assertIn("| apart | 4 |", page)
         lines = report.chart(head, counts).lines
