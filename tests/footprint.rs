@@ -1,4 +1,4 @@
-//! What a scene needs of memory: bytes an object and bytes a near pair, beside results. `docs/scenes.md` has them in a table.
+//! What a scene needs of memory: bytes an object and bytes a near pair, beside results. `docs/scenes.md` has them.
 
 // GlobalAlloc is an unsafe trait.
 #![allow(unsafe_code)]
