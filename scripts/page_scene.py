@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Prints a scene of bodies that drift and turn, for swiftprox-replay:  page_scene.py BODIES STEPS > scene.txt
 
-docs/tools.md says what its page takes. The bodies are about as dense at any number."""
+The bodies are about as dense at any number."""
 import math
 import os
 import random
