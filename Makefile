@@ -77,7 +77,7 @@ build:
 demo: build
 	$(BUILD)/examples/demo --svg $(BUILD)/demo.svg $(if $(MODELS),--record $(BUILD)/demo.swiftprox) $(MODELS)
 	$(if $(MODELS),,$(BUILD)/examples/tower --seconds 4 --record $(BUILD)/demo.swiftprox)
-	$(BUILD)/tools/swiftprox-replay $(BUILD)/demo.swiftprox --html $(BUILD)/demo.html $(if $(MODELS),,--query contact --tolerance 0.05)
+	$(BUILD)/tools/swiftprox-replay $(BUILD)/demo.swiftprox --html $(BUILD)/demo.html $(if $(MODELS),,--query contact --max-distance 0.05)
 	@echo "to open in a browser: $(abspath $(BUILD)/demo.html)"
 
 # The library is made once, for unit tests and C tests. What takes long is left to `make test`: valgrind, programs that are installed,

@@ -152,7 +152,7 @@ static bool record(const struct flight *flight, const char *path)
         return failed("no scene");
     }
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
-    query.distance_tolerance = INFINITY;
+    query.max_distance = INFINITY;
     swiftprox_object_id ids[2];
     bool good = swiftprox_scene_record(scene, path) == SWIFTPROX_OK;
     for (int k = 0; k < 2 && good; k++) {

@@ -82,7 +82,7 @@ fn judge(case: &Case, round: usize, samples: u32, tally: &mut Tally) {
         println!("{round}: {error}\n{:?}\n{:?}\n{answer:?}", case.motions, case.config);
     }
     tally.outcomes[answer.outcome as usize] += 1;
-    tally.wide += u64::from(answer.t_hi - answer.t_lo > case.config.time_tolerance);
+    tally.wide += u64::from(answer.time_upper - answer.time_lower > case.config.time_tolerance);
     tally.most_queries = tally.most_queries.max(answer.queries);
 }
 

@@ -62,7 +62,7 @@ static void print_contacts(const swiftprox_scene *scene, const swiftprox_ground 
 {
     const double here[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}; /* rows of [R|T] */
     swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
-    config.margin = 0.05;
+    config.max_distance = 0.05;
     config.reduces = 1; /* four points of a contact are enough */
 
     swiftprox_scene_ground_answer answer;

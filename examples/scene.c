@@ -74,7 +74,7 @@ int main(int argc, char **argv)
     demand(swiftprox_scene_set_pose(scene, ball, at_the_side));
 
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
-    query.distance_tolerance = 1.0; /* pairs farther apart are not reported */
+    query.max_distance = 1.0; /* pairs farther apart are not reported */
 
     for (int step = 0; step < STEPS; step++) {
         const double upright[9] = {1, 0, 0, 0, 1, 0, 0, 0, 1};

@@ -20,7 +20,7 @@ try {
     scene.add(floor);
     const swiftprox_object_id falling = scene.add(box);
     swiftprox::SceneQuery query;
-    query.distance_tolerance = 1; // pairs farther apart are not reported
+    query.max_distance = 1; // pairs farther apart are not reported
     for (int step = 0; step < 4; ++step) {
         scene.set_pose(falling, swiftprox::Pose::at(0, 0, 7 - 0.75 * step));
         const swiftprox_scene_answer near = scene.query_distance(query);

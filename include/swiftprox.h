@@ -481,7 +481,7 @@ typedef enum swiftprox_outcome SWIFTPROX_INT32 {
   /** The objects are disjoint, `0 < lower <= distance <= upper`; `lower` is 0 only for a distance below the smallest double. */
   SWIFTPROX_OUTCOME_SEPARATED = 1,
   /**
-   * The objects are disjoint and farther apart than the distance tolerance. `lower` is at least that, `distance` is `lower`,
+   * The objects are disjoint and farther apart than `max_distance`. `lower` is at least that, `distance` is `lower`,
    * `upper` is infinity, and along the unit normal the objects are at least `lower` apart. Points and features stay unset.
    */
   SWIFTPROX_OUTCOME_BEYOND = 2,
@@ -510,7 +510,7 @@ typedef enum swiftprox_decided_by SWIFTPROX_INT32 {
    * from there.
    */
   SWIFTPROX_DECIDED_BY_BUDGET = 6,
-  /** The bounding spheres: they are apart, and farther than the distance tolerance if there is one. */
+  /** The bounding spheres: they are apart, and farther than `max_distance` if that is finite. */
   SWIFTPROX_DECIDED_BY_BOUNDING_SPHERES = 7,
   /** Balls inside the objects overlap. Such an answer carries no vertex pairs as its proof. */
   SWIFTPROX_DECIDED_BY_INSCRIBED_SPHERES = 8
@@ -557,7 +557,7 @@ typedef struct swiftprox_statistics {
  * has a normal.
  */
 typedef struct swiftprox_pair_answer {
-  /** Disjoint, beyond the tolerance, or intersecting. */
+  /** Disjoint, beyond `max_distance`, or intersecting. */
   swiftprox_outcome outcome;
   /** Which rung of the search decided. */
   swiftprox_decided_by decided_by;
@@ -614,7 +614,7 @@ typedef struct swiftprox_pair_config {
   /** Set by SWIFTPROX_PAIR_CONFIG_DEFAULT. */
   size_t struct_size;
   /** Pairs farther apart than this get SWIFTPROX_OUTCOME_BEYOND. From 0 to infinity (the default: never). */
-  double distance_tolerance;
+  double max_distance;
   /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
   double rotation_limit;
   /**
@@ -643,7 +643,7 @@ typedef struct swiftprox_pair_config {
 /**
  * Computes the distance of two objects: a rigorous interval, witness points, normal and features. For intersecting pairs the
  * distance is 0 and the answer holds the proof; points, normal and features are unset (see swiftprox_pair_contact). Pairs beyond
- * config->distance_tolerance get less, see SWIFTPROX_OUTCOME_BEYOND. Unset numbers are NaN, unset features
+ * config->max_distance get less, see SWIFTPROX_OUTCOME_BEYOND. Unset numbers are NaN, unset features
  * SWIFTPROX_FEATURE_KIND_NONE.
  *
  * Keep one `cache` per pair, zeroed at first, and pass the objects in the same order. On failure the answer is reset and its
@@ -676,7 +676,7 @@ swiftprox_status swiftprox_pair_contact(struct swiftprox_placed object1,
 
 /**
  * Decides only whether two objects intersect. The outcome is SWIFTPROX_OUTCOME_INTERSECTING, SWIFTPROX_OUTCOME_SEPARATED with
- * lower > 0 and an upper that may be loose, or, with a finite config->distance_tolerance, SWIFTPROX_OUTCOME_BEYOND. It is faster
+ * lower > 0 and an upper that may be loose, or, with a finite config->max_distance, SWIFTPROX_OUTCOME_BEYOND. It is faster
  * than the distance for bodies that intersect or nearly do. Same arguments and errors as swiftprox_pair_distance.
  *
  * Stable.
@@ -848,8 +848,8 @@ typedef struct swiftprox_manifold_cache {
 /** A distance that is negative where objects overlap. Unset numbers are NaN, features of no kind. */
 typedef struct swiftprox_signed_distance {
   /**
-   * SWIFTPROX_OUTCOME_INTERSECTING (touching included), SWIFTPROX_OUTCOME_SEPARATED, or SWIFTPROX_OUTCOME_BEYOND the
-   * tolerance: then `lower` is all that is known, which `distance` repeats, and `upper` is infinite.
+   * SWIFTPROX_OUTCOME_INTERSECTING (touching included), SWIFTPROX_OUTCOME_SEPARATED, or SWIFTPROX_OUTCOME_BEYOND
+   * `max_distance`: then `lower` is all that is known, which `distance` repeats, and `upper` is infinite.
    */
   swiftprox_outcome outcome;
   /** The best estimate, `lower <= distance <= upper`: how far the objects are apart, or minus how deep they are in each other. */
@@ -879,7 +879,7 @@ typedef struct swiftprox_signed_distance {
  * one rigorous interval, unit normal, witness points and features. It is as reliable as swiftprox_pair_distance and
  * swiftprox_pair_depth.
  *
- * Pairs beyond config->distance_tolerance get less, see SWIFTPROX_OUTCOME_BEYOND. Allowed errors and step budget are ignored. Same
+ * Pairs beyond config->max_distance get less, see SWIFTPROX_OUTCOME_BEYOND. Allowed errors and step budget are ignored. Same
  * arguments and errors as swiftprox_pair_distance, but with a manifold cache.
  *
  * Stable.
@@ -925,7 +925,7 @@ typedef struct swiftprox_manifold_point {
 
 /** Where two objects meet, or nearly do. */
 typedef struct swiftprox_manifold {
-  /** SWIFTPROX_OUTCOME_INTERSECTING, SWIFTPROX_OUTCOME_SEPARATED within the margin, or SWIFTPROX_OUTCOME_BEYOND it. */
+  /** SWIFTPROX_OUTCOME_INTERSECTING, SWIFTPROX_OUTCOME_SEPARATED within `max_distance`, or SWIFTPROX_OUTCOME_BEYOND it. */
   swiftprox_outcome outcome;
   /** 1 or 2: the object whose face is the reference; 0 where no face is, and the manifold has but one point. */
   uint32_t reference;
@@ -961,7 +961,7 @@ typedef struct swiftprox_manifold_config {
   /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
   double rotation_limit;
   /** Largest gap of objects that have a manifold, and of its points: from 0 (the default) to infinity, which admits all. */
-  double margin;
+  double max_distance;
   /**
    * Nonzero: at most four points are kept, none is moved. They are the deepest, the farthest from it and the extremes on either
    * side of the line through both. The last query's four, from the cache, stay while about as deep and as wide. 0 (the default):
@@ -975,9 +975,9 @@ typedef struct swiftprox_manifold_config {
 #define SWIFTPROX_MANIFOLD_CONFIG_DEFAULT {sizeof(swiftprox_manifold_config), 1e-2, 0, 0}
 
 /**
- * Computes where two objects meet or are at most config->margin apart: pairs of points along the normal, each with its gap. Points
- * are written to room.points up to its capacity; manifold->found_count is the total. room.distance, if not null, receives the
- * signed distance. Objects farther apart get no points and SWIFTPROX_OUTCOME_BEYOND.
+ * Computes where two objects meet or are at most config->max_distance apart: pairs of points along the normal, each with its gap.
+ * Points are written to room.points up to its capacity; manifold->found_count is the total. room.distance, if not null, receives
+ * the signed distance. Objects farther apart get no points and SWIFTPROX_OUTCOME_BEYOND.
  *
  * Vertices within the shape's face_noise (swiftprox_shape_options) of one plane are one face; gap intervals are guaranteed for the
  * exact objects. Points are on their objects up to half a face's thickness, and in line up to twice its thickness plus 7.5e-9 of
@@ -1037,7 +1037,7 @@ typedef struct swiftprox_scene_options {
   double rotation_limit;
   /**
    * Number of threads for a query, or for poses that are set together, including the caller's. It changes no bit of any
-   * answer. Some work uses the caller's thread only: queries that stop early, queries without a tolerance over many objects,
+   * answer. Some work uses the caller's thread only: queries that stop early, queries without a max_distance over many objects,
    * and few pairs or objects. Numbers above 256 mean 256. Default: 0, which means 1.
    */
   uint32_t worker_count;
@@ -1300,8 +1300,8 @@ swiftprox_status swiftprox_scene_set_object_info(struct swiftprox_scene *scene,
  * @{
  */
 
-/** Default of swiftprox_scene_query.distance_tolerance: 0 for swiftprox_scene_query_contact, infinity for all other queries. */
-#define SWIFTPROX_DEFAULT_TOLERANCE (-1.0)
+/** Default of swiftprox_scene_query.max_distance: 0 for swiftprox_scene_query_contact, infinity for all other queries. */
+#define SWIFTPROX_DEFAULT_MAX_DISTANCE (-1.0)
 
 /** What a query of contacts says of each pair beside its answer. */
 typedef enum swiftprox_contact_detail SWIFTPROX_INT32 {
@@ -1324,10 +1324,10 @@ typedef struct swiftprox_scene_query {
   size_t struct_size;
   /**
    * Pairs whose true distance is at most this are listed, from 0 to infinity (all pairs). Intersecting pairs, and pairs that
-   * a step budget leaves undecided, are always listed. Default: SWIFTPROX_DEFAULT_TOLERANCE, which is 0 for contacts, else
+   * a step budget leaves undecided, are always listed. Default: SWIFTPROX_DEFAULT_MAX_DISTANCE, which is 0 for contacts, else
    * infinity. swiftprox_scene_query_intersection only checks its range.
    */
-  double distance_tolerance;
+  double max_distance;
   /** swiftprox_scene_query_approximate: upper - lower of a pair may be at most the larger of this ... Default: 0. */
   double absolute_error;
   /** ... and this times lower. Default: 0. If both are 0, intervals are as narrow as exact answers. */
@@ -1362,7 +1362,7 @@ typedef struct swiftprox_scene_query {
 
 /** Begins a swiftprox_scene_query: the defaults. In C and C++, as an initialiser. */
 #define SWIFTPROX_SCENE_QUERY_DEFAULT \
-  {sizeof(swiftprox_scene_query), SWIFTPROX_DEFAULT_TOLERANCE, 0, 0, HUGE_VAL, UINT32_MAX, 0, 0, SWIFTPROX_CONTACT_DETAIL_NONE, 0}
+  {sizeof(swiftprox_scene_query), SWIFTPROX_DEFAULT_MAX_DISTANCE, 0, 0, HUGE_VAL, UINT32_MAX, 0, 0, SWIFTPROX_CONTACT_DETAIL_NONE, 0}
 
 /** One pair of convex pieces in a query's list. */
 typedef struct swiftprox_pair_result {
@@ -1417,7 +1417,7 @@ swiftprox_status swiftprox_scene_query_intersection(struct swiftprox_scene *scen
                                                     struct swiftprox_scene_answer *answer);
 
 /**
- * Lists the pairs within the distance tolerance, intersecting ones included, with answers as from swiftprox_pair_distance.
+ * Lists the pairs within query->max_distance, intersecting ones included, with answers as from swiftprox_pair_distance.
  * Separated pairs have distance, lower, upper, points in all frames, normal and features. Intersecting pairs have the proof; for
  * them distance, lower and upper are 0. Same errors as swiftprox_scene_query_intersection.
  *
@@ -1441,7 +1441,7 @@ swiftprox_status swiftprox_scene_query_approximate(struct swiftprox_scene *scene
                                                    struct swiftprox_scene_answer *answer);
 
 /**
- * Like swiftprox_scene_query_distance, with answers as from swiftprox_pair_contact. The tolerance defaults to 0, so only touching
+ * Like swiftprox_scene_query_distance, with answers as from swiftprox_pair_contact. max_distance defaults to 0, so only touching
  * or intersecting pairs are listed.
  *
  * With a query->detail the answers are those of swiftprox_scene_query_distance. swiftprox_scene_get_contacts then returns depths
@@ -1505,7 +1505,7 @@ typedef enum swiftprox_query_kind SWIFTPROX_INT32 {
 } swiftprox_query_kind;
 
 /**
- * Runs a query of that kind over the pairs of one object. query->error_budget is ignored. The tolerance defaults to 0 for
+ * Runs a query of that kind over the pairs of one object. query->error_budget is ignored. max_distance defaults to 0 for
  * contacts, else to infinity. The time depends on the number of near pairs, if nothing else has moved.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: also for an unknown kind. Else same errors as swiftprox_scene_query_intersection.
@@ -1582,9 +1582,9 @@ typedef int32_t (*swiftprox_pair_filter_callback)(struct swiftprox_object_id obj
 
 /**
  * Sets a filter that decides which pairs of objects are tested. It is called once for each pair of pieces that comes near. Queries
- * of many objects without a tolerance call it each time. Null (the default): no filter. Each call of this function makes the scene
- * ask again about near pairs, so set the same filter again after its decisions change. Any thread that queries the scene may call
- * the filter.
+ * of many objects without a max_distance call it each time. Null (the default): no filter. Each call of this function makes the
+ * scene ask again about near pairs, so set the same filter again after its decisions change. Any thread that queries the scene may
+ * call the filter.
  *
  * Stable.
  */
@@ -1695,7 +1695,7 @@ void swiftprox_listener_destroy(struct swiftprox_listener *listener);
  * points have begun, persist or have ended; in the first call all begin. Contacts with query->detail
  * SWIFTPROX_CONTACT_DETAIL_MANIFOLD have points; swiftprox_scene_get_contacts returns their positions.
  *
- * Each listener has its own history, which other queries do not affect. Use one listener per tolerance; it defaults to 0 for
+ * Each listener has its own history, which other queries do not affect. Use one listener per max_distance; it defaults to 0 for
  * contacts, else infinity. Removed objects, deactivated pairs and pairs of another scene have ended. Recordings include the query.
  *
  * On failure answer and events are empty, and the history is unchanged. SWIFTPROX_ERROR_INVALID_ARGUMENT: also for an unknown

@@ -11,7 +11,7 @@
  * Placed, Moving and Question own their poses and motions, and point at shapes: those from temporary shapes do not compile.
  * Ranges that a scene hands out are its own, valid as long as swiftprox.h says for that answer.
  *
- * Configs. Their members begin with the defaults of C. By C++20 others are set by name: scene.query_contact({.distance_tolerance = 0.1}).
+ * Configs. Their members begin with the defaults of C. By C++20 others are set by name: scene.query_contact({.max_distance = 0.1}).
  */
 #ifndef SWIFTPROX_HPP
 #define SWIFTPROX_HPP

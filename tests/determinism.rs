@@ -201,7 +201,7 @@ fn fly(shapes: &[Arc<Shape>]) -> Flight {
         let poses: Vec<Pose> = flyers.iter().map(Flyer::pose).collect();
         scene.set_all_poses(&poses).unwrap();
         let all = SceneQuery::default();
-        let near = SceneQuery { distance_tolerance: 0.3, ..all };
+        let near = SceneQuery { max_distance: 0.3, ..all };
         flight.add_list(scene.query_intersection(&all).unwrap(), true);
         flight.add_list(scene.query_intersection(&SceneQuery { early_exit: true, ..all }).unwrap(), true);
         flight.add_list(scene.query_distance(&near).unwrap(), true);
@@ -217,12 +217,8 @@ fn fly(shapes: &[Arc<Shape>]) -> Flight {
         for (k, cache) in caches.iter_mut().enumerate() {
             let (a, b) = (&shapes[k], &shapes[(k + 1) % shapes.len()]);
             let [pose1, pose2] = [&poses[k], &poses[(k + 1) % poses.len()]];
-            let config = PairConfig {
-                distance_tolerance: 0.5,
-                relative_error: 0.01,
-                levels: Levels::All,
-                ..PairConfig::default()
-            };
+            let config =
+                PairConfig { max_distance: 0.5, relative_error: 0.01, levels: Levels::All, ..PairConfig::default() };
             for query in [pair::intersection, pair::distance, pair::contact, pair::approximate] {
                 let mut answer = PairAnswer::default();
                 query([a.at(pose1), b.at(pose2)], cache, &config, &mut answer).unwrap();

@@ -62,7 +62,7 @@ fn scene_bytes(side: usize, room: f64) -> (usize, usize) {
         let options = ObjectOptions { pose: pose(k, 0.0), ..ObjectOptions::default() };
         ids.push(scene.add_object(vec![shape.clone()], &options).unwrap());
     }
-    let query = SceneQuery { distance_tolerance: 0.25, ..SceneQuery::default() };
+    let query = SceneQuery { max_distance: 0.25, ..SceneQuery::default() };
     let mut listed = 0;
     for step in 0..4 {
         for (k, id) in ids.iter().enumerate() {

@@ -442,7 +442,7 @@ fn scenes() {
         scene.set_pair_active(ids[0], ids[5], false).unwrap(); // the list of pairs is out of date
         let statistics = *scene.statistics();
         for number in 1.. {
-            let config = SceneQuery { distance_tolerance: 0.5, ..SceneQuery::default() };
+            let config = SceneQuery { max_distance: 0.5, ..SceneQuery::default() };
             let (said, came_to_that) =
                 without(number, false, || query(&mut scene, &config).map(|said| said.pairs.len()));
             if !came_to_that {
@@ -476,7 +476,7 @@ fn shared_queries() {
         scene
     };
     let in_turn = |parts: usize, work: &(dyn Fn(usize) + Sync)| (0..parts).for_each(work);
-    let query = SceneQuery { distance_tolerance: 0.15, ..SceneQuery::default() };
+    let query = SceneQuery { max_distance: 0.15, ..SceneQuery::default() };
     let listed = |scene: &mut Scene| {
         let said = scene.query_distance(&query).unwrap();
         let of = |pair: &PairResult| (pair.user_data1, pair.user_data2, pair.answer.distance.to_bits());
@@ -534,7 +534,7 @@ fn many_poses() {
 #[test]
 fn contacts_of_scenes() {
     let (mut scene, _) = row(60);
-    let query = SceneQuery { detail: ContactDetail::Manifold, distance_tolerance: 0.5, ..SceneQuery::default() };
+    let query = SceneQuery { detail: ContactDetail::Manifold, max_distance: 0.5, ..SceneQuery::default() };
     let mut refusals = 0;
     for number in 1.. {
         let (said, came_to_that) = without(number, number % 4 == 0, || {

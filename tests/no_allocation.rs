@@ -92,7 +92,7 @@ fn fly(scene: &mut Scene, ids: &[ObjectId]) -> [usize; 2] {
         scene.reset_statistics();
         let query = SceneQuery {
             early_exit: step % 7 == 0,
-            distance_tolerance: if step % 5 == 0 { 0.2 } else { f64::INFINITY },
+            max_distance: if step % 5 == 0 { 0.2 } else { f64::INFINITY },
             absolute_error: if step % 3 == 0 { 0.05 } else { 0.0 },
             error_budget: if step % 11 == 0 { 1.0 } else { f64::INFINITY },
             levels: if step % 4 < 2 { Levels::All } else { Levels::Automatic },
@@ -159,7 +159,7 @@ fn contacts_with_grounds_allocate_nothing_once_there_is_room() {
     let mut counts = [[0; 2]; 2];
     for counts in &mut counts {
         for reduces in [false, true] {
-            let config = ManifoldConfig { margin: 0.05, reduces, ..ManifoldConfig::default() };
+            let config = ManifoldConfig { max_distance: 0.05, reduces, ..ManifoldConfig::default() };
             for (shape, pose) in &bodies {
                 let ask = || ground_contacts(shape.at(pose), ground.at(&here), &config, &mut found).unwrap();
                 counts[0] += allocations(ask);

@@ -37,8 +37,8 @@ static void write_head(FILE *file, const struct page_data *data, const struct pa
     fputs(",\"scene\":", file);
     const char *const slash = strrchr(title->scene, '/');
     write_string(file, slash ? slash + 1 : title->scene); /* a page that is passed on says nothing of folders */
-    if (isfinite(title->tolerance) && title->tolerance >= 0) {
-        fprintf(file, ",\"tolerance\":%.17g", title->tolerance);
+    if (isfinite(title->max_distance) && title->max_distance >= 0) {
+        fprintf(file, ",\"maxDistance\":%.17g", title->max_distance);
     }
     fprintf(file, ",\"cutOff\":%s,\"origin\":", title->cut_off ? "true" : "false");
     write_point(file, data->origin);

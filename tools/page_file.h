@@ -10,7 +10,7 @@
 /* What the page says of itself. */
 struct page_title {
     const char *scene; /* the path of what was played */
-    double tolerance;  /* SWIFTPROX_DEFAULT_TOLERANCE: the query's own */
+    double max_distance;  /* SWIFTPROX_DEFAULT_MAX_DISTANCE: the query's own */
     bool cut_off;      /* the recording ended with the program that was recorded */
 };
 

@@ -79,7 +79,7 @@ int player_open(struct player *player, const struct player_options *options)
 {
     *player = (struct player){.options = options, .is_recording = player_finds_recording(options->path)};
     player->query = (swiftprox_scene_query)SWIFTPROX_SCENE_QUERY_DEFAULT;
-    player->query.distance_tolerance = options->tolerance;
+    player->query.max_distance = options->max_distance;
     player->query.absolute_error = options->error;
     player->query.error_budget = options->budget;
     player->query.tuning = options->tuning;
@@ -214,7 +214,7 @@ static int play_recording(struct player *player, swiftprox_scene_answer *answer)
     const struct player_options *const options = player->options;
     swiftprox_status status = swiftprox_replay_change(player->replay);
     if (status == SWIFTPROX_OK && !options->query) {
-        status = swiftprox_replay_ask(player->replay, options->tolerance, answer, NULL);
+        status = swiftprox_replay_ask(player->replay, options->max_distance, answer, NULL);
         if (status == SWIFTPROX_ERROR_UNVERIFIED && !options->verify) {
             status = SWIFTPROX_OK;
         }

@@ -18,7 +18,7 @@ typedef swiftprox_status scene_query(swiftprox_scene *, const swiftprox_scene_qu
 struct player_options {
     const char *path;
     scene_query *query; /* null: what the recording asks, of text distances */
-    double tolerance;   /* SWIFTPROX_DEFAULT_TOLERANCE: the query's own */
+    double max_distance;   /* SWIFTPROX_DEFAULT_MAX_DISTANCE: the query's own */
     double error;       /* of each answer or depth */
     double budget;      /* of all answers to a query together */
     swiftprox_input input;

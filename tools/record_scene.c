@@ -45,11 +45,11 @@ int main(int argc, char **argv)
     query.detail = SWIFTPROX_CONTACT_DETAIL_DEPTH;
     demand(swiftprox_scene_query_contact(scene, &query, &answer));
     query.detail = SWIFTPROX_CONTACT_DETAIL_NONE;
-    query.distance_tolerance = 2;
+    query.max_distance = 2;
     demand(swiftprox_scene_query_distance(scene, &query, &answer));
 
     /* A shape that is in no scene, beside the third; what is asked in vain is not played. */
-    query.distance_tolerance = -3;
+    query.max_distance = -3;
     if (swiftprox_scene_query_distance(scene, &query, &answer) == SWIFTPROX_OK) {
         return EXIT_FAILURE;
     }
@@ -61,7 +61,7 @@ int main(int argc, char **argv)
     move(scene, ids[3], -2);
     move(scene, ids[2], 30);
     demand(swiftprox_scene_remove_object(scene, ids[1]));
-    query.distance_tolerance = 1.5;
+    query.max_distance = 1.5;
     demand(swiftprox_scene_query_distance(scene, &query, &answer));
 
     demand(swiftprox_scene_record(scene, NULL));

@@ -192,7 +192,7 @@ static size_t ask_pose(struct sweep_scene *scene, const double *pose, char *text
     for (size_t pair = 0; pair < scene->piece_count * scene->obstacle_count && upper > 0; pair++) {
         const struct sweep_obstacle *const obstacle = &scene->obstacles[pair % scene->obstacle_count];
         swiftprox_pair_answer answer;
-        config.distance_tolerance = upper;
+        config.max_distance = upper;
         if (swiftprox_pair_distance((swiftprox_placed){scene->pieces[pair / scene->obstacle_count], pose},
                                     (swiftprox_placed){obstacle->shape, obstacle->place.start}, &scene->caches[pair], &config,
                                     &answer) != SWIFTPROX_OK) {
@@ -229,7 +229,7 @@ static enum sweep_outcome outcome_of(swiftprox_cast_outcome outcome)
     }
 }
 
-static size_t ask_motion(struct sweep_scene *scene, const double *poses, double margin, char *text, struct sweep_tally *tally)
+static size_t ask_motion(struct sweep_scene *scene, const double *poses, double max_distance, char *text, struct sweep_tally *tally)
 {
     swiftprox_motion motion;
     double end_error;
@@ -238,10 +238,10 @@ static size_t ask_motion(struct sweep_scene *scene, const double *poses, double 
         return 0;
     }
     swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
-    config.margin = margin;
-    swiftprox_cast_answer first = {.outcome = SWIFTPROX_CAST_OUTCOME_FREE, .t_lo = 1, .t_hi = NAN, .clearance = INFINITY};
+    config.max_distance = max_distance;
+    swiftprox_cast_answer first = {.outcome = SWIFTPROX_CAST_OUTCOME_FREE, .time_lower = 1, .time_upper = NAN, .clearance = INFINITY};
     uint32_t object = UINT32_MAX;
-    for (size_t pair = 0; pair < scene->piece_count * scene->obstacle_count && config.t_end >= config.t_begin; pair++) {
+    for (size_t pair = 0; pair < scene->piece_count * scene->obstacle_count && config.time_end >= config.time_begin; pair++) {
         const struct sweep_obstacle *const obstacle = &scene->obstacles[pair % scene->obstacle_count];
         swiftprox_cast_answer answer;
         if (swiftprox_pair_cast(scene->pieces[pair / scene->obstacle_count], &motion, obstacle->shape, &obstacle->place,
@@ -258,10 +258,10 @@ static size_t ask_motion(struct sweep_scene *scene, const double *poses, double 
         /* Of the others only what comes before counts; at the very beginning none does. */
         first = answer;
         object = obstacle->object;
-        if (!(answer.t_lo > config.t_begin)) {
+        if (!(answer.time_lower > config.time_begin)) {
             break;
         }
-        config.t_end = answer.t_lo;
+        config.time_end = answer.time_lower;
     }
     const enum sweep_outcome outcome = outcome_of(first.outcome);
     tally->outcomes[outcome]++;
@@ -269,14 +269,14 @@ static size_t ask_motion(struct sweep_scene *scene, const double *poses, double 
     const char *const word = SWEEP_WORDS[outcome];
     const double clearance = outcome == SWEEP_FREE ? first.clearance : NAN;
     const int length = object == UINT32_MAX
-                           ? snprintf(text, SWEEP_LINE, "%s %.17g %.17g %.17g -\n", word, first.t_lo, first.t_hi, clearance)
-                           : snprintf(text, SWEEP_LINE, "%s %.17g %.17g %.17g %u\n", word, first.t_lo, first.t_hi, clearance,
+                           ? snprintf(text, SWEEP_LINE, "%s %.17g %.17g %.17g -\n", word, first.time_lower, first.time_upper, clearance)
+                           : snprintf(text, SWEEP_LINE, "%s %.17g %.17g %.17g %u\n", word, first.time_lower, first.time_upper, clearance,
                                       (unsigned)object);
     return (size_t)length;
 }
 
-size_t sweep_scene_ask(struct sweep_scene *scene, enum sweep_kind kind, const double *numbers, double margin, char *text,
+size_t sweep_scene_ask(struct sweep_scene *scene, enum sweep_kind kind, const double *numbers, double max_distance, char *text,
                        struct sweep_tally *tally)
 {
-    return kind == SWEEP_POSES ? ask_pose(scene, numbers, text, tally) : ask_motion(scene, numbers, margin, text, tally);
+    return kind == SWEEP_POSES ? ask_pose(scene, numbers, text, tally) : ask_motion(scene, numbers, max_distance, text, tally);
 }

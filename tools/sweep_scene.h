@@ -52,7 +52,7 @@ void sweep_scene_close(struct sweep_scene *scene);
 void sweep_scene_forget(struct sweep_scene *scene);
 
 /* Answers an item: its line into `text`, which has room for SWEEP_LINE; how long that is, or 0 after a message. */
-size_t sweep_scene_ask(struct sweep_scene *scene, enum sweep_kind kind, const double *numbers, double margin, char *text,
+size_t sweep_scene_ask(struct sweep_scene *scene, enum sweep_kind kind, const double *numbers, double max_distance, char *text,
                        struct sweep_tally *tally);
 
 #endif

@@ -45,7 +45,7 @@ static char *answer(const struct sweep *sweep, const double *numbers, size_t cou
     sweep_scene_forget(sweep->scene);
     for (size_t i = 0; i < count; i++) {
         const size_t more =
-            sweep_scene_ask(sweep->scene, sweep->kind, numbers + sweep->kind * i, sweep->margin, lines + length, tally);
+            sweep_scene_ask(sweep->scene, sweep->kind, numbers + sweep->kind * i, sweep->max_distance, lines + length, tally);
         if (more == 0) {
             free(lines);
             return NULL;

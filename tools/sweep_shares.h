@@ -12,7 +12,7 @@ struct sweep {
     struct sweep_scene *scene;
     enum sweep_kind kind;
     size_t share;  /* items of a share; the last one may have fewer */
-    double margin; /* of motions */
+    double max_distance; /* of motions */
 };
 
 /* Hands out and answers all shares that `output` has not. Each takes the same bits wherever it is answered, as it begins with

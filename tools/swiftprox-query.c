@@ -17,7 +17,7 @@
 #include "progress.h"
 
 static const char USAGE[] = "usage: swiftprox-query A B POSES [--query contact|distance|intersection|approximate|depth|cast]\n"
-                            "                       [--tolerance T] [--margin M]\n"
+                            "                       [--max-distance D] [--time-tolerance T]\n"
                             "                       [--error E] [--start auto|cache|table|cold] [--levels auto|none|quadric|dk|outer]\n"
                             "                       [--input POLICY] [--count N] [--bench PASSES]\n";
 
@@ -37,10 +37,9 @@ static const char HELP[] =
     "                        no witness points\n"
     "  --query depth         penetration depth; lower and upper bound the depth\n"
     "  --query cast          whether the objects meet between two poses of each, and when: see below\n"
-    "  --tolerance T         objects farther apart get a lower bound only; upper is then inf (default: infinite; not\n"
-    "                        for depth). For casts: how wide the interval of a first contact may be (default: 1e-9\n"
-    "                        of the motion)\n"
-    "  --margin M            for casts: free means farther apart than that (default: 0)\n"
+    "  --max-distance D      objects farther apart get a lower bound only; upper is then inf (default: infinite; not\n"
+    "                        for depth). For casts: free means farther apart than that (default: 0)\n"
+    "  --time-tolerance T    for casts: how wide the interval of a first contact may be (default: 1e-9 of the motion)\n"
     "  --error E             how wide the interval of an approximate answer or of a depth may be (default: as narrow\n"
     "                        as possible); queries contact, approximate and depth\n"
     "  --levels auto         levels of detail where models are so large that they save time, built by the first query\n"
@@ -80,12 +79,12 @@ static const char HELP[] =
     "\n"
     "For casts a line of POSES is 48 numbers: the poses of A and B at time 0, then at time 1. In between each\n"
     "turns about its local origin by the shortest turn, and that moves on a line. Each answer is a line of 6 fields:\n"
-    "  outcome t_lo t_hi clearance upper queries\n"
-    "  outcome        free: farther apart than the margin at all times; hit: no farther at t_hi; near: they graze, and\n"
-    "                 rounding hides whether they meet; budget: given up\n"
-    "  t_lo, t_hi     farther apart than the margin up to t_lo; the first contact is between the two\n"
+    "  outcome time_lower time_upper clearance upper queries\n"
+    "  outcome        free: farther apart than max-distance at all times; hit: no farther at time_upper; near: they\n"
+    "                 graze, and rounding hides whether they meet; budget: given up\n"
+    "  time_lower, time_upper  farther apart than max-distance up to time_lower; the first contact is between the two\n"
     "  clearance      a free pair is at least that far apart at all times\n"
-    "  upper          bounds the distance at t_hi for a hit, at t_lo for a near miss\n"
+    "  upper          bounds the distance at time_upper for a hit, at time_lower for a near miss\n"
     "  queries        number of queries\n"
     "\n"
     "With --bench the output is one line of two numbers: the best and the median nanoseconds a query over the\n"
@@ -112,8 +111,8 @@ struct arguments {
     swiftprox_hierarchy hierarchy;
     swiftprox_levels levels;
     bool cast;
-    double tolerance;
-    double margin;
+    double max_distance;
+    double time_tolerance;
     double error;
     size_t count;
     size_t passes; /* 0: answers, not times */
@@ -128,8 +127,8 @@ static bool fits_the_query(const struct command_line *line, const char *query)
     } MEANINGS[] = {{"--error", "contact approximate depth"},
                     {"--levels", "contact distance intersection approximate"},
                     {"--start", "contact distance intersection approximate"},
-                    {"--tolerance", "contact distance intersection approximate cast"},
-                    {"--margin", "cast"}};
+                    {"--max-distance", "contact distance intersection approximate cast"},
+                    {"--time-tolerance", "cast"}};
     for (size_t i = 0; i < sizeof MEANINGS / sizeof *MEANINGS; i++) {
         if (command_line_has(line, MEANINGS[i].option) && !strstr(MEANINGS[i].queries, query)) {
             program_refuse(&PROGRAM, "%s has no meaning for --query %s; it has one for %s", MEANINGS[i].option, query,
@@ -154,15 +153,15 @@ static bool read_arguments(int argc, char **argv, struct arguments *arguments, i
                                                       SWIFTPROX_HIERARCHY_QUADRIC, SWIFTPROX_HIERARCHY_DOBKIN_KIRKPATRICK,
                                                       SWIFTPROX_HIERARCHY_OUTER_CUTS};
     int query = 0, input = 0, start = 0, levels = 0;
-    *arguments = (struct arguments){.count = SIZE_MAX, .tolerance = INFINITY};
+    *arguments = (struct arguments){.count = SIZE_MAX, .max_distance = INFINITY, .time_tolerance = 1e-9};
     struct program_option options[] = {
         {.name = "--query", .kind = OPTION_CHOICE, .choices = QUERIES, .value = &query},
         {.name = "--input", .kind = OPTION_CHOICE, .choices = INPUT_WORDS, .value = &input},
         {.name = "--start", .kind = OPTION_CHOICE, .choices = STARTS, .value = &start},
         {.name = "--levels", .kind = OPTION_CHOICE, .choices = LEVELS, .value = &levels},
         {.name = "--error", .kind = OPTION_AMOUNT, .value = &arguments->error},
-        {.name = "--tolerance", .kind = OPTION_AMOUNT, .value = &arguments->tolerance},
-        {.name = "--margin", .kind = OPTION_AMOUNT, .value = &arguments->margin},
+        {.name = "--max-distance", .kind = OPTION_AMOUNT, .value = &arguments->max_distance},
+        {.name = "--time-tolerance", .kind = OPTION_AMOUNT, .value = &arguments->time_tolerance},
         {.name = "--count", .kind = OPTION_COUNT, .value = &arguments->count},
         {.name = "--bench", .kind = OPTION_COUNT, .value = &arguments->passes},
     };
@@ -179,8 +178,8 @@ static bool read_arguments(int argc, char **argv, struct arguments *arguments, i
     *status = BAD_INPUT;
     arguments->query = QUERY_FUNCTIONS[query];
     arguments->cast = strcmp(QUERIES[query], "cast") == 0;
-    if (arguments->cast && !command_line_has(&line, "--tolerance")) {
-        arguments->tolerance = 1e-9;
+    if (arguments->cast && !command_line_has(&line, "--max-distance")) {
+        arguments->max_distance = 0;
     }
     arguments->input = INPUT_VALUES[input];
     arguments->start = START_VALUES[start];
@@ -343,8 +342,8 @@ static void print_cast(const swiftprox_cast_answer *answer)
 {
     static const char *const OUTCOMES[] = {"none ", "free ", "hit ", "near ", "budget "};
     fputs(OUTCOMES[answer->outcome], stdout);
-    print_rounded(answer->t_lo, FE_DOWNWARD);
-    print_rounded(answer->t_hi, FE_UPWARD);
+    print_rounded(answer->time_lower, FE_DOWNWARD);
+    print_rounded(answer->time_upper, FE_UPWARD);
     print_rounded(answer->clearance, FE_DOWNWARD);
     print_rounded(answer->upper, FE_UPWARD);
     printf("%lu\n", (unsigned long)answer->queries);
@@ -515,12 +514,12 @@ static int run(const struct arguments *arguments)
     job.config = (swiftprox_pair_config)SWIFTPROX_PAIR_CONFIG_DEFAULT;
     job.config.tuning = &tuning;
     job.config.absolute_error = arguments->error;
-    job.config.distance_tolerance = arguments->tolerance;
+    job.config.max_distance = arguments->max_distance;
     job.depth_config = (swiftprox_depth_config)SWIFTPROX_DEPTH_CONFIG_DEFAULT;
     job.depth_config.absolute_error = arguments->error;
     job.cast_config = (swiftprox_cast_config)SWIFTPROX_CAST_CONFIG_DEFAULT;
-    job.cast_config.time_tolerance = arguments->tolerance;
-    job.cast_config.margin = arguments->margin;
+    job.cast_config.time_tolerance = arguments->time_tolerance;
+    job.cast_config.max_distance = arguments->max_distance;
 
     int result = BAD_INPUT;
     if (load_shapes(arguments, shapes) && pose_list_read(job.pose_path, job.cast ? 2 : 1, arguments->count, &job.poses)) {

@@ -19,7 +19,7 @@
 #include <swiftprox/scene.h>
 #include <swiftprox/verify.h>
 
-static const char USAGE[] = "usage: swiftprox-replay FILE [--query intersection|distance|contact|approximate] [--tolerance T]\n"
+static const char USAGE[] = "usage: swiftprox-replay FILE [--query intersection|distance|contact|approximate] [--max-distance D]\n"
                             "                        [--error E] [--budget B] [--input POLICY] [--workers K] [--verify]\n"
                             "                        [--bench PASSES | --html OUT]\n";
 
@@ -35,11 +35,11 @@ static const char HELP[] =
     "                          NUMBER and 12 numbers    the object and the row-major 3x4 [R|T]\n"
     "                        blank lines and others that start with # are skipped\n"
     "  --query intersection  list the pairs that intersect\n"
-    "  --query distance      list the pairs within the tolerance (the default of text), with their distances\n"
+    "  --query distance      list the pairs within max-distance (the default of text), with their distances\n"
     "  --query contact       the same with depths and contact manifolds, too\n"
     "  --query approximate   the same as distance, with intervals as wide as --error or --budget let them be\n"
     "                        (default of a recording: the queries that were made)\n"
-    "  --tolerance T         how far apart listed pairs may be (default: 0 for contact, infinite for distance; for a\n"
+    "  --max-distance D      how far apart listed pairs may be (default: 0 for contact, infinite for distance; for a\n"
     "                        recording: as recorded)\n"
     "  --error E             how wide the interval of an approximate distance or of a depth may be (default: as narrow\n"
     "                        as possible); queries approximate and contact\n"
@@ -95,8 +95,8 @@ static bool fits(const struct command_line *line, const struct arguments *argume
 {
     const struct player_options *const player = &arguments->player;
     const char *problem = NULL;
-    if (command_line_has(line, "--tolerance") && player->query == swiftprox_scene_query_intersection) {
-        problem = "--tolerance has no meaning for --query intersection";
+    if (command_line_has(line, "--max-distance") && player->query == swiftprox_scene_query_intersection) {
+        problem = "--max-distance has no meaning for --query intersection";
     } else if (command_line_has(line, "--error") && player->query != swiftprox_scene_query_approximate &&
                player->query != swiftprox_scene_query_contact) {
         problem = "--error has a meaning for --query approximate and --query contact alone";
@@ -126,10 +126,10 @@ static bool read_arguments(int argc, char **argv, struct arguments *arguments, i
                                                    swiftprox_scene_query_approximate};
     int query = -1, input = 0;
     size_t workers = 0;
-    *arguments = (struct arguments){.player = {.tolerance = SWIFTPROX_DEFAULT_TOLERANCE, .budget = INFINITY}};
+    *arguments = (struct arguments){.player = {.max_distance = SWIFTPROX_DEFAULT_MAX_DISTANCE, .budget = INFINITY}};
     struct program_option options[] = {
         {.name = "--query", .kind = OPTION_CHOICE, .choices = QUERIES, .value = &query},
-        {.name = "--tolerance", .kind = OPTION_AMOUNT, .value = &arguments->player.tolerance},
+        {.name = "--max-distance", .kind = OPTION_AMOUNT, .value = &arguments->player.max_distance},
         {.name = "--error", .kind = OPTION_AMOUNT, .value = &arguments->player.error},
         {.name = "--budget", .kind = OPTION_AMOUNT, .value = &arguments->player.budget},
         {.name = "--input", .kind = OPTION_CHOICE, .choices = INPUT_WORDS, .value = &input},
@@ -280,7 +280,7 @@ static int play_answers(struct player *player, struct page_data *page)
 
 static int write_page(const struct player *player, struct page_data *page, const char *path)
 {
-    const struct page_title title = {player->options->path, player->options->tolerance, player->cut_off};
+    const struct page_title title = {player->options->path, player->options->max_distance, player->cut_off};
     struct output_file output;
     page_data_fit(page);
     if (!output_file_open(&output, path)) {

@@ -19,7 +19,7 @@
 /* So that numbers of a share are counted by an int, as MPI does. */
 enum { DEFAULT_SHARE = 256, MOST_SHARE = 1 << 20 };
 
-static const char USAGE[] = "usage: swiftprox-sweep SCENE POSES --out FILE [--share N] [--margin M] [--input POLICY]\n"
+static const char USAGE[] = "usage: swiftprox-sweep SCENE POSES --out FILE [--share N] [--max-distance D] [--input POLICY]\n"
                             "                       [--times FILE]\n";
 
 static const char HELP[] =
@@ -34,7 +34,7 @@ static const char HELP[] =
     "  --out FILE         where results are written: to FILE.part first, which a later run continues; FILE.part.sums\n"
     "                     has its checksums\n"
     "  --share N          how many items a rank is handed at once (default: 256)\n"
-    "  --margin M         for edges: free means farther apart than this (default: 0)\n"
+    "  --max-distance D   for edges: free means farther apart than this (default: 0)\n"
     "  --input strict     refuse a mesh that is not closed and convex with an interior (the default)\n"
     "  --input flat       admit bodies without interior as well, such as a two-sided polygon\n"
     "  --input hull       take the convex hull of all vertices, with or without a face\n"
@@ -51,12 +51,12 @@ static const char HELP[] =
     "  object        the nearest one, or one that intersects, numbered from 0; - where there is none\n"
     "\n"
     "For an edge:\n"
-    "  outcome t_lo t_hi clearance object\n"
-    "  outcome    free, hit, near (rounding hides whether they meet) or budget\n"
-    "  t_lo       farther apart than the margin up to this time\n"
-    "  t_hi       for a hit: no farther apart than the margin\n"
-    "  clearance  for a free edge: at least so far apart at all times\n"
-    "  object     the one that is hit or near\n"
+    "  outcome time_lower time_upper clearance object\n"
+    "  outcome     free, hit, near (rounding hides whether they meet) or budget\n"
+    "  time_lower  farther apart than max-distance up to this time\n"
+    "  time_upper  for a hit: no farther apart than max-distance\n"
+    "  clearance   for a free edge: at least so far apart at all times\n"
+    "  object      the one that is hit or near\n"
     "\n"
     "Results are bit for bit the same for any number of ranks, however often the sweep was killed and begun again.\n"
     "\n"
@@ -68,7 +68,7 @@ struct arguments {
     struct player_options player;
     const char *items_path, *out, *times;
     size_t share;
-    double margin;
+    double max_distance;
 };
 
 static bool read_arguments(int argc, char **argv, struct arguments *arguments, int *status)
@@ -79,7 +79,7 @@ static bool read_arguments(int argc, char **argv, struct arguments *arguments, i
     struct program_option options[] = {
         {.name = "--out", .kind = OPTION_OUTPUT, .value = &arguments->out},
         {.name = "--share", .kind = OPTION_COUNT, .value = &arguments->share, .most = MOST_SHARE},
-        {.name = "--margin", .kind = OPTION_AMOUNT, .value = &arguments->margin},
+        {.name = "--max-distance", .kind = OPTION_AMOUNT, .value = &arguments->max_distance},
         {.name = "--input", .kind = OPTION_CHOICE, .value = &input, .choices = INPUT_WORDS},
         {.name = "--times", .kind = OPTION_OUTPUT, .value = &arguments->times},
     };
@@ -100,7 +100,7 @@ static bool read_arguments(int argc, char **argv, struct arguments *arguments, i
     arguments->items_path = operands[1];
     arguments->player = (struct player_options){.path = operands[0],
                                                 .query = swiftprox_scene_query_intersection,
-                                                .tolerance = SWIFTPROX_DEFAULT_TOLERANCE,
+                                                .max_distance = SWIFTPROX_DEFAULT_MAX_DISTANCE,
                                                 .budget = INFINITY,
                                                 .input = INPUT_VALUES[input],
                                                 .workers = 1};
@@ -111,9 +111,10 @@ static bool read_arguments(int argc, char **argv, struct arguments *arguments, i
 static void write_head(const struct arguments *arguments, const struct sweep_scene *scene, const struct sweep_items *items,
                        char head[2 * SWEEP_LINE])
 {
-    snprintf(head, 2 * SWEEP_LINE, "# swiftprox-sweep 1 %s %zu share %zu margin %.17g scene %016" PRIx64 " items %016" PRIx64 "\n",
-             items->kind == SWEEP_POSES ? "poses" : "motions", items->count, arguments->share, arguments->margin, scene->digest,
-             items->digest);
+    snprintf(head, 2 * SWEEP_LINE,
+             "# swiftprox-sweep 1 %s %zu share %zu max_distance %.17g scene %016" PRIx64 " items %016" PRIx64 "\n",
+             items->kind == SWEEP_POSES ? "poses" : "motions", items->count, arguments->share, arguments->max_distance,
+             scene->digest, items->digest);
 }
 
 /* What rank 0 opens before anything runs. */
@@ -129,8 +130,8 @@ static int open_rank0(const struct arguments *arguments, const struct sweep_scen
     if (!sweep_items_read(arguments->items_path, &rank0->items)) {
         return BAD_INPUT;
     }
-    if (rank0->items.kind == SWEEP_POSES && arguments->margin > 0) {
-        return program_refuse(&PROGRAM, "--margin has no meaning for poses, whose distances are printed");
+    if (rank0->items.kind == SWEEP_POSES && arguments->max_distance > 0) {
+        return program_refuse(&PROGRAM, "--max-distance has no meaning for poses, whose distances are printed");
     }
     rank0->times = arguments->times ? fopen(arguments->times, "w") : NULL;
     if (arguments->times && !rank0->times) {
@@ -197,7 +198,7 @@ static int run(const struct arguments *arguments, struct sweep_scene *scene, int
     MPI_Bcast(told, 2, MPI_INT, 0, MPI_COMM_WORLD);
     status = told[0];
     if (status == GOOD) {
-        const struct sweep sweep = {scene, (enum sweep_kind)told[1], arguments->share, arguments->margin};
+        const struct sweep sweep = {scene, (enum sweep_kind)told[1], arguments->share, arguments->max_distance};
         struct sweep_tally own = {{0}, 0, 0, 0};
         if (rank == 0) {
             status = sweep_lead(&sweep, &rank0.items, &rank0.output, rank0.times, &own) ? GOOD : FAILED;

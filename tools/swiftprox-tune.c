@@ -12,7 +12,7 @@
 #include "tune_settings.h"
 #include <swiftprox/scene.h>
 
-static const char USAGE[] = "usage: swiftprox-tune FILE [--query intersection|distance|contact] [--tolerance T] [--error E]\n"
+static const char USAGE[] = "usage: swiftprox-tune FILE [--query intersection|distance|contact] [--max-distance D] [--error E]\n"
                             "                      [--input POLICY] [--workers K] [--passes N]\n";
 
 static const char HELP[] =
@@ -23,7 +23,7 @@ static const char HELP[] =
     "  --query intersection  time verdicts\n"
     "  --query distance      time distances (the default of text), exact ones and approximate ones\n"
     "  --query contact       time contacts with depths and manifolds (default of a recording: its first query)\n"
-    "  --tolerance T         how far apart listed pairs may be (default: for a recording, the farthest pair that it lists;\n"
+    "  --max-distance D      how far apart listed pairs may be (default: for a recording, the farthest pair that it lists;\n"
     "                        for text infinite, for contacts 0)\n"
     "  --error E             how wide intervals of the recommended setting may be (default: exact\n"
     "                        answers, and the least error that saves a fifth of their time)\n"
@@ -61,10 +61,10 @@ static bool read_arguments(int argc, char **argv, struct arguments *arguments, i
                                                    swiftprox_scene_query_contact};
     int query = -1, input = 0;
     size_t workers = 1;
-    *arguments = (struct arguments){.player = {.tolerance = SWIFTPROX_DEFAULT_TOLERANCE, .budget = INFINITY}, .passes = 5};
+    *arguments = (struct arguments){.player = {.max_distance = SWIFTPROX_DEFAULT_MAX_DISTANCE, .budget = INFINITY}, .passes = 5};
     struct program_option options[] = {
         {.name = "--query", .kind = OPTION_CHOICE, .choices = QUERIES, .value = &query},
-        {.name = "--tolerance", .kind = OPTION_AMOUNT, .value = &arguments->player.tolerance},
+        {.name = "--max-distance", .kind = OPTION_AMOUNT, .value = &arguments->player.max_distance},
         {.name = "--error", .kind = OPTION_AMOUNT, .value = &arguments->player.error},
         {.name = "--input", .kind = OPTION_CHOICE, .choices = INPUT_WORDS, .value = &input},
         {.name = "--workers", .kind = OPTION_COUNT, .most = 1024, .value = &workers},
@@ -85,8 +85,8 @@ static bool read_arguments(int argc, char **argv, struct arguments *arguments, i
     arguments->player.workers = (uint32_t)workers;
     arguments->has_error = command_line_has(&line, "--error");
     const char *problem = NULL;
-    if (query == 0 && (command_line_has(&line, "--tolerance") || arguments->has_error)) {
-        problem = "--tolerance and --error have no meaning for --query intersection";
+    if (query == 0 && (command_line_has(&line, "--max-distance") || arguments->has_error)) {
+        problem = "--max-distance and --error have no meaning for --query intersection";
     } else if (command_line_has(&line, "--input") && player_finds_recording(arguments->player.path)) {
         problem = "--input has no meaning for a recording, which holds its shapes";
     }
@@ -204,9 +204,9 @@ static int explore(const struct arguments *arguments, struct tune_scene *scene)
     if (scene->kind == SWIFTPROX_QUERY_KIND_APPROXIMATE) {
         scene->kind = SWIFTPROX_QUERY_KIND_DISTANCE;
     }
-    const bool is_given = options.tolerance != SWIFTPROX_DEFAULT_TOLERANCE;
+    const bool is_given = options.max_distance != SWIFTPROX_DEFAULT_MAX_DISTANCE;
     const double by_default = scene->kind == SWIFTPROX_QUERY_KIND_CONTACT ? 0 : INFINITY;
-    scene->tolerance = is_given ? options.tolerance : scene->makes_shapes ? by_default : pass.farthest;
+    scene->max_distance = is_given ? options.max_distance : scene->makes_shapes ? by_default : pass.farthest;
     return GOOD;
 }
 
@@ -226,7 +226,7 @@ static int measure(const struct arguments *arguments, const struct tune_scene *s
     const swiftprox_shape_tuning shape_tuning = tune_shape_tuning(setting);
     struct player_options options = arguments->player;
     options.query = query_of(scene, setting);
-    options.tolerance = scene->kind == SWIFTPROX_QUERY_KIND_INTERSECTION ? SWIFTPROX_DEFAULT_TOLERANCE : scene->tolerance;
+    options.max_distance = scene->kind == SWIFTPROX_QUERY_KIND_INTERSECTION ? SWIFTPROX_DEFAULT_MAX_DISTANCE : scene->max_distance;
     options.error = setting->error;
     options.workers = setting->workers;
     options.tuning = &tuning;

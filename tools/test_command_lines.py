@@ -18,15 +18,15 @@ BOX = os.path.join(MODELS, "box.off")
 OPERANDS = {"swiftprox-query": (BOX, BOX, "POSES"), "swiftprox-replay": ("SCENE",), "swiftprox-tune": ("SCENE",),
             "demo": (BOX, BOX), "tower": (MODELS,),
             "scene": (MODELS,), "swiftprox-sweep": ("SCENE", "POSES"), "arm_rrt": (MODELS,)}
-OPTIONS = {"swiftprox-query": ("--query", "--tolerance", "--error", "--start", "--levels", "--input", "--count", "--bench"),
-           "swiftprox-replay": ("--query", "--tolerance", "--error", "--budget", "--input", "--workers", "--bench", "--html"),
-           "swiftprox-tune": ("--query", "--tolerance", "--error", "--input", "--workers", "--passes"),
-           "swiftprox-sweep": ("--out", "--share", "--margin", "--input", "--times"), "certified_edge": ("--svg",),
+OPTIONS = {"swiftprox-query": ("--query", "--max-distance", "--error", "--start", "--levels", "--input", "--count", "--bench"),
+           "swiftprox-replay": ("--query", "--max-distance", "--error", "--budget", "--input", "--workers", "--bench", "--html"),
+           "swiftprox-tune": ("--query", "--max-distance", "--error", "--input", "--workers", "--passes"),
+           "swiftprox-sweep": ("--out", "--share", "--max-distance", "--input", "--times"), "certified_edge": ("--svg",),
            "demo": ("--orbit", "--svg", "--record"),
            "tower": ("--svg", "--record", "--seconds"), "crowd": ("--svg",)}
 CHOICES = {"--query", "--start", "--levels", "--input"}
-NUMBERS = {"--error": ("-1", "x", "nan", ""), "--tolerance": ("-1", "x", "nan", ""), "--budget": ("-1", "x", "nan", ""),
-           "--margin": ("-1", "x", "nan", ""), "--share": ("0", "x", "1048577"), "--orbit": ("-1", "0", "x", "1e6"),
+NUMBERS = {"--error": ("-1", "x", "nan", ""), "--budget": ("-1", "x", "nan", ""),
+           "--max-distance": ("-1", "x", "nan", ""), "--share": ("0", "x", "1048577"), "--orbit": ("-1", "0", "x", "1e6"),
            "--count": ("0", "-1", "x", " 1", "9" * 30), "--bench": ("0", "x", "1.5"), "--workers": ("0", "1025", "many"), "--passes": ("0", "x"),
            "--seconds": ("0", "2", "3601", "x")}
 
@@ -104,14 +104,14 @@ class CommandLines(unittest.TestCase):
         for option, value in (("--start", "cold"), ("--levels", "dk")):
             self.refused("swiftprox-query", option + " has no meaning for --query depth", BOX, BOX, "POSES", "--query", "depth",
                          option, value)
-        self.refused("swiftprox-query", "--tolerance has no meaning for --query depth", BOX, BOX, "POSES", "--query", "depth",
-                     "--tolerance", "1")
+        self.refused("swiftprox-query", "--max-distance has no meaning for --query depth", BOX, BOX, "POSES", "--query", "depth",
+                     "--max-distance", "1")
         for query in ((), ("--query", "distance"), ("--query", "intersection")):
             self.refused("swiftprox-replay", "--error has a meaning for --query approximate", recording, "--error", "1", *query)
         for query in ((), ("--query", "distance"), ("--query", "contact")):
             self.refused("swiftprox-replay", "--budget has a meaning for --query approximate", recording, "--budget", "1", *query)
         self.refused("swiftprox-replay", "--input has no meaning for a recording", recording, "--input", "strict")
-        self.refused("swiftprox-replay", "--tolerance has no meaning for --query intersection", recording, "--tolerance", "1",
+        self.refused("swiftprox-replay", "--max-distance has no meaning for --query intersection", recording, "--max-distance", "1",
                      "--query", "intersection")
         self.refused("swiftprox-replay", "--verify has no meaning beside --bench", recording, "--verify", "--bench", "1")
 

@@ -116,7 +116,7 @@ class Data(Page):
         scene = BOXES
         for _ in range(6):
             scene += "step\n" + at(1, *(draw.uniform(-1.5, 1.5) for _ in range(3))) + at(2, *(draw.uniform(-2, 2) for _ in range(3)))
-        options = ("--query", "contact", "--tolerance", "2")
+        options = ("--query", "contact", "--max-distance", "2")
         _, data = blocks(self.make(self.file(scene), *options))
         counts = [words[2] for words in groups(numbers(data["steps"], "I"), STEP_WORDS)]
         steps = [step for step, count in enumerate(counts) for _ in range(count)]
@@ -272,7 +272,7 @@ class Browser(Page):
         with browser.Browser(1000, 700) as tab:
             self.numbers_are_printed_alike(tab)
             self.every_pair_says_what_the_tool_prints(tab, self.recording())
-            self.every_pair_says_what_the_tool_prints(tab, self.boxes(), "--query", "contact", "--tolerance", "3")
+            self.every_pair_says_what_the_tool_prints(tab, self.boxes(), "--query", "contact", "--max-distance", "3")
             self.bodies_are_where_they_are(tab)
             self.pairs_are_picked_by_clicks(tab)
             self.it_obeys_keys(tab)
@@ -312,7 +312,7 @@ class Browser(Page):
 
     def bodies_are_where_they_are(self, tab):
         """By their projections: a body is drawn there in a colour of its own, and not where it is no more. What touches is marked."""
-        self.open(tab, self.make(self.boxes(), "--query", "contact", "--tolerance", "0"))
+        self.open(tab, self.make(self.boxes(), "--query", "contact", "--max-distance", "0"))
         self.assertTrue(tab.run("page.isSolid"))
         tab.key("g")  # no ground behind them
         paper = {tuple(tab.run("partsOf(readColours().paper).slice(0, 3)"))}
@@ -335,7 +335,7 @@ class Browser(Page):
         self.assertIn(touching, self.around(tab, [round(x) for x in mark]))
 
     def pairs_are_picked_by_clicks(self, tab):
-        self.open(tab, self.make(self.boxes(), "--query", "distance", "--tolerance", "3"))
+        self.open(tab, self.make(self.boxes(), "--query", "distance", "--max-distance", "3"))
         tab.frame()
         for body in (2, 1):
             tab.click(*tab.run(f"page.spotOfBody({body})"))
@@ -370,7 +370,7 @@ class Browser(Page):
         def plays():
             return (tab.run("page.state.isPlaying"), tab.run("document.getElementById('play').textContent"))
 
-        page = self.make(self.boxes(), "--query", "contact", "--tolerance", "3")
+        page = self.make(self.boxes(), "--query", "contact", "--max-distance", "3")
         for selector in ("#play", "#step", "#list tbody tr"):
             self.open(tab, page, moves=True)
             self.assertEqual(plays(), (True, "Pause"))

@@ -57,15 +57,15 @@ class Query(unittest.TestCase):
         """The boxes are 0.4 and 3.4 apart; of those beyond the tolerance a lower bound is told, and that it is beyond."""
         poses = "".join(HERE + " " + pose(x, 0, 0) + "\n" for x in (2, 5))
         for query in ("contact", "distance", "intersection", "approximate"):
-            near, far = self.answers(poses, "--query", query, "--tolerance", "1")
+            near, far = self.answers(poses, "--query", query, "--max-distance", "1")
             self.assertTrue(float(near[11]) <= 0.4 and float(near[12]) <= 1, near)
             self.assertTrue(1 < float(far[11]) <= 3.4 and far[12] == "inf" and far[2] == "nan", far)
-            self.assertEqual(self.answers(poses, "--query", query, "--tolerance", "inf"), self.answers(poses, "--query", query))
+            self.assertEqual(self.answers(poses, "--query", query, "--max-distance", "inf"), self.answers(poses, "--query", query))
 
     def test_casts_tell_when_objects_first_touch(self):
         lines = [" ".join((HERE, pose(4, 0, 0), HERE, pose(x, y, 0))) for x, y in (("0", "0"), ("5", "0"), ("-4", "4"))]
         motions = self.file("motions", "\n".join(lines) + "\n")
-        done = self.run_tool(BOX, BOX, motions, "--query", "cast", "--tolerance", "1e-6")
+        done = self.run_tool(BOX, BOX, motions, "--query", "cast", "--time-tolerance", "1e-6")
         self.assertEqual((done.returncode, done.stderr), (0, ""))
         hit, free, passing = [line.split() for line in done.stdout.splitlines()]
         self.assertEqual((hit[0], free[0], passing[0]), ("hit", "free", "free"))
@@ -75,7 +75,7 @@ class Query(unittest.TestCase):
         self.assertEqual((free[1], free[2], free[4]), ("1", "nan", "nan"))
         self.assertTrue(2 < float(free[3]) <= 2.4, free)
         self.assertGreater(int(hit[5]), 0)
-        done = self.run_tool(BOX, BOX, motions, "--query", "cast", "--margin", "2.5")
+        done = self.run_tool(BOX, BOX, motions, "--query", "cast", "--max-distance", "2.5")
         self.assertEqual([line.split()[0] for line in done.stdout.splitlines()], ["hit", "hit", "hit"])
         done = self.run_tool(BOX, BOX, motions, "--query", "cast", "--bench", "2")
         self.assertRegex(done.stdout, r"^[0-9.e+]+ [0-9.e+]+\n$")

@@ -111,21 +111,21 @@ class Replay(unittest.TestCase):
     def test_the_tolerance(self):
         scene = BOXES + "step\n" + at(1, 2.1) + at(2, 9)
         self.assertEqual(len(self.play(scene)), 3)
-        self.assertEqual([row[1:3] for row in self.play(scene, "--tolerance", "0.6")], [["0", "1"]])
-        self.assertEqual(self.play(scene, "--tolerance", "0.4"), [])
+        self.assertEqual([row[1:3] for row in self.play(scene, "--max-distance", "0.6")], [["0", "1"]])
+        self.assertEqual(self.play(scene, "--max-distance", "0.4"), [])
         self.assertEqual(self.play(scene, "--query", "contact"), [])
-        self.assertEqual(len(self.play(scene, "--query", "contact", "--tolerance", "0.6")), 1)
+        self.assertEqual(len(self.play(scene, "--query", "contact", "--max-distance", "0.6")), 1)
 
     def test_depths(self):
         scene = BOXES + "step\n" + at(1, 1.5) + at(2, 9) + "step\n" + at(1, 1.6, 0, 0.5) + "step\n" + at(1, 1.7)
-        rows = self.play(scene, "--query", "contact", "--tolerance", "0.2", "--verify")
+        rows = self.play(scene, "--query", "contact", "--max-distance", "0.2", "--verify")
         self.assertEqual([row[:4] for row in rows], [
             ["0", "0", "1", "intersecting"], ["1", "0", "1", "intersecting"], ["2", "0", "1", "separated"]])
         self.assertAlmostEqual(float(rows[0][7]), 0.1)
         self.assertLessEqual(float(rows[1][7]), 1e-7)  # the model's coordinates are as the file has them
         self.assertEqual(rows[2][7], "nan")
         self.assertEqual([row[4] for row in rows[:2]], ["0", "0"])
-        distances = self.play(scene, "--query", "distance", "--tolerance", "0.2")
+        distances = self.play(scene, "--query", "distance", "--max-distance", "0.2")
         self.assertTrue(all(row[7] == "nan" for row in distances))
 
     def test_approximate_distances(self):
@@ -192,11 +192,11 @@ class Replay(unittest.TestCase):
         self.assertEqual(self.play_recording("--verify", "--workers", "2"), rows)
 
     def test_a_recording_asked_something_else(self):
-        rows = self.play_recording("--query", "distance", "--tolerance", "inf", "--verify")
+        rows = self.play_recording("--query", "distance", "--max-distance", "inf", "--verify")
         self.assertEqual([row[0] for row in rows], ["0"] * 3 + ["1"] * 3 + ["2"] * 3 + ["3"] * 3)
         self.assertEqual([row[:3] for row in self.play_recording("--query", "intersection")],
                          [[str(step), "0", "1"] for step in range(3)])
-        self.assertEqual(len(self.play_recording("--tolerance", "0")), 3)
+        self.assertEqual(len(self.play_recording("--max-distance", "0")), 3)
 
     def test_a_recording_as_a_bench(self):
         mean, median, worst, pairs, total = map(float, self.play_recording("--bench", "3")[0])
@@ -233,8 +233,8 @@ class Replay(unittest.TestCase):
         scene = HEAD + f"shape box {BOX}\nshape ball {BALL}\n" + "object box\nobject ball\n" * 10
         for _ in range(5):
             scene += "step\n" + "".join(at(i, *(draw.uniform(-3, 3) for _ in range(3))) for i in range(20))
-        rows = self.play(scene, "--tolerance", "0.5", "--verify")
-        mean, median, worst, pairs, total = map(float, self.play(scene, "--tolerance", "0.5", "--bench", "2")[0])
+        rows = self.play(scene, "--max-distance", "0.5", "--verify")
+        mean, median, worst, pairs, total = map(float, self.play(scene, "--max-distance", "0.5", "--bench", "2")[0])
         self.assertEqual(pairs, len(rows))
         self.assertGreater(pairs, 50)
         self.assertTrue(math.isclose(total, sum(float(row[4]) for row in rows), rel_tol=1e-9))

@@ -200,7 +200,7 @@ class Sweep(unittest.TestCase):
             self.assertIn(f"from an earlier run {from_before}\n", done.stdout)
 
     def test_a_part_of_another_sweep_is_kept(self):
-        for content in ("something else\n", "# swiftprox-sweep 1 poses 3 share 256 margin 0 scene 0 items 0\n"):
+        for content in ("something else\n", "# swiftprox-sweep 1 poses 3 share 256 max_distance 0 scene 0 items 0\n"):
             self.file("out.part", content)
             self.refused("it is of another sweep", self.scene, self.poses, "--out", self.path("out"))
             self.assertEqual(self.read("out.part"), content)
@@ -245,7 +245,7 @@ class Sweep(unittest.TestCase):
                              (1, "1 2\0 3\n")):
             self.refused(f"nul:{number}: a zero byte", self.scene, self.file("nul", text), *out)
         self.refused("nul.txt:3: a zero byte", self.file("nul.txt", SCENE.replace("object", "obj\0ect", 1)), self.poses, *out)
-        self.refused("--margin has no meaning for poses", self.scene, self.poses, "--margin", "1", *out)
+        self.refused("--max-distance has no meaning for poses", self.scene, self.poses, "--max-distance", "1", *out)
         self.refused("one has to move", self.file("fixed.txt", SCENE.replace("object box\n", "object box fixed\n")), self.poses, *out)
         skewed = self.file("skewed", "2 0 0 0 0 1 0 0 0 0 1 0\n")
         done = self.run_sweep(2, self.scene, skewed, *out)

@@ -64,7 +64,7 @@ class Tune(unittest.TestCase):
         return c, re.split(r"\n(?:No error|Recommended)", cpp)[0]
 
     def test_every_setting_is_timed_and_the_front_is_what_no_other_beats(self):
-        points = self.points(self.tune(self.file("scene.txt", scene()), "--tolerance", "1", "--workers", "2", "--passes", "2"))
+        points = self.points(self.tune(self.file("scene.txt", scene()), "--max-distance", "1", "--workers", "2", "--passes", "2"))
         settings = [setting for _, _, _, setting in points]
         self.assertEqual(len(set(settings)), len(settings))
         for wanted in ("exact", "exact, start at the tables", "exact, start afresh", "exact, 2 threads", "exact, shapes without tables",
@@ -82,7 +82,7 @@ class Tune(unittest.TestCase):
             self.assertLessEqual(width, 1.001 * float(error[1]) + 1e-12 if error else 1e-12, setting)
 
     def test_the_drawing_has_the_front(self):
-        said = self.tune(self.file("scene.txt", scene()), "--tolerance", "1", "--passes", "1")
+        said = self.tune(self.file("scene.txt", scene()), "--max-distance", "1", "--passes", "1")
         drawing = [line.split("|")[1] for line in said.splitlines() if "|" in line]
         self.assertEqual(len(drawing), 14)
         self.assertIn("*", "".join(drawing))
@@ -96,7 +96,7 @@ class Tune(unittest.TestCase):
         self.assertIn("swiftprox_scene_query_intersection(", self.tune(recording, "--query", "intersection", "--passes", "1"))
 
     def test_the_recommended_error_is_at_most_what_is_allowed(self):
-        said = self.tune(self.file("scene.txt", scene()), "--tolerance", "1", "--error", "1e-5", "--passes", "1")
+        said = self.tune(self.file("scene.txt", scene()), "--max-distance", "1", "--error", "1e-5", "--passes", "1")
         self.assertIn("Recommended for that error", said)
         error = re.search(r"query\.absolute_error = (\S+);", said)
         self.assertTrue(error is None or float(error[1]) <= 1e-5, said)
@@ -105,7 +105,7 @@ class Tune(unittest.TestCase):
         if not COMPILERS:
             self.skipTest("no compiler was named")
         path = self.file("scene.txt", scene())
-        for options in (("--tolerance", "1"), ("--query", "contact", "--error", "0.1"), ("--query", "intersection")):
+        for options in (("--max-distance", "1"), ("--query", "contact", "--error", "0.1"), ("--query", "intersection")):
             c, cpp = self.code(self.tune(path, *options, "--passes", "1"))
             bodies = [("a.c", "#include <swiftprox.h>\nvoid tuned(swiftprox_scene *scene)\n{\n%s(void)answer; (void)status;\n}\n", c, "-std=c99"),
                       ("a.cpp", "#include <swiftprox.hpp>\nvoid tuned(swiftprox::Scene &scene)\n{\n%s(void)answer;\n}\n", cpp, "-std=c++17")]

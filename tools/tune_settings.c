@@ -168,8 +168,8 @@ static void print_tuning_of_pairs(const struct tune_setting *setting)
 
 static void print_query(const struct tune_scene *scene, const struct tune_setting *setting)
 {
-    if (scene->kind != SWIFTPROX_QUERY_KIND_INTERSECTION && isfinite(scene->tolerance)) {
-        printf("query.distance_tolerance = %.17g;\n", scene->tolerance);
+    if (scene->kind != SWIFTPROX_QUERY_KIND_INTERSECTION && isfinite(scene->max_distance)) {
+        printf("query.max_distance = %.17g;\n", scene->max_distance);
     }
     if (setting->error > 0) {
         printf("query.absolute_error = %.17g;\n", setting->error);

@@ -12,7 +12,7 @@
 /* What is known of a scene before anything is tried. */
 struct tune_scene {
     swiftprox_query_kind kind;
-    double tolerance;  /* of the queries */
+    double max_distance;  /* of the queries */
     double size;       /* the largest radius of a body that was listed; 0 where none was */
     bool has_levels;   /* some body that was listed has levels of detail */
     bool makes_shapes; /* the shapes are made here, so that how is a setting, too */

@@ -105,7 +105,7 @@ void measured(enum work work, const swiftprox_shape *shape)
         failed += ask(scene, &query, &listed) != SWIFTPROX_OK;
     }
     CHECK(failed == 0);
-    if (work != BY_PAIR && query.distance_tolerance < 0) {
+    if (work != BY_PAIR && query.max_distance < 0) {
         CHECK(listed.count == (work == BY_SCENE ? 1 : BOXES * (BOXES - 1) / 2));
     } else if (work != BY_PAIR) {
         CHECK(listed.count > 0);
@@ -139,7 +139,7 @@ static void count_near_boxes(const swiftprox_shape *box)
     for (way = 0; way < 3; ++way) {
         make_scene(box, BOXES);
         query = (swiftprox_scene_query)SWIFTPROX_SCENE_QUERY_DEFAULT;
-        query.distance_tolerance = 2.5;
+        query.max_distance = 2.5;
         if (way > 0) {
             ask = swiftprox_scene_query_approximate;
         }
@@ -162,7 +162,7 @@ int main(void)
     count("pair", BY_PAIR, ellipsoid);
     make_scene(ellipsoid, 2);
     count("scene", BY_SCENE, ellipsoid);
-    query.distance_tolerance = 2.5;
+    query.max_distance = 2.5;
     count("scene, tolerance", BY_SCENE, ellipsoid);
     CHECK_OK(swiftprox_scene_destroy(scene));
     query = (swiftprox_scene_query)SWIFTPROX_SCENE_QUERY_DEFAULT;

@@ -232,11 +232,11 @@ static void motions()
     swiftprox::PairCache cache;
     const auto hit = swiftprox::try_cast({box, still}, {box, flight.value.motion}, cache);
     CHECK(hit && hit.value.outcome == SWIFTPROX_CAST_OUTCOME_HIT);
-    CHECK(hit.value.t_lo <= 2.0 / 3 && 2.0 / 3 <= hit.value.t_hi && hit.value.t_hi - hit.value.t_lo <= 1e-8);
+    CHECK(hit.value.time_lower <= 2.0 / 3 && 2.0 / 3 <= hit.value.time_upper && hit.value.time_upper - hit.value.time_lower <= 1e-8);
     CHECK_OK(swiftprox::try_cast_verify({box, still}, {box, flight.value.motion}, hit.value).status);
     swiftprox_cast_answer forged = hit.value;
-    forged.t_lo = 0.7;
-    forged.t_hi = 0.7;
+    forged.time_lower = 0.7;
+    forged.time_upper = 0.7;
     CHECK(swiftprox::try_cast_verify({box, still}, {box, flight.value.motion}, forged).status == SWIFTPROX_ERROR_UNVERIFIED);
     const auto past = swiftprox::try_motion_between(Pose::at(3, 2, 0), Pose::at(0, 2, 0), {0, 0, 0}, 1);
     const auto clearance = swiftprox::try_clearance({box, still}, {box, past.value.motion}, cache);
@@ -314,7 +314,7 @@ static void sets()
     const auto cast = scene.try_cast(set, motions, scratch.value);
     CHECK(cast && cast.value.outcome == SWIFTPROX_CAST_OUTCOME_HIT && cast.value.pair.object2 == there.value);
     const auto edges = scene.try_cast_batch(set, motions, 1, scratch.value);
-    CHECK(edges && edges.value.size() == 1 && edges.value[0].t_hi == cast.value.t_hi);
+    CHECK(edges && edges.value.size() == 1 && edges.value[0].time_upper == cast.value.time_upper);
     const std::array<double, 4> heights{-0.25, -0.25, -0.25, -0.25};
     const auto level = swiftprox::Ground::try_from_heights(swiftprox::Range<const double>(heights), 2, 9, 9);
     const Pose under = Pose::at(-2, -2, 0);
@@ -522,7 +522,7 @@ static void scenes(const std::string &folder)
         CHECK_OK(opened.value.try_change().status);
         if (step.value.has_query) {
             bool identical = false;
-            CHECK_OK(opened.value.try_ask(SWIFTPROX_DEFAULT_TOLERANCE, &identical).status);
+            CHECK_OK(opened.value.try_ask(SWIFTPROX_DEFAULT_MAX_DISTANCE, &identical).status);
             CHECK(identical);
             ++steps;
         }
@@ -544,7 +544,7 @@ static void exceptions()
     scene.set_pose(id, Pose::at(1, 2, 3));
     CHECK(scene.piece_pose(id).rows() == Pose::at(1, 2, 3).rows());
 #if __cplusplus >= 202002L
-    CHECK(scene.query_contact({.distance_tolerance = 0.1}).count == 0);
+    CHECK(scene.query_contact({.max_distance = 0.1}).count == 0);
 #endif
     swiftprox::SetScratch scratch = swiftprox::SetScratch::create();
     swiftprox::Listener listener = swiftprox::Listener::create();

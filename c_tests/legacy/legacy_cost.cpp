@@ -112,7 +112,7 @@ double by_c(const Task& task, int steps)
         }
     }
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
-    query.distance_tolerance = task.tolerance;
+    query.max_distance = task.tolerance;
     double sum = 0;
     for (int step = 0; step < steps; ++step) {
         SWIFT_Real R[9], T[3];

@@ -47,8 +47,8 @@ static void distances(const swiftprox_shape *const shapes[2])
                 swiftprox_pair_distances(still, (swiftprox_poses){shapes[1], NULL, 2}, &other, NULL, answers));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "cache", swiftprox_pair_distances(still, second, NULL, NULL, answers));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answers", swiftprox_pair_distances(still, second, &other, NULL, NULL));
-    config.distance_tolerance = -1;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "distance_tolerance",
+    config.max_distance = -1;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "max_distance",
                 swiftprox_pair_distances(still, short_path, &other, &config, answers));
     poses[1][1][3] = HUGE_VAL;
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "pose 1", swiftprox_pair_distances(still, short_path, &other, NULL, answers));

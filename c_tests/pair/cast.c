@@ -44,27 +44,27 @@ static void known_casts(const swiftprox_shape *cube)
     CHECK_OK(swiftprox_motion_between(start, end, NULL, 1, &falling, &error));
     CHECK(falling.kind == SWIFTPROX_MOTION_KIND_SCREW && falling.velocity[2] == -4 && error >= 0 && error < 1e-13);
     CHECK_OK(swiftprox_pair_cast(cube, &falling, cube, &still, &cache, NULL, &answer));
-    CHECK(answer.outcome == SWIFTPROX_CAST_OUTCOME_HIT && answer.t_lo < 0.5 && 0.5 <= answer.t_hi);
-    CHECK(answer.t_hi - answer.t_lo <= 1e-9 && answer.upper == 0 && isnan(answer.clearance));
+    CHECK(answer.outcome == SWIFTPROX_CAST_OUTCOME_HIT && answer.time_lower < 0.5 && 0.5 <= answer.time_upper);
+    CHECK(answer.time_upper - answer.time_lower <= 1e-9 && answer.upper == 0 && isnan(answer.clearance));
     CHECK(fabs(answer.contact.normal[2] - 1) < 1e-12 && answer.queries > 0);
     CHECK_OK(swiftprox_cast_verify(cube, &falling, cube, &still, NULL, &answer));
-    answer.t_lo = answer.t_hi;
+    answer.time_lower = answer.time_upper;
     CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "time", swiftprox_cast_verify(cube, &falling, cube, &still, NULL, &answer));
     CHECK(strcmp(swiftprox_library_cast_outcome_string(answer.outcome), "hit") == 0);
 
-    /* Free before it comes there; and a margin. */
-    CHECK(config.t_begin == 0 && config.t_end == 1 && config.time_tolerance == 1e-9 && config.margin == 0);
-    config.t_end = 0.25;
-    config.margin = 0.75;
+    /* Free before it comes there; and max_distance. */
+    CHECK(config.time_begin == 0 && config.time_end == 1 && config.time_tolerance == 1e-9 && config.max_distance == 0);
+    config.time_end = 0.25;
+    config.max_distance = 0.75;
     CHECK_OK(swiftprox_pair_cast(cube, &falling, cube, &still, &cache, &config, &answer));
-    CHECK(answer.outcome == SWIFTPROX_CAST_OUTCOME_FREE && answer.t_lo == 0.25 && isnan(answer.t_hi));
+    CHECK(answer.outcome == SWIFTPROX_CAST_OUTCOME_FREE && answer.time_lower == 0.25 && isnan(answer.time_upper));
     CHECK(answer.clearance > 0.99 && answer.clearance <= 1);
     CHECK_OK(swiftprox_cast_verify(cube, &falling, cube, &still, &config, &answer));
     answer.clearance = 1.5;
     CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "apart", swiftprox_cast_verify(cube, &falling, cube, &still, &config, &answer));
-    config.margin = 1.5;
+    config.max_distance = 1.5;
     CHECK_OK(swiftprox_pair_cast(cube, &falling, cube, &still, &cache, &config, &answer));
-    CHECK(answer.outcome == SWIFTPROX_CAST_OUTCOME_HIT && answer.t_lo < 0.125 && answer.t_hi >= 0.125);
+    CHECK(answer.outcome == SWIFTPROX_CAST_OUTCOME_HIT && answer.time_lower < 0.125 && answer.time_upper >= 0.125);
     CHECK(answer.upper <= 1.5);
 }
 
@@ -104,13 +104,13 @@ static void callbacks(const swiftprox_shape *cube)
     falling.user = &fall;
     falling.rounding = 1e-14;
     CHECK_OK(swiftprox_pair_cast(cube, &falling, cube, &still, &cache, NULL, &answer));
-    CHECK(answer.outcome == SWIFTPROX_CAST_OUTCOME_HIT && answer.t_lo < 0.5 + 1e-13 && answer.t_hi > 0.5 - 1e-13);
+    CHECK(answer.outcome == SWIFTPROX_CAST_OUTCOME_HIT && answer.time_lower < 0.5 + 1e-13 && answer.time_upper > 0.5 - 1e-13);
     CHECK(fall.calls > 0);
     CHECK_OK(swiftprox_cast_verify(cube, &falling, cube, &still, NULL, &answer));
     /* Who writes no pose is found out. */
     fall.is_careless = 1;
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "time", swiftprox_pair_cast(cube, &falling, cube, &still, &cache, NULL, &answer));
-    CHECK(answer.outcome == SWIFTPROX_CAST_OUTCOME_NONE && isnan(answer.t_lo));
+    CHECK(answer.outcome == SWIFTPROX_CAST_OUTCOME_NONE && isnan(answer.time_lower));
     falling.pose = NULL;
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "motion1->pose",
                 swiftprox_pair_cast(cube, &falling, cube, &still, &cache, NULL, &answer));
@@ -138,8 +138,8 @@ static void mistakes(const swiftprox_shape *cube)
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "motion", swiftprox_motion_between(pose, pose, NULL, 1, NULL, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "rotation", swiftprox_motion_between(pose, nowhere, NULL, 1, &other, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "reach", swiftprox_motion_between(pose, pose, NULL, -1, &other, NULL));
-    config.margin = NAN;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin",
+    config.max_distance = NAN;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "max_distance",
                 swiftprox_pair_cast(cube, &other, cube, &still, &cache, &config, &answer));
     config.struct_size = 3;
     CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_cast_config",

@@ -53,7 +53,7 @@ static void manifolds(const swiftprox_shape *a, const swiftprox_shape *b)
     swiftprox_manifold_point points[8];
     swiftprox_manifold manifold;
     swiftprox_signed_distance distance;
-    config.margin = 0.01;
+    config.max_distance = 0.01;
     place(there, 0, 0, 0);
     place(here, 0.125, 0.25, 0.995);
     CHECK_OK(swiftprox_pair_manifold((swiftprox_placed){a, here}, (swiftprox_placed){b, there}, &cache, &config,
@@ -133,8 +133,8 @@ static void mistakes(const swiftprox_shape *a)
     memcpy(&answer.ending, &unknown, sizeof unknown);
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "ending",
                 swiftprox_pair_depth_verify((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, &cache, &answer));
-    manifold_config.margin = -1;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin",
+    manifold_config.max_distance = -1;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "max_distance",
                 swiftprox_pair_manifold((swiftprox_placed){a, here}, (swiftprox_placed){a, here}, &manifold_cache,
                                         &manifold_config, (swiftprox_manifold_room){NULL, 0, NULL}, &manifold));
     CHECK(manifold.outcome == SWIFTPROX_OUTCOME_NONE && isnan(manifold.lower));
@@ -252,7 +252,7 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
 
     /* The manifold of the near pair, too. */
     query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
-    query.distance_tolerance = 0.01;
+    query.max_distance = 0.01;
     CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
     CHECK(answer.count == 2 && contacts.count == 2 && contacts.point_count == 8);
@@ -299,11 +299,11 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "contacts", swiftprox_scene_get_contacts(scene, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_get_contacts(NULL, &none));
     CHECK(none.count == 0 && none.contacts == NULL);
-    query.distance_tolerance = -2;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "distance_tolerance", swiftprox_scene_query_contact(scene, &query, &answer));
+    query.max_distance = -2;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "max_distance", swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
     CHECK(contacts.count == 0 && contacts.contacts == NULL);
-    query.distance_tolerance = 0;
+    query.max_distance = 0;
     memcpy(&query.detail, &unknown, sizeof unknown);
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "detail", swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_OK(swiftprox_scene_destroy(scene));

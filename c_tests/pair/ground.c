@@ -117,7 +117,7 @@ static void what_a_program_may_do_wrong(void)
           SWIFTPROX_ERROR_NULL_POINTER);
     CHECK(swiftprox_pair_ground_contacts(body, identity, NULL, identity, NULL, NULL, 0, NULL, 0, &count) ==
           SWIFTPROX_ERROR_NULL_POINTER);
-    config.margin = -1;
+    config.max_distance = -1;
     CHECK(swiftprox_pair_ground_contacts(body, identity, ground, identity, &config, NULL, 0, NULL, 0, &count) ==
           SWIFTPROX_ERROR_INVALID_ARGUMENT);
     swiftprox_ground_release(ground);
@@ -217,8 +217,8 @@ static void objects_of_a_scene(void)
     set.ids = &stale;
     CHECK_FAILS(SWIFTPROX_ERROR_HANDLE, "null",
                 swiftprox_scene_half_space_contacts(scene, &set, &floor, NULL, NULL, scratch, &answer));
-    config.margin = NAN;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin",
+    config.max_distance = NAN;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "max_distance",
                 swiftprox_scene_ground_contacts(scene, NULL, ground, identity, &config, NULL, scratch, &answer));
     swiftprox_scratch_destroy(scratch);
     CHECK_OK(swiftprox_scene_destroy(scene));

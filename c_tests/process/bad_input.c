@@ -322,9 +322,9 @@ static void pairs(void)
                 swiftprox_pair_intersection((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, &cache, &config,
                                             &answer));
     config = (swiftprox_pair_config)SWIFTPROX_PAIR_CONFIG_DEFAULT;
-    config.distance_tolerance = -1;
+    config.max_distance = -1;
     CHECK_FAILS(
-        SWIFTPROX_ERROR_INVALID_ARGUMENT, "distance_tolerance",
+        SWIFTPROX_ERROR_INVALID_ARGUMENT, "max_distance",
         swiftprox_pair_distance((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, &cache, &config, &answer));
     config = (swiftprox_pair_config)SWIFTPROX_PAIR_CONFIG_DEFAULT;
     any_number(&tuning.levels, 17);
@@ -443,10 +443,10 @@ static void half_spaces(void)
                                                        (swiftprox_manifold_room){&point, 1, NULL}, &manifold));
         CHECK(manifold.outcome == SWIFTPROX_OUTCOME_NONE && manifold.point_count == 0);
     }
-    config.margin = NAN;
+    config.max_distance = NAN;
     memset(&point, 0x5a, sizeof point);
     memset(&untouched, 0x5a, sizeof untouched);
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin",
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "max_distance",
                 swiftprox_pair_half_space_manifold((swiftprox_placed){shape, HERE}, &ground, &config,
                                                    (swiftprox_manifold_room){&point, 1, NULL}, &manifold));
     memset(&config, 0, sizeof config);
@@ -538,8 +538,8 @@ static void grounds(void)
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "reflection",
                 DISTANCE(SWIFTPROX_QUERY_KIND_INTERSECTION, shape, HERE, ground, with(0, -1), NULL, &answer));
     distance = (swiftprox_pair_config)SWIFTPROX_PAIR_CONFIG_DEFAULT;
-    distance.distance_tolerance = -1;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "distance_tolerance",
+    distance.max_distance = -1;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "max_distance",
                 DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, HERE, ground, HERE, &distance, &answer));
     memset(&distance, 0, sizeof distance);
     CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_PAIR_CONFIG_DEFAULT",
@@ -558,8 +558,8 @@ static void grounds(void)
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "entry 3",
                 swiftprox_pair_ground_contacts(shape, with(3, NAN), ground, HERE, NULL, NULL, 0, NULL, 0, &count));
     config = (swiftprox_manifold_config)SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
-    config.margin = -1;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "margin", CONTACTS(&config, &contact, 1, &point, 1));
+    config.max_distance = -1;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "max_distance", CONTACTS(&config, &contact, 1, &point, 1));
     memset(&config, 0, sizeof config);
     CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_MANIFOLD_CONFIG_DEFAULT", CONTACTS(&config, &contact, 1, &point, 1));
 
@@ -690,11 +690,11 @@ static void scenes(void)
     still_usable(scene, __LINE__);
 
     /* Asking. */
-    query.distance_tolerance = -2;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tolerance", swiftprox_scene_query_distance(scene, &query, &answer));
+    query.max_distance = -2;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "max_distance", swiftprox_scene_query_distance(scene, &query, &answer));
     CHECK(answer.count == 0 && answer.pairs == NULL);
-    query.distance_tolerance = NAN;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tolerance", swiftprox_scene_query_distance(scene, &query, &answer));
+    query.max_distance = NAN;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "max_distance", swiftprox_scene_query_distance(scene, &query, &answer));
     query = (swiftprox_scene_query)SWIFTPROX_SCENE_QUERY_DEFAULT;
     query.step_budget = 0;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "step_budget", swiftprox_scene_query_intersection(scene, &query, &answer));

@@ -294,7 +294,7 @@ static void ask_contact(const swiftprox_shape *shape1, const double *pose1, cons
     tell(&depth, sizeof depth);
     CALL(swiftprox_pair_depth_verify((swiftprox_placed){shape1, pose1}, (swiftprox_placed){shape2, pose2}, &caches->depth,
                                      &depth));
-    config.margin = 0.25;
+    config.max_distance = 0.25;
     CALL_OK(swiftprox_pair_manifold((swiftprox_placed){shape1, pose1}, (swiftprox_placed){shape2, pose2}, &caches->manifold,
                                     &config, (swiftprox_manifold_room){points, MOST_POINTS, NULL}, &manifold));
     tell(&manifold, sizeof manifold);
@@ -473,7 +473,7 @@ static void ask_a_scene(void)
     swiftprox_scene *scene = NULL;
     swiftprox_object_id ids[5];
     CALL_OK(swiftprox_scene_create(NULL, &scene));
-    query.distance_tolerance = 2;
+    query.max_distance = 2;
     query.relative_error = 0.05;
     for (int i = 0; i < 4; ++i) {
         const swiftprox_shape *const piece = shapes[i % 2];
@@ -511,7 +511,7 @@ static void tell_signed_distance(const swiftprox_signed_distance *answer)
 }
 
 /* Where a body meets a ground, and how far it is from it. */
-static void ask_ground(const swiftprox_shape *shape, const double *pose, const swiftprox_ground *ground, double margin)
+static void ask_ground(const swiftprox_shape *shape, const double *pose, const swiftprox_ground *ground, double max_distance)
 {
     enum { MOST_CONTACTS = 16 };
     static const swiftprox_query_kind kinds[] = {SWIFTPROX_QUERY_KIND_DISTANCE, SWIFTPROX_QUERY_KIND_INTERSECTION};
@@ -525,7 +525,7 @@ static void ask_ground(const swiftprox_shape *shape, const double *pose, const s
         tell_answer(&answer.answer);
         tell(&answer.triangle, sizeof answer.triangle);
     }
-    config.margin = margin;
+    config.max_distance = max_distance;
     config.reduces = 1;
     CALL_OK(swiftprox_pair_ground_contacts(shape, pose, ground, poses[0], &config, contacts, MOST_CONTACTS, points, MOST_POINTS,
                                            &count));

@@ -118,7 +118,7 @@ static void ask_about_a_set(worker *worker)
     REQUIRE(swiftprox_scene_cast(scene, &set, &motion, 1, NULL, scratch, &cast) == SWIFTPROX_OK);
     REQUIRE(swiftprox_scene_cast_ray(scene, &ray, SWIFTPROX_RAY_HITS_ALL, UINT32_MAX, scratch, &met) == SWIFTPROX_OK);
     REQUIRE(met.count == SHAPES && hit.time == 2 && cast.outcome == SWIFTPROX_CAST_OUTCOME_HIT);
-    const double said[SAID] = {least.lower, least.upper, (double)hit.time, cast.t_lo, cast.t_hi, (double)met.count,
+    const double said[SAID] = {least.lower, least.upper, (double)hit.time, cast.time_lower, cast.time_upper, (double)met.count,
                                met.hits[0].answer.entry[0], met.hits[2].answer.exit[1]};
     memcpy(worker->said, said, sizeof said);
     swiftprox_scratch_destroy(scratch);

@@ -95,7 +95,7 @@ static void move(swiftprox_scene *scene, int step)
 static swiftprox_scene_answer ask(swiftprox_scene *scene)
 {
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
-    query.distance_tolerance = 0.15;
+    query.max_distance = 0.15;
     swiftprox_scene_answer answer;
     CHECK(swiftprox_scene_query_distance(scene, &query, &answer) == SWIFTPROX_OK);
     return answer;

@@ -60,7 +60,7 @@ static size_t session(swiftprox_scene *scene, double *sums)
         swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
         swiftprox_scene_answer answer;
         swiftprox_scene_events events;
-        query.distance_tolerance = 0.5;
+        query.max_distance = 0.5;
         set_pose(pose);
         CHECK_OK(swiftprox_scene_set_pose(scene, ids[step % CUBES], pose));
         CHECK_OK(swiftprox_scene_set_piece_pose(scene, ids[(step + 1) % CUBES], 0, pose));
@@ -123,12 +123,12 @@ static size_t play(int exact, const double *sums, swiftprox_status *ending, int 
         before = step.fraction;
         CHECK_OK(swiftprox_replay_change(replay));
         if (!step.has_query) {
-            CHECK(swiftprox_replay_ask(replay, SWIFTPROX_DEFAULT_TOLERANCE, &answer, &identical) ==
+            CHECK(swiftprox_replay_ask(replay, SWIFTPROX_DEFAULT_MAX_DISTANCE, &answer, &identical) ==
                       SWIFTPROX_ERROR_INVALID_ARGUMENT &&
                   identical == 0);
             continue;
         }
-        CHECK_OK(swiftprox_replay_ask(replay, SWIFTPROX_DEFAULT_TOLERANCE, &answer, &identical));
+        CHECK_OK(swiftprox_replay_ask(replay, SWIFTPROX_DEFAULT_MAX_DISTANCE, &answer, &identical));
         CHECK(!exact || identical == 1);
         double sum = 0;
         for (size_t i = 0; i < answer.count; ++i) {

@@ -135,7 +135,7 @@ static void contacts_touch(const swiftprox_shape *shape)
     }
     CHECK_OK(swiftprox_scene_query_distance(scene, &query, &answer));
     CHECK(answer.count == 3);
-    query.distance_tolerance = 1;
+    query.max_distance = 1;
     CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK(answer.count == 3);
     CHECK_OK(swiftprox_scene_destroy(scene));

@@ -59,7 +59,7 @@ static void queries(void)
     CHECK(is(answer.pairs[0].object1, a) && is(answer.pairs[0].object2, b));
     CHECK(answer.pairs[0].user_data1 == 0 && answer.pairs[0].user_data2 == 5);
 
-    query.distance_tolerance = 1.75;
+    query.max_distance = 1.75;
     CHECK_OK(swiftprox_scene_query_distance(scene, &query, &answer));
     CHECK(answer.count == 2 && is(answer.pairs[1].object1, b) && is(answer.pairs[1].object2, c));
     CHECK(answer.pairs[0].answer.proof_count > 0 && isnan(answer.pairs[0].answer.world1[0]));
@@ -366,7 +366,7 @@ static void near_objects(void)
     double pose[12];
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     const swiftprox_object_id a = add_cube(scene, 0), b = add_cube(scene, 0.5), c = add_cube(scene, 3);
-    query.distance_tolerance = 1.75;
+    query.max_distance = 1.75;
     CHECK_OK(swiftprox_scene_query_object(scene, c, SWIFTPROX_QUERY_KIND_DISTANCE, &query, &answer));
     CHECK(answer.count == 1 && is(answer.pairs[0].object1, b) && is(answer.pairs[0].object2, c));
     CHECK(fabs(answer.pairs[0].answer.distance - 1.5) < 1e-13 && !answer.intersecting);

@@ -80,10 +80,10 @@ static void answers_that_are_known(swiftprox_scratch *scratch)
     set.count = 1;
     CHECK_OK(swiftprox_scene_cast(scene, &set, motions, 1, NULL, scratch, &cast));
     CHECK(cast.outcome == SWIFTPROX_CAST_OUTCOME_HIT && cast.pair.object2.bits == posts[0].bits);
-    CHECK(cast.t_lo <= 0.9 && 0.9 <= cast.t_hi && cast.t_hi - cast.t_lo < 2e-9);
+    CHECK(cast.time_lower <= 0.9 && 0.9 <= cast.time_upper && cast.time_upper - cast.time_lower < 2e-9);
     CHECK_OK(swiftprox_scene_cast_batch(scene, &set, motions, 3, NULL, scratch, edges, 3));
     CHECK(edges[0].outcome == SWIFTPROX_CAST_OUTCOME_HIT && edges[2].outcome == SWIFTPROX_CAST_OUTCOME_HIT);
-    CHECK(edges[1].outcome == SWIFTPROX_CAST_OUTCOME_FREE && edges[1].t_lo == 1 && isnan(edges[1].t_hi));
+    CHECK(edges[1].outcome == SWIFTPROX_CAST_OUTCOME_FREE && edges[1].time_lower == 1 && isnan(edges[1].time_upper));
 }
 
 static void mistakes(swiftprox_scratch *scratch)
@@ -104,7 +104,7 @@ static void mistakes(swiftprox_scratch *scratch)
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "set", swiftprox_scene_least_distance(scene, NULL, NULL, 1, scratch, &least));
     CHECK(isnan(least.lower) && isnan(least.upper));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_scene_least_distance(scene, &set, NULL, 1, scratch, NULL));
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "cut_off", swiftprox_scene_least_distance(scene, &set, NULL, -1, scratch, &least));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "max_distance", swiftprox_scene_least_distance(scene, &set, NULL, -1, scratch, &least));
     none.count = 1;
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "set->ids", swiftprox_scene_least_distance(scene, &none, NULL, 1, scratch, &least));
     none.ids = &null_id;
@@ -122,7 +122,7 @@ static void mistakes(swiftprox_scratch *scratch)
     memset(&motion, 0, sizeof motion);
     motion.kind = (swiftprox_motion_kind)9;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "motions[0]", swiftprox_scene_cast(scene, &set, &motion, 1, NULL, scratch, &cast));
-    CHECK(cast.outcome == SWIFTPROX_CAST_OUTCOME_NONE && isnan(cast.t_lo));
+    CHECK(cast.outcome == SWIFTPROX_CAST_OUTCOME_NONE && isnan(cast.time_lower));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "motions", swiftprox_scene_cast(scene, &set, NULL, 1, NULL, scratch, &cast));
     motion.kind = SWIFTPROX_MOTION_KIND_FIXED;
     memcpy(motion.start, pose, sizeof pose);

@@ -55,7 +55,7 @@ static void add_pairs_of_links(struct cell *cell, size_t apart)
 
 void arm_build_cell(struct arm *arm, struct cell *cell)
 {
-    *cell = (struct cell){.margin = 0.005};
+    *cell = (struct cell){.max_distance = 0.005};
     *arm = (struct arm){
         .joint_count = 6,
         .joints = {{{0, 0, 0.25}, ABOUT_Z}, {{0, 0, 0.15}, ABOUT_MINUS_Y}, {{0, 0.55, 0}, ABOUT_Z},
@@ -81,7 +81,7 @@ void arm_build_cell(struct arm *arm, struct cell *cell)
 void arm_build_franka(struct arm *arm, struct cell *cell, const char *folder)
 {
     /* Denavit and Hartenberg's parameters as Craig has them, of Franka's manual: turn about x, then along x and z. */
-    *cell = (struct cell){.margin = 0.001};
+    *cell = (struct cell){.max_distance = 0.001};
     *arm = (struct arm){
         .joint_count = 7,
         .joints = {{{0, 0, 0.333}, ABOUT_Z}, {{0, 0, 0}, ABOUT_Y}, {{0, -0.316, 0}, ABOUT_MINUS_Y},

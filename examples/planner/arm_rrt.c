@@ -111,7 +111,7 @@ static bool grow(struct world *world, struct tree *tree, const struct state *tar
     const struct cell_edge edge = cast_edge(world, &from, target);
     tree->casts++;
     /* A hair before contact, and asked about as it is: its angles are rounded. */
-    const struct state reached = edge.is_free ? *target : between(world, &from, target, fmax(0, edge.t_lo - 1e-3));
+    const struct state reached = edge.is_free ? *target : between(world, &from, target, fmax(0, edge.time_lower - 1e-3));
     if (apart(world, &from, &reached) > 0.02 && tree->count < MOST_STATES && is_free(world, &reached)) {
         tree->states[tree->count] = reached;
         tree->parents[tree->count++] = nearest;
@@ -144,7 +144,7 @@ static int plan(struct world *world)
         return FAILED;
     }
     const struct cell_edge straight = cast_edge(world, &start, &goal);
-    printf("straight ahead: %s, free up to %.4f of the way\n", straight.is_free ? "free" : "not free", straight.t_lo);
+    printf("straight ahead: %s, free up to %.4f of the way\n", straight.is_free ? "free" : "not free", straight.time_lower);
     if (!search(world, &tree, &start, &goal)) {
         fputs("arm_rrt: no path found\n", stderr);
         return FAILED;

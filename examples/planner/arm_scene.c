@@ -70,7 +70,7 @@ static double least_distance(const struct arm_scene *world, const double *angles
     return least.lower;
 }
 
-/* A share of the edge at which the arm is within the margin of something, of STATES tried in bisection order; 1 if none. */
+/* A share of the edge at which the arm is within max_distance of something, of STATES tried in bisection order; 1 if none. */
 static double first_hit(const struct arm_scene *world, const double *from, const double *to)
 {
     static double poses[12 * MOST_JOINTS * STATES];
@@ -83,7 +83,7 @@ static double first_hit(const struct arm_scene *world, const double *from, const
     }
     const swiftprox_object_set set = {.ids = world->links, .count = world->arm.joint_count, .among = 1};
     swiftprox_first_hit hit;
-    cell_demand(swiftprox_scene_first_hit(world->scene, &set, poses, STATES, SWIFTPROX_POSE_ORDER_BISECTION, world->cell.margin,
+    cell_demand(swiftprox_scene_first_hit(world->scene, &set, poses, STATES, SWIFTPROX_POSE_ORDER_BISECTION, world->cell.max_distance,
                                           world->scratch, &hit));
     return (double)hit.time / STATES;
 }
@@ -96,11 +96,11 @@ static double free_up_to(const struct arm_scene *world, const double *from, cons
     arm_motions(&world->arm, from, to, &edge, motions);
     const swiftprox_object_set set = {.ids = world->links, .count = world->arm.joint_count, .among = 1};
     swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
-    config.margin = world->cell.margin;
+    config.max_distance = world->cell.max_distance;
     config.time_tolerance = 1e-6;
     swiftprox_scene_cast_answer answer;
     cell_demand(swiftprox_scene_cast(world->scene, &set, motions, world->arm.joint_count, &config, world->scratch, &answer));
-    return answer.t_lo;
+    return answer.time_lower;
 }
 
 int main(void)
@@ -114,11 +114,11 @@ int main(void)
     struct arm_edge edge;
     swiftprox_motion motions[MOST_JOINTS];
     arm_motions(&world.arm, start, goal, &edge, motions);
-    const double t_lo = cell_cast(&world.cell, motions).t_lo;
-    is_good &= agrees("of the edge to the goal is free", free_up_to(&world, start, goal), t_lo, 1e-5);
+    const double time_lower = cell_cast(&world.cell, motions).time_lower;
+    is_good &= agrees("of the edge to the goal is free", free_up_to(&world, start, goal), time_lower, 1e-5);
     const double hit = first_hit(&world, start, goal);
-    printf("found within the margin at: %.6f\n", hit);
-    is_good &= hit >= t_lo && hit < 1;
+    printf("found within max_distance at: %.6f\n", hit);
+    is_good &= hit >= time_lower && hit < 1;
     swiftprox_scratch_destroy(world.scratch);
     cell_demand(swiftprox_scene_destroy(world.scene));
     cell_release(&world.cell);

@@ -73,7 +73,7 @@ static double distance(struct cell *cell, struct cell_pair *pair, const double *
 {
     const double *const second = pair->is_obstacle ? cell->places[pair->second].start : poses + 12 * pair->second;
     swiftprox_pair_config config = SWIFTPROX_PAIR_CONFIG_DEFAULT;
-    config.distance_tolerance = enough;
+    config.max_distance = enough;
     swiftprox_pair_answer answer;
     cell_demand(swiftprox_pair_distance((swiftprox_placed){cell->bodies[pair->first], poses + 12 * pair->first},
                                         (swiftprox_placed){second_shape(cell, pair), second}, &pair->cache, &config, &answer));
@@ -83,7 +83,7 @@ static double distance(struct cell *cell, struct cell_pair *pair, const double *
 bool cell_is_free(struct cell *cell, const double *poses)
 {
     for (size_t i = 0; i < cell->pair_count; i++) {
-        if (!(distance(cell, &cell->pairs[i], poses, cell->margin) > cell->margin)) {
+        if (!(distance(cell, &cell->pairs[i], poses, cell->max_distance) > cell->max_distance)) {
             return false;
         }
     }
@@ -102,7 +102,7 @@ double cell_clearance(struct cell *cell, const double *poses)
 static swiftprox_cast_config cast_config(const struct cell *cell)
 {
     swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
-    config.margin = cell->margin;
+    config.max_distance = cell->max_distance;
     config.time_tolerance = 1e-6;
     return config;
 }
@@ -138,11 +138,11 @@ struct cell_edge cell_cast(struct cell *cell, const swiftprox_motion *motions)
         /* A hit, a near miss or a budget that ran out; of the others only what comes before counts. */
         edge.is_free = false;
         edge.clearance = NAN;
-        edge.t_lo = answer.t_lo;
-        edge.t_hi = answer.t_hi;
-        config.t_end = answer.t_lo;
+        edge.time_lower = answer.time_lower;
+        edge.time_upper = answer.time_upper;
+        config.time_end = answer.time_lower;
         put_first(cell, i);
-        if (config.t_end <= config.t_begin) {
+        if (config.time_end <= config.time_begin) {
             break;
         }
     }

@@ -27,15 +27,15 @@ struct cell {
     const swiftprox_shape *obstacles[MOST_OBSTACLES];
     swiftprox_motion places[MOST_OBSTACLES]; /* of the obstacles: they stay */
     struct cell_pair pairs[MOST_CELL_PAIRS];
-    double margin; /* nearer than that is not free */
+    double max_distance; /* nearer than that is not free */
 };
 
 /* How far the bodies get on an edge, which lasts from time 0 to 1. */
 struct cell_edge {
     bool is_free;
     double clearance; /* free: all pairs are at least that far apart at all times */
-    double t_lo;      /* not free: all pairs are farther apart than the margin up to this time */
-    double t_hi;      /* and at this time a pair is not; NaN where rounding hides it */
+    double time_lower;      /* not free: all pairs are farther apart than max_distance up to this time */
+    double time_upper;      /* and at this time a pair is not; NaN where rounding hides it */
 };
 
 /* A box of these sides about a point of the body's frame. */
@@ -51,7 +51,7 @@ void cell_add_obstacle(struct cell *cell, const swiftprox_shape *shape, double x
 /* Two moving bodies that may meet. */
 void cell_add_pair(struct cell *cell, size_t first, size_t second);
 
-/* Whether all pairs are farther apart than the margin; the poses are those of the bodies, 12 numbers each. */
+/* Whether all pairs are farther apart than max_distance; the poses are those of the bodies, 12 numbers each. */
 bool cell_is_free(struct cell *cell, const double *poses);
 
 /* A lower bound of the least distance of all pairs; 0 where two meet. */

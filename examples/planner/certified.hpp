@@ -56,16 +56,16 @@ public:
         return count(cell_is_edge_free(&shared_.problem.cell, shared_.problem.motions(from, to)));
     }
 
-    // The last valid state is at t_lo: what comes before is proved free.
+    // The last valid state is at time_lower: what comes before is proved free.
     bool checkMotion(const ompl::base::State *from, const ompl::base::State *to,
                      std::pair<ompl::base::State *, double> &last_valid) const override
     {
         const std::lock_guard<std::mutex> alone(shared_.mutex);
         const cell_edge edge = cell_cast(&shared_.problem.cell, shared_.problem.motions(from, to));
         if (!edge.is_free) {
-            last_valid.second = edge.t_lo;
+            last_valid.second = edge.time_lower;
             if (last_valid.first) {
-                si_->getStateSpace()->interpolate(from, to, edge.t_lo, last_valid.first);
+                si_->getStateSpace()->interpolate(from, to, edge.time_lower, last_valid.first);
             }
         }
         return count(edge.is_free);

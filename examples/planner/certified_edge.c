@@ -67,7 +67,7 @@ static swiftprox_motion plank_motion(struct asked *asked)
 
 static void build(struct cell *cell)
 {
-    *cell = (struct cell){.margin = 0};
+    *cell = (struct cell){.max_distance = 0};
     cell_add_body(cell, cell_box((double[3]){PLANK[0], PLANK[1], HEIGHT}, (double[3]){0, 0, 0}));
     for (int i = 0; i < POSTS; i++) {
         cell_add_obstacle(cell, cell_box((double[3]){POST, POST, HEIGHT}, (double[3]){0, 0, 0}), POSTS_AT[i][0], POSTS_AT[i][1], 0);
@@ -78,8 +78,8 @@ static void build(struct cell *cell)
 static swiftprox_clearance clearance(struct cell *cell, const swiftprox_motion *motion, double begin, double end)
 {
     swiftprox_clearance_config config = SWIFTPROX_CLEARANCE_CONFIG_DEFAULT;
-    config.t_begin = begin;
-    config.t_end = end;
+    config.time_begin = begin;
+    config.time_end = end;
     swiftprox_clearance least = {.lower = INFINITY, .upper = INFINITY};
     for (int i = 0; i < POSTS; i++) {
         swiftprox_clearance here;

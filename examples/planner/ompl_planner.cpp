@@ -67,7 +67,7 @@ og::PathGeometric *solution(const Setting &setting)
 // Edges that are not proved free, and when the first of them is hit.
 struct Recheck {
     size_t edges, refuted;
-    double t_lo, t_hi;
+    double time_lower, time_upper;
 };
 
 // From the motions alone, edge by edge and pair by pair.
@@ -81,8 +81,8 @@ Recheck recheck(Setting &setting, const og::PathGeometric &path)
         }
         const cell_edge edge = cell_cast(&setting.problem->cell, motions);
         if (found.refuted++ == 0) {
-            found.t_lo = edge.t_lo;
-            found.t_hi = edge.t_hi;
+            found.time_lower = edge.time_lower;
+            found.time_upper = edge.time_upper;
         }
     }
     return found;
@@ -152,7 +152,7 @@ bool show_sampled()
         if (found.refuted > 0) {
             std::printf("piece, RRTConnect, sampled at %g %%: path %u passes OMPL's check, and %zu of its %zu edges collide; the first "
                         "one is hit between %.7f and %.7f of the way\n",
-                        100 * RESOLUTION, seed, found.refuted, found.edges, found.t_lo, found.t_hi);
+                        100 * RESOLUTION, seed, found.refuted, found.edges, found.time_lower, found.time_upper);
             return true;
         }
     }

@@ -40,7 +40,7 @@ void pose_of(const ob::State *state, double pose[12])
 
 Piece::Piece()
 {
-    cell.margin = 1e-3;
+    cell.max_distance = 1e-3;
     // Two plates, about the middle.
     add_box({1.0, 0.5, 0.03}, {0, 0, -0.2});
     add_box({0.03, 0.5, 0.43}, {0.485, 0, 0.015});

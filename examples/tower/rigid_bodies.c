@@ -166,7 +166,7 @@ static struct pair *pair_of(struct world *world, size_t a, size_t b)
 static void find_contacts(struct world *world, struct pair *pair)
 {
     swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
-    config.margin = MARGIN;
+    config.max_distance = MARGIN;
     config.reduces = 1;
     swiftprox_manifold manifold;
     swiftprox_manifold_point points[4];
@@ -215,7 +215,7 @@ void world_count_points(const struct world *world, size_t last, size_t *known, s
 static void find_all_contacts(struct world *world)
 {
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
-    query.distance_tolerance = MARGIN;
+    query.max_distance = MARGIN;
     swiftprox_scene_answer answer;
     demand(swiftprox_scene_query_distance(world->scene, &query, &answer));
     world->depth = 0;

@@ -92,7 +92,7 @@ static int is_free(struct world *world, struct state state)
     double pose[12];
     pose_of(state, pose);
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
-    query.distance_tolerance = MARGIN; /* pairs farther apart are not reported */
+    query.max_distance = MARGIN; /* pairs farther apart are not reported */
     swiftprox_scene_answer answer;
     demand(swiftprox_scene_query_placed(world->scene, &(swiftprox_placed){world->plank, pose}, 1, SWIFTPROX_QUERY_KIND_DISTANCE,
                                         &query, &answer));
@@ -118,15 +118,15 @@ static swiftprox_motion motion_between(struct state from, struct state to)
 struct edge {
     int is_free;
     double clearance; /* free: distance from all obstacles at all times, at least */
-    double t_lo;      /* not free: farther than the margin from all up to this time ... */
-    double t_hi;      /* ... and at this time within it of one; NaN if rounding hides that */
+    double time_lower; /* not free: farther than the margin from all up to this time ... */
+    double time_upper; /* ... and at this time within it of one; NaN if rounding hides that */
 };
 
 static struct edge cast_edge(struct world *world, struct state from, struct state to)
 {
     const swiftprox_motion motion = motion_between(from, to);
     swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
-    config.margin = MARGIN;
+    config.max_distance = MARGIN;
     config.time_tolerance = 1e-6;
 
     struct edge edge = {1, INFINITY, 1, NAN};
@@ -141,18 +141,18 @@ static struct edge cast_edge(struct world *world, struct state from, struct stat
             edge.clearance = fmin(edge.clearance, answer.clearance);
         } else { /* hit, near or budget: later contacts no longer matter */
             edge.is_free = 0;
-            edge.t_lo = answer.t_lo;
-            edge.t_hi = answer.t_hi;
-            config.t_end = answer.t_lo;
+            edge.time_lower = answer.time_lower;
+            edge.time_upper = answer.time_upper;
+            config.time_end = answer.time_lower;
         }
     }
     return edge;
 }
 
-/* The last state of an edge that is hit, a hair before t_lo. Its pose is rounded, so the state itself is tested. */
-static struct state last_valid(struct world *world, struct state from, struct state to, double t_lo)
+/* The last state of an edge that is hit, a hair before time_lower. Its pose is rounded, so the state itself is tested. */
+static struct state last_valid(struct world *world, struct state from, struct state to, double time_lower)
 {
-    const double t = fmax(0, t_lo - 1e-6);
+    const double t = fmax(0, time_lower - 1e-6);
     const struct state state = {from.x + t * (to.x - from.x), from.y + t * (to.y - from.y),
                                 from.angle + t * (to.angle - from.angle)};
     return is_free(world, state) ? state : from;
@@ -179,7 +179,7 @@ static int grow(struct world *world, struct tree *tree, struct state target)
     }
     const struct state from = tree->states[nearest];
     const struct edge edge = cast_edge(world, from, target);
-    const struct state reached = edge.is_free ? target : last_valid(world, from, target, edge.t_lo);
+    const struct state reached = edge.is_free ? target : last_valid(world, from, target, edge.time_lower);
     if (apart(from, reached) > 0.01 && tree->count < MOST_STATES) {
         tree->states[tree->count] = reached;
         tree->parents[tree->count++] = nearest;
@@ -221,11 +221,11 @@ int main(void)
     }
 
     const struct edge straight = cast_edge(&world, start, goal);
-    if (straight.is_free || !(straight.t_hi - straight.t_lo <= 1e-6)) {
+    if (straight.is_free || !(straight.time_upper - straight.time_lower <= 1e-6)) {
         fputs("the way straight ahead is hit, and the time of that is known to a millionth\n", stderr);
         return EXIT_FAILURE;
     }
-    printf("straight ahead: free up to %.3f of the way, and hit a millionth later at the latest\n", straight.t_lo);
+    printf("straight ahead: free up to %.3f of the way, and hit a millionth later at the latest\n", straight.time_lower);
 
     if (!search(&world, &tree, start, goal)) {
         fputs("no path found\n", stderr);

@@ -145,7 +145,7 @@ static struct contact contact_of(struct body *body1, struct body *body2, const d
 static void find_contacts(swiftprox_scene *scene, struct body *bodies, struct contacts *found)
 {
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
-    query.distance_tolerance = MARGIN;
+    query.max_distance = MARGIN;
     query.detail = SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD;
 
     swiftprox_scene_answer answer;

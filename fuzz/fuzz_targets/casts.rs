@@ -71,7 +71,7 @@ fn round(u: &mut Unstructured, points: &[Vector]) -> Result<Shape> {
 fn check(case: &Case, answers: &[CastAnswer; 2]) {
     for answer in answers {
         let told = || format!("{:?} {:?}\n{answer:?}", case.motions, case.config);
-        let free_for_sure = answer.outcome != CastOutcome::Budget || answer.t_lo > case.config.t_begin;
+        let free_for_sure = answer.outcome != CastOutcome::Budget || answer.time_lower > case.config.time_begin;
         assert!(answer.outcome != CastOutcome::None && (free_for_sure || answer.queries > 0), "{}", told());
         if let Err(error) = verify_cast(case.bodies(), &case.config, answer) {
             panic!("{error}\n{}", told());
@@ -89,24 +89,24 @@ fn check(case: &Case, answers: &[CastAnswer; 2]) {
 
 /// What contradicts an answer that holds: free up to where it hits, a hit up to where it is free.
 fn forgeries(case: &Case, answer: &CastAnswer) -> Vec<CastAnswer> {
-    let CastConfig { t_begin, t_end, margin, .. } = case.config;
+    let CastConfig { time_begin, time_end, max_distance, .. } = case.config;
     let said = CastAnswer::default();
     let mut forged = Vec::new();
-    if answer.outcome == CastOutcome::Hit && answer.t_hi > t_begin {
-        forged.push(CastAnswer { t_lo: answer.t_hi, ..*answer });
-        forged.push(CastAnswer { outcome: CastOutcome::Budget, t_lo: answer.t_hi, ..said });
-        forged.push(CastAnswer { outcome: CastOutcome::Free, t_lo: t_end, clearance: margin, ..said });
-        if answer.t_lo > t_begin {
-            forged.push(CastAnswer { t_hi: answer.t_lo, ..*answer });
+    if answer.outcome == CastOutcome::Hit && answer.time_upper > time_begin {
+        forged.push(CastAnswer { time_lower: answer.time_upper, ..*answer });
+        forged.push(CastAnswer { outcome: CastOutcome::Budget, time_lower: answer.time_upper, ..said });
+        forged.push(CastAnswer { outcome: CastOutcome::Free, time_lower: time_end, clearance: max_distance, ..said });
+        if answer.time_lower > time_begin {
+            forged.push(CastAnswer { time_upper: answer.time_lower, ..*answer });
         }
     }
     if answer.outcome == CastOutcome::Free {
         let mut contact = PairAnswer::default();
-        let poses = case.poses(t_end);
+        let poses = case.poses(time_end);
         let placed = [case.shapes[0].at(&poses[0]), case.shapes[1].at(&poses[1])];
         if pair::contact(placed, &mut PairCache::default(), &PairConfig::default(), &mut contact).is_ok() {
             let upper = contact.upper;
-            forged.push(CastAnswer { outcome: CastOutcome::Hit, t_lo: t_begin, t_hi: t_end, upper, contact, ..said });
+            forged.push(CastAnswer { outcome: CastOutcome::Hit, time_lower: time_begin, time_upper: time_end, upper, contact, ..said });
             if is_tame(case) && upper < f64::INFINITY {
                 forged.push(CastAnswer { clearance: upper + allowance(case), ..*answer });
             }
@@ -115,10 +115,10 @@ fn forgeries(case: &Case, answer: &CastAnswer) -> Vec<CastAnswer> {
     forged
 }
 
-/// The interval of the smallest distance agrees with a cast without a margin.
+/// The interval of the smallest distance agrees with a cast without `max_distance`.
 fn check_clearance(case: &Case, answer: &CastAnswer) {
-    let CastConfig { t_begin, t_end, step_budget, .. } = case.config;
-    let config = ClearanceConfig { t_begin, t_end, step_budget, ..ClearanceConfig::default() };
+    let CastConfig { time_begin, time_end, step_budget, .. } = case.config;
+    let config = ClearanceConfig { time_begin, time_end, step_budget, ..ClearanceConfig::default() };
     let mut smallest = Clearance::default();
     clearance(case.bodies(), &mut PairCache::default(), &config, &mut smallest).expect("what a cast answers");
     let Clearance { lower, upper, .. } = smallest;
@@ -163,8 +163,8 @@ fn config(u: &mut Unstructured) -> Result<CastConfig> {
     let mut last = 1.0;
     match u.int_in_range(0..=5)? {
         0 => config.time_tolerance = any_number(u, &mut last)?,
-        1 => config.margin = any_number(u, &mut last)?,
-        2 => (config.t_begin, config.t_end) = (any_number(u, &mut last)?, any_number(u, &mut last)?),
+        1 => config.max_distance = any_number(u, &mut last)?,
+        2 => (config.time_begin, config.time_end) = (any_number(u, &mut last)?, any_number(u, &mut last)?),
         3 => config.step_budget = u.int_in_range(0..=3)?,
         _ => {}
     }
@@ -191,13 +191,13 @@ fn motion(u: &mut Unstructured, start: Pose, end: Pose) -> Result<Motion<'static
 /// Whether all numbers are so far inside the doubles that the judge can measure in them.
 fn is_tame(case: &Case) -> bool {
     let tame = |x: f64| x == 0.0 || (1e-30..1e30).contains(&x.abs());
-    let poses = [case.config.t_begin, case.config.t_end].map(|time| case.poses(time));
+    let poses = [case.config.time_begin, case.config.time_end].map(|time| case.poses(time));
     let vertices = |shape: &Shape| shape.polyhedron().vertices.iter().all(|v| v.position.iter().all(|&x| tame(x)));
     let turns_little = case.motions.iter().all(|motion| match motion {
         Motion::Screw(screw) => screw.rotation.norm() < 1e3 && screw.centre.iter().all(|&x| tame(x)),
         _ => true,
     });
     let places = poses.as_flattened().iter().flat_map(|pose| pose.rows.map(|row| row[3]));
-    let times = [case.config.t_begin, case.config.t_end].into_iter().all(|time| time.abs() <= 1.0);
+    let times = [case.config.time_begin, case.config.time_end].into_iter().all(|time| time.abs() <= 1.0);
     case.shapes.iter().all(|shape| vertices(shape)) && places.into_iter().all(tame) && turns_little && times
 }

@@ -237,8 +237,8 @@ fn check_contacts(
     environment: Environment,
 ) -> Result<()> {
     let mut last = 1.0;
-    let margin = if u.arbitrary()? { 0.0 } else { any_number(u, &mut last)? };
-    let config = ManifoldConfig { margin, reduces: u.arbitrary()?, ..ManifoldConfig::default() };
+    let max_distance = if u.arbitrary()? { 0.0 } else { any_number(u, &mut last)? };
+    let config = ManifoldConfig { max_distance, reduces: u.arbitrary()?, ..ManifoldConfig::default() };
     let ask = || {
         let mut found = GroundContacts::default();
         ground_contacts(body, ground, &config, &mut found).map(|()| found)
@@ -247,7 +247,7 @@ fn check_contacts(
     assert_eq!(format!("{:?}", inside(environment, ask)), format!("{found:?}"), "{environment:?}");
     let found = match found {
         Ok(found) => found,
-        Err(error) => return Ok(assert!(matches!(error, Error::Argument(_)) && !(margin >= 0.0), "{error}")),
+        Err(error) => return Ok(assert!(matches!(error, Error::Argument(_)) && !(max_distance >= 0.0), "{error}")),
     };
     let mut next = 0;
     for contact in &found.contacts {
@@ -257,13 +257,13 @@ fn check_contacts(
         let points = &found.points[contact.first_point..next];
         assert!(!points.is_empty() && (!config.reduces || points.len() <= 4), "{contact:?}");
         assert!((contact.triangle as usize) < ground.ground.triangle_count(), "{contact:?}");
-        assert!(manifold.lower <= manifold.upper && manifold.lower <= margin, "{contact:?}");
+        assert!(manifold.lower <= manifold.upper && manifold.lower <= max_distance, "{contact:?}");
         // Only what intersects is deep.
         assert!(is_met || manifold.outcome == Outcome::Separated, "{contact:?}");
         let least = points.iter().map(|point| point.gap_lower).fold(f64::INFINITY, f64::min);
         assert!(manifold.lower <= least, "{contact:?}");
         assert!(
-            points.iter().all(|point| point.gap_lower <= point.gap_upper && point.gap_lower <= margin),
+            points.iter().all(|point| point.gap_lower <= point.gap_upper && point.gap_lower <= max_distance),
             "{points:?}"
         );
         let normal = Vector::from(manifold.normal);

@@ -155,11 +155,11 @@ fn is_wild(placed: &Placed) -> bool {
 fn check_tolerance(u: &mut Unstructured, placed: &Placed, mut cache: PairCache, cold: &PairAnswer) -> Result<()> {
     let ([body1, body2], [pose1, pose2]) = (placed.bodies, &placed.poses);
     let mut last = cold.distance;
-    let distance_tolerance = any_number(u, &mut last)?;
-    let config = PairConfig { distance_tolerance, ..PairConfig::default() };
+    let max_distance = any_number(u, &mut last)?;
+    let config = PairConfig { max_distance, ..PairConfig::default() };
     let mut answer = PairAnswer::default();
     let asked = distance([body1.shape.at(pose1), body2.shape.at(pose2)], &mut cache, &config, &mut answer);
-    if !(distance_tolerance >= 0.0) {
+    if !(max_distance >= 0.0) {
         assert!(matches!(asked, Err(Error::Argument(_))), "{asked:?}");
         return Ok(());
     }
@@ -167,8 +167,8 @@ fn check_tolerance(u: &mut Unstructured, placed: &Placed, mut cache: PairCache, 
     let intersecting = answer.outcome == Outcome::Intersecting;
     assert_eq!(intersecting, cold.outcome == Outcome::Intersecting, "{answer:?}\n{cold:?}");
     let is_beyond = answer.outcome == Outcome::Beyond;
-    let is_so = if is_beyond { answer.lower >= distance_tolerance } else { answer.upper <= distance_tolerance };
-    assert!(is_so, "{distance_tolerance:e}: {answer:?}");
+    let is_so = if is_beyond { answer.lower >= max_distance } else { answer.upper <= max_distance };
+    assert!(is_so, "{max_distance:e}: {answer:?}");
     assert!(answer.lower <= cold.upper && cold.lower <= answer.upper, "{answer:?}\n{cold:?}");
     if answer.outcome == Outcome::Beyond {
         let points = [answer.local1, answer.local2, answer.world1, answer.world2];

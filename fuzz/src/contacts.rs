@@ -58,9 +58,9 @@ pub fn check(
     }
     check_depth(bodies, known, truth.as_ref(), environment, &mut memory.depth);
     let reduces = u.arbitrary()?;
-    let margin = if u.arbitrary()? { 0.0 } else { known.distance.abs() * *u.choose(&[0.5, 1.0, 2.0])? };
-    if margin.is_finite() {
-        let config = ManifoldConfig { margin, reduces, ..ManifoldConfig::default() };
+    let max_distance = if u.arbitrary()? { 0.0 } else { known.distance.abs() * *u.choose(&[0.5, 1.0, 2.0])? };
+    if max_distance.is_finite() {
+        let config = ManifoldConfig { max_distance, reduces, ..ManifoldConfig::default() };
         check_manifold(bodies, known, truth.as_ref(), measured, environment, &config, &mut memory.manifold);
     }
     Ok(())
@@ -138,14 +138,14 @@ fn check_manifold(
     assert_eq!(format!("{told:?}"), format!("{:?}", (found, &points, after)), "{environment:?}");
     *cache = after;
     if found.outcome == Outcome::Beyond {
-        assert!(points.is_empty() && known.upper > config.margin, "{found:?} {known:?}");
+        assert!(points.is_empty() && known.upper > config.max_distance, "{found:?} {known:?}");
         return;
     }
     assert_eq!(found.outcome, known.outcome, "{found:?}\n{known:?}");
     assert!(found.lower <= found.upper && found.found_count >= found.point_count, "{found:?}");
     assert!(!points.is_empty() && (!config.reduces || points.len() <= 4), "{found:?}");
     for point in &points {
-        assert!(point.gap_lower <= point.gap_upper && point.gap_lower <= config.margin, "{point:?} {found:?}");
+        assert!(point.gap_lower <= point.gap_upper && point.gap_lower <= config.max_distance, "{point:?} {found:?}");
     }
     match verify_manifold(bodies, &after, config, &found, &points) {
         // What is too large or too far apart.

@@ -114,7 +114,7 @@ struct ShapeOptions {
 };
 
 struct PairConfig {
-    double distance_tolerance = infinity;
+    double max_distance = infinity;
     double rotation_limit = 1e-2;
     double absolute_error = 0;
     double relative_error = 0;
@@ -126,7 +126,7 @@ struct PairConfig {
     {
         swiftprox_pair_config c{};
         c.struct_size = sizeof c;
-        c.distance_tolerance = distance_tolerance;
+        c.max_distance = max_distance;
         c.rotation_limit = rotation_limit;
         c.absolute_error = absolute_error;
         c.relative_error = relative_error;
@@ -156,7 +156,7 @@ struct DepthConfig {
 
 struct ManifoldConfig {
     double rotation_limit = 1e-2;
-    double margin = 0;
+    double max_distance = 0;
     bool reduces = false;
 
     swiftprox_manifold_config to_c() const noexcept
@@ -164,35 +164,35 @@ struct ManifoldConfig {
         swiftprox_manifold_config c{};
         c.struct_size = sizeof c;
         c.rotation_limit = rotation_limit;
-        c.margin = margin;
+        c.max_distance = max_distance;
         c.reduces = reduces ? 1 : 0;
         return c;
     }
 };
 
 struct CastConfig {
-    double t_begin = 0;
-    double t_end = 1;
+    double time_begin = 0;
+    double time_end = 1;
     double time_tolerance = 1e-9;
-    double margin = 0;
+    double max_distance = 0;
     std::uint32_t step_budget = 100000;
 
     swiftprox_cast_config to_c() const noexcept
     {
         swiftprox_cast_config c{};
         c.struct_size = sizeof c;
-        c.t_begin = t_begin;
-        c.t_end = t_end;
+        c.time_begin = time_begin;
+        c.time_end = time_end;
         c.time_tolerance = time_tolerance;
-        c.margin = margin;
+        c.max_distance = max_distance;
         c.step_budget = step_budget;
         return c;
     }
 };
 
 struct ClearanceConfig {
-    double t_begin = 0;
-    double t_end = 1;
+    double time_begin = 0;
+    double time_end = 1;
     double absolute_error = 0;
     double relative_error = 0.01;
     std::uint32_t step_budget = 100000;
@@ -201,8 +201,8 @@ struct ClearanceConfig {
     {
         swiftprox_clearance_config c{};
         c.struct_size = sizeof c;
-        c.t_begin = t_begin;
-        c.t_end = t_end;
+        c.time_begin = time_begin;
+        c.time_end = time_end;
         c.absolute_error = absolute_error;
         c.relative_error = relative_error;
         c.step_budget = step_budget;
@@ -253,7 +253,7 @@ struct ObjectOptions {
 };
 
 struct SceneQuery {
-    double distance_tolerance = SWIFTPROX_DEFAULT_TOLERANCE;
+    double max_distance = SWIFTPROX_DEFAULT_MAX_DISTANCE;
     double absolute_error = 0;
     double relative_error = 0;
     double error_budget = infinity;
@@ -269,7 +269,7 @@ struct SceneQuery {
     {
         swiftprox_scene_query c{};
         c.struct_size = sizeof c;
-        c.distance_tolerance = distance_tolerance;
+        c.max_distance = max_distance;
         c.absolute_error = absolute_error;
         c.relative_error = relative_error;
         c.error_budget = error_budget;

@@ -42,9 +42,9 @@ swiftprox_status swiftprox_pair_half_space_distance(struct swiftprox_placed obje
                                                     struct swiftprox_signed_distance *answer);
 
 /**
- * Computes where a shape (object 1) meets a half-space or is at most config->margin apart. The points are the corners of the face
- * that points most towards the plane, with a gap of at most the margin. The lowest point is always included. Output is as in
- * swiftprox_pair_manifold. There is no cache, so each call chooses the four points of a reduced manifold anew.
+ * Computes where a shape (object 1) meets a half-space or is at most config->max_distance apart. The points are the corners of the
+ * face that points most towards the plane, with a gap of at most max_distance. The lowest point is always included. Output is as
+ * in swiftprox_pair_manifold. There is no cache, so each call chooses the four points of a reduced manifold anew.
  *
  * Same errors as swiftprox_pair_half_space_distance and swiftprox_pair_manifold. On failure the manifold is reset and points are
  * unchanged.
@@ -235,9 +235,9 @@ typedef struct swiftprox_ground_count {
 } swiftprox_ground_count;
 
 /**
- * Finds the contacts of a shape (object 1) with a ground, up to config->margin apart, sorted by triangle. Each contact has points
- * and one normal out of the ground. `contacts` and `points` receive what fits, and may be null if their capacity is 0. `count`
- * receives all numbers found. Points of contact c begin at its first_point; there are manifold.point_count.
+ * Finds the contacts of a shape (object 1) with a ground, up to config->max_distance apart, sorted by triangle. Each contact has
+ * points and one normal out of the ground. `contacts` and `points` receive what fits, and may be null if their capacity is 0.
+ * `count` receives all numbers found. Points of contact c begin at its first_point; there are manifold.point_count.
  *
  * A triangle acts only on bodies whose centre of mass is not behind its plane by more than the ground's thickness. The normal is
  * the direction of least distance or overlap among those that are normal to the surface at the touched point. So bodies slide
@@ -306,9 +306,9 @@ typedef struct swiftprox_scene_ground_answer {
 } swiftprox_scene_ground_answer;
 
 /**
- * Finds the contacts of objects of a scene with a ground (grounds belong to no scene), up to config->margin apart. Contacts of
- * each piece are as from swiftprox_pair_ground_contacts. Null set: all objects, in order of creation. Fixed objects are skipped,
- * unless set->poses gives their poses; set->among is not read.
+ * Finds the contacts of objects of a scene with a ground (grounds belong to no scene), up to config->max_distance apart. Contacts
+ * of each piece are as from swiftprox_pair_ground_contacts. Null set: all objects, in order of creation. Fixed objects are
+ * skipped, unless set->poses gives their poses; set->among is not read.
  *
  * An object is tested if its groups have a bit of filter->mask, and its mask a bit of filter->groups. A null filter means group 1
  * and a full mask. Activation and the scene's pair filter do not apply. config->rotation_limit is for the ground's pose.
@@ -329,7 +329,7 @@ swiftprox_status swiftprox_scene_ground_contacts(const struct swiftprox_scene *s
                                                  struct swiftprox_scene_ground_answer *answer);
 
 /**
- * Like swiftprox_scene_ground_contacts for a half-space: one contact for each piece within the margin, as from
+ * Like swiftprox_scene_ground_contacts for a half-space: one contact for each piece within max_distance, as from
  * swiftprox_pair_half_space_manifold. Its triangle is UINT32_MAX. Same errors as swiftprox_scene_ground_contacts and
  * swiftprox_pair_half_space_distance.
  *

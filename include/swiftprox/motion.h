@@ -96,19 +96,20 @@ swiftprox_status swiftprox_motion_between(const double *pose1,
 typedef enum swiftprox_cast_outcome SWIFTPROX_INT32 {
   /** Nothing is said yet: the value of a fresh answer. */
   SWIFTPROX_CAST_OUTCOME_NONE = 0,
-  /** Farther apart than the margin at every time of the range. */
+  /** Farther apart than `max_distance` at every time of the range. */
   SWIFTPROX_CAST_OUTCOME_FREE = 1,
   /**
-   * Farther apart than the margin at every time before `t_lo` and at it, no farther than the margin at `t_hi`. Both are the
-   * beginning where that is no farther. `t_hi` - `t_lo` is at most the time tolerance wherever contact can be proved so soon.
+   * Farther apart than `max_distance` at every time before `time_lower` and at it, no farther than `max_distance` at
+   * `time_upper`. Both are the beginning where that is no farther. `time_upper` - `time_lower` is at most the time tolerance
+   * wherever contact can be proved so soon.
    */
   SWIFTPROX_CAST_OUTCOME_HIT = 2,
   /**
-   * Farther apart than the margin up to `t_lo`, and hardly farther there: the objects graze, and rounding hides whether they
-   * meet.
+   * Farther apart than `max_distance` up to `time_lower`, and hardly farther there: the objects graze, and rounding hides
+   * whether they meet.
    */
   SWIFTPROX_CAST_OUTCOME_NEAR = 3,
-  /** The step budget ran out: farther apart than the margin up to `t_lo`, and nothing is said of what follows. */
+  /** The step budget ran out: farther apart than `max_distance` up to `time_lower`, and nothing is said of what follows. */
   SWIFTPROX_CAST_OUTCOME_BUDGET = 4
 } swiftprox_cast_outcome;
 
@@ -118,17 +119,17 @@ typedef struct swiftprox_cast_answer {
   swiftprox_cast_outcome outcome;
   /** Certified queries made. */
   uint32_t queries;
-  /** The objects are farther apart than the margin from the beginning up to here; the end of the range if they are free. */
-  double t_lo;
-  /** Where they are no farther apart than the margin. Only of a hit. */
-  double t_hi;
+  /** The objects are farther apart than `max_distance` from the beginning up to here; the end of the range if they are free. */
+  double time_lower;
+  /** Where they are no farther apart than `max_distance`. Only of a hit. */
+  double time_upper;
   /** Their distance is at least this at every time of the range. Only of objects that are free. */
   double clearance;
-  /** Of a hit their distance at `t_hi` is at most this, 0 where they intersect; of a near miss that at `t_lo`. */
+  /** Of a hit their distance at `time_upper` is at most this, 0 where they intersect; of a near miss that at `time_lower`. */
   double upper;
   /**
-   * Of a hit the contact at `t_hi`, of a near miss the distance at `t_lo`, with witness points, normal and features: for the
-   * poses there as rounded.
+   * Of a hit the contact at `time_upper`, of a near miss the distance at `time_lower`, with witness points, normal and features:
+   * for the poses there as rounded.
    */
   struct swiftprox_pair_answer contact;
 } swiftprox_cast_answer;
@@ -138,13 +139,13 @@ typedef struct swiftprox_cast_config {
   /** Set by SWIFTPROX_CAST_CONFIG_DEFAULT. */
   size_t struct_size;
   /** Start of the time range. Default: 0. */
-  double t_begin;
-  /** End of the time range, at least t_begin. Default: 1. */
-  double t_end;
+  double time_begin;
+  /** End of the time range, at least time_begin. Default: 1. */
+  double time_end;
   /** Allowed width of a hit's time interval, and the shortest step. At least 2^-50 of the larger end. Default: 1e-9. */
   double time_tolerance;
   /** Objects farther apart than this are free; at least 0. Default: 0. */
-  double margin;
+  double max_distance;
   /** The largest number of queries, 1 or more. Then the cast stops with the bounds so far. Default: 100,000. */
   uint32_t step_budget;
 } swiftprox_cast_config;
@@ -153,8 +154,8 @@ typedef struct swiftprox_cast_config {
 #define SWIFTPROX_CAST_CONFIG_DEFAULT {sizeof(swiftprox_cast_config), 0, 1, 1e-9, 0, 100000}
 
 /**
- * Decides whether two moving objects stay farther apart than config->margin, or when they first do not. The answer is guaranteed
- * for the motions as described at all times of the range, with poses' rounding included.
+ * Decides whether two moving objects stay farther apart than config->max_distance, or when they first do not. The answer is
+ * guaranteed for the motions as described at all times of the range, with poses' rounding included.
  *
  * `cache` may be shared with swiftprox_pair_distance. It affects speed and the choice of times within the guaranteed bounds. On
  * failure the answer is reset and its outcome is SWIFTPROX_CAST_OUTCOME_NONE; SWIFTPROX_ERROR_BUG also resets the cache.
@@ -190,9 +191,9 @@ typedef struct swiftprox_clearance_config {
   /** Set by SWIFTPROX_CLEARANCE_CONFIG_DEFAULT. */
   size_t struct_size;
   /** Start of the time range. Default: 0. */
-  double t_begin;
-  /** End of the time range, at least t_begin. Default: 1. */
-  double t_end;
+  double time_begin;
+  /** End of the time range, at least time_begin. Default: 1. */
+  double time_end;
   /** Allowed upper - lower, from 0 to infinity. Default: 0. */
   double absolute_error;
   /** Allowed (upper - lower) / lower. Default: 0.01. It is enough to meet one of the two errors. Both 0: as narrow as possible. */
@@ -240,21 +241,21 @@ typedef struct swiftprox_scene_cast_answer {
   swiftprox_cast_outcome outcome;
   /** Certified queries made. */
   uint32_t queries;
-  /** All pairs are farther apart than the margin from the beginning up to here: the last valid time. */
-  double t_lo;
-  /** Of a hit a time at which its pair is no farther apart than the margin, the earliest that is known. */
-  double t_hi;
-  /** Of a hit the distance of its pair at `t_hi` is at most this, of a near miss that at its own `t_lo`. */
+  /** All pairs are farther apart than `max_distance` from the beginning up to here: the last valid time. */
+  double time_lower;
+  /** Of a hit a time at which its pair is no farther apart than `max_distance`, the earliest that is known. */
+  double time_upper;
+  /** Of a hit the distance of its pair at `time_upper` is at most this, of a near miss that at its own `time_lower`. */
   double upper;
   /** The pair that ends it, object 1 moving, with what swiftprox_cast_answer_contact says; null ids if all are free. */
   struct swiftprox_pair_result pair;
 } swiftprox_scene_cast_answer;
 
 /**
- * Tests whether moving objects stay farther than config->margin from all others, which rest. If not, it finds the first time. The
- * answer is guaranteed for all times of the range, as in swiftprox_pair_cast. One motion moves the whole set as one body;
- * set->count motions move one object each. Pieces with their own poses move with their object. set->among not 0 adds pairs within
- * the set; set->poses is not read.
+ * Tests whether moving objects stay farther than config->max_distance from all others, which rest. If not, it finds the first
+ * time. The answer is guaranteed for all times of the range, as in swiftprox_pair_cast. One motion moves the whole set as one
+ * body; set->count motions move one object each. Pieces with their own poses move with their object. set->among not 0 adds pairs
+ * within the set; set->poses is not read.
  *
  * Only pairs that queries test count, but both objects may be fixed. config->step_budget applies per pair; null config means the
  * defaults. Threads and scratch: as for swiftprox_scene_least_distance. On failure the outcome is SWIFTPROX_CAST_OUTCOME_NONE.
@@ -273,7 +274,7 @@ swiftprox_status swiftprox_scene_cast(const struct swiftprox_scene *scene,
 
 /**
  * Runs swiftprox_scene_cast for many edges; answers has room for edge_count. motions holds, edge after edge, either one motion per
- * edge or one per object of the set. An edge is free up to its answer's t_lo.
+ * edge or one per object of the set. An edge is free up to its answer's time_lower.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is neither edge_count nor edge_count times set->count. Else same errors as
  * swiftprox_scene_cast. The message names the edge; its answer and all later ones are reset.

@@ -125,8 +125,8 @@ swiftprox_status swiftprox_replay_change(struct swiftprox_replay *replay);
  * for queries with a step budget, which are not checked.
  *
  * The answer is as from the query itself; queries of events list near pairs of pieces. `*identical` is 1 if distances, intervals,
- * points, normals and depths have the recorded bits, else 0; `identical` may be null. A `distance_tolerance` other than
- * SWIFTPROX_DEFAULT_TOLERANCE replaces the recorded one, and the answer is not checked.
+ * points, normals and depths have the recorded bits, else 0; `identical` may be null. A `max_distance` other than
+ * SWIFTPROX_DEFAULT_MAX_DISTANCE replaces the recorded one, and the answer is not checked.
  *
  * SWIFTPROX_ERROR_UNVERIFIED: the answer differs; the message says where. It is still returned; after other errors it is empty.
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no query, the step was not applied, or the query is out of range. The last query of
@@ -137,7 +137,7 @@ swiftprox_status swiftprox_replay_change(struct swiftprox_replay *replay);
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_replay_ask(struct swiftprox_replay *replay,
-                                      double distance_tolerance,
+                                      double max_distance,
                                       struct swiftprox_scene_answer *answer,
                                       int32_t *identical);
 

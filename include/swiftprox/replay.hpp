@@ -41,11 +41,11 @@ class Replay
     }
     Result<void> try_change() { return detail::status(swiftprox_replay_change(replay_)); }
     /** `identical`, if not null: whether the answer is bit for bit the recorded one. */
-    Result<swiftprox_scene_answer> try_ask(double distance_tolerance = SWIFTPROX_DEFAULT_TOLERANCE, bool *identical = nullptr)
+    Result<swiftprox_scene_answer> try_ask(double max_distance = SWIFTPROX_DEFAULT_MAX_DISTANCE, bool *identical = nullptr)
     {
         std::int32_t same = 0;
         Result<swiftprox_scene_answer> result;
-        result.status = swiftprox_replay_ask(replay_, distance_tolerance, &result.value, &same);
+        result.status = swiftprox_replay_ask(replay_, max_distance, &result.value, &same);
         if (identical) {
             *identical = same != 0;
         }
@@ -60,9 +60,9 @@ class Replay
     static Replay open(const std::string &path, const SceneOptions &options = {}) { return take(try_open(path, options)); }
     swiftprox_replay_step_info read() { return take(try_read()); }
     void change() { take(try_change()); }
-    swiftprox_scene_answer ask(double distance_tolerance = SWIFTPROX_DEFAULT_TOLERANCE, bool *identical = nullptr)
+    swiftprox_scene_answer ask(double max_distance = SWIFTPROX_DEFAULT_MAX_DISTANCE, bool *identical = nullptr)
     {
-        return take(try_ask(distance_tolerance, identical));
+        return take(try_ask(max_distance, identical));
     }
     std::uint32_t number(swiftprox_object_id id) const { return take(try_number(id)); }
 #endif

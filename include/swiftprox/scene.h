@@ -284,7 +284,7 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_reset_statistics(struct swiftprox_scene *scene);
 
 /**
- * Sets for how many pairs of pieces a scene keeps caches. Queries without a tolerance test all pairs. Up to `limit` pairs, each
+ * Sets for how many pairs of pieces a scene keeps caches. Queries without a max_distance test all pairs. Up to `limit` pairs, each
  * keeps its last answer, in about 150 bytes if there is memory. The next answer is then several times faster. Beyond `limit` only
  * near pairs keep theirs, as with 0. Results and their order stay the same. Default: 1048576 pairs, about 150 MB, from 1448 single
  * pieces.

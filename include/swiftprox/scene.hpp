@@ -378,7 +378,7 @@ class SceneView
     /** Without a second set: against all others. */
     Result<swiftprox_least_distance> try_least_distance(const ObjectSet &set, SetScratch &scratch,
                                                         const ObjectSet *against = nullptr,
-                                                        double cut_off = std::numeric_limits<double>::infinity()) const
+                                                        double max_distance = std::numeric_limits<double>::infinity()) const
     {
         if (set.is_uneven() || (against && against->is_uneven())) {
             return detail::uneven<swiftprox_least_distance>();
@@ -386,13 +386,13 @@ class SceneView
         const swiftprox_object_set c = set.to_c();
         const swiftprox_object_set second = against ? against->to_c() : swiftprox_object_set{};
         return detail::asked<swiftprox_least_distance>([&](swiftprox_least_distance *answer) {
-            return swiftprox_scene_least_distance(scene_, &c, against ? &second : nullptr, cut_off, scratch.get(), answer);
+            return swiftprox_scene_least_distance(scene_, &c, against ? &second : nullptr, max_distance, scratch.get(), answer);
         });
     }
     /** `poses`: those of all objects at the first time, then at the second, and so on. */
     Result<swiftprox_first_hit> try_first_hit(const ObjectSet &set, Range<const Pose> poses, SetScratch &scratch,
                                               swiftprox_pose_order order = SWIFTPROX_POSE_ORDER_BISECTION,
-                                              double margin = 0) const
+                                              double max_distance = 0) const
     {
         if (set.ids.empty() || poses.size() % set.ids.size() != 0) {
             return detail::refused<swiftprox_first_hit>("poses: there is not one for each object at each time");
@@ -400,7 +400,7 @@ class SceneView
         const swiftprox_object_set c = set.to_c();
         const std::size_t times = poses.size() / set.ids.size();
         return detail::asked<swiftprox_first_hit>([&](swiftprox_first_hit *answer) {
-            return swiftprox_scene_first_hit(scene_, &c, detail::rows_of(poses), times, order, margin, scratch.get(), answer);
+            return swiftprox_scene_first_hit(scene_, &c, detail::rows_of(poses), times, order, max_distance, scratch.get(), answer);
         });
     }
     /** The scratch owns the hits, until its next use. */
@@ -552,14 +552,14 @@ class SceneView
     }
     void prepare() { take(try_prepare()); }
     swiftprox_least_distance least_distance(const ObjectSet &set, SetScratch &scratch, const ObjectSet *against = nullptr,
-                                            double cut_off = std::numeric_limits<double>::infinity()) const
+                                            double max_distance = std::numeric_limits<double>::infinity()) const
     {
-        return take(try_least_distance(set, scratch, against, cut_off));
+        return take(try_least_distance(set, scratch, against, max_distance));
     }
     swiftprox_first_hit first_hit(const ObjectSet &set, Range<const Pose> poses, SetScratch &scratch,
-                                  swiftprox_pose_order order = SWIFTPROX_POSE_ORDER_BISECTION, double margin = 0) const
+                                  swiftprox_pose_order order = SWIFTPROX_POSE_ORDER_BISECTION, double max_distance = 0) const
     {
-        return take(try_first_hit(set, poses, scratch, order, margin));
+        return take(try_first_hit(set, poses, scratch, order, max_distance));
     }
     swiftprox_scene_ray_answer cast_ray(const swiftprox_ray &ray, SetScratch &scratch,
                                         swiftprox_ray_hits hits = SWIFTPROX_RAY_HITS_FIRST,

@@ -85,11 +85,11 @@ typedef struct swiftprox_least_distance {
 
 /**
  * Returns the least distance between two sets, with its interval and a nearest pair. Null `against` means all other objects. For
- * sets farther apart than cut_off the answer says only that; infinity means no limit. Only pairs that queries test count:
+ * sets farther apart than max_distance the answer says only that; infinity means no limit. Only pairs that queries test count:
  * activation, groups and the filter are respected. Two fixed objects are skipped, unless one of the sets has poses.
  *
  * Any number of threads may query a scene that no call changes, each with its own scratch. A null scratch means a temporary one.
- * On failure the answer's numbers are NaN. SWIFTPROX_ERROR_INVALID_ARGUMENT: cut_off is negative or NaN.
+ * On failure the answer's numbers are NaN. SWIFTPROX_ERROR_INVALID_ARGUMENT: max_distance is negative or NaN.
  *
  * Experimental.
  */
@@ -97,7 +97,7 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_least_distance(const struct swiftprox_scene *scene,
                                                 const struct swiftprox_object_set *set,
                                                 const struct swiftprox_object_set *against,
-                                                double cut_off,
+                                                double max_distance,
                                                 struct swiftprox_scratch *scratch,
                                                 struct swiftprox_least_distance *answer);
 
@@ -116,20 +116,20 @@ typedef struct swiftprox_first_hit {
   /** How many times were tried. */
   size_t tried;
   /**
-   * A pair that is no farther apart than the margin, object 1 of the set: of an answer the verdict and its proof, or an interval
-   * of the distance. Null ids if nothing hits.
+   * A pair that is no farther apart than `max_distance`, object 1 of the set: of an answer the verdict and its proof, or an
+   * interval of the distance. Null ids if nothing hits.
    */
   struct swiftprox_pair_result pair;
 } swiftprox_first_hit;
 
 /**
- * Finds a time at which a set of objects is within margin of any other object, or of one another if set->among is not 0. poses
- * holds 12 doubles per object for the first time, then for the second, and so on. set->poses and poses of untried times are not
- * read. Only pairs that queries test count, but both objects may be fixed. Threads and scratch: as for
+ * Finds a time at which a set of objects is within max_distance of any other object, or of one another if set->among is not 0.
+ * poses holds 12 doubles per object for the first time, then for the second, and so on. set->poses and poses of untried times are
+ * not read. Only pairs that queries test count, but both objects may be fixed. Threads and scratch: as for
  * swiftprox_scene_least_distance.
  *
- * On failure time and tried are 0, the pair's ids null. SWIFTPROX_ERROR_INVALID_ARGUMENT: an empty set, an unknown order, or a
- * margin that is negative, infinite or NaN.
+ * On failure time and tried are 0, the pair's ids null. SWIFTPROX_ERROR_INVALID_ARGUMENT: an empty set, an unknown order, or
+ * max_distance is negative, infinite or NaN.
  *
  * Experimental.
  */
@@ -139,7 +139,7 @@ swiftprox_status swiftprox_scene_first_hit(const struct swiftprox_scene *scene,
                                            const double *poses,
                                            size_t time_count,
                                            swiftprox_pose_order order,
-                                           double margin,
+                                           double max_distance,
                                            struct swiftprox_scratch *scratch,
                                            struct swiftprox_first_hit *answer);
 

@@ -95,9 +95,10 @@ swiftprox_status swiftprox_pair_manifold_verify(struct swiftprox_placed object1,
 /**
  * Checks an answer of swiftprox_pair_cast for the same motions and config, independently of its search. SWIFTPROX_OK: it is right.
  *
- * It proves without tolerance, at every time: free pairs stay farther apart than the margin, and at least clearance. Other pairs
- * stay farther apart than the margin up to t_lo, unless that is the beginning. Hits are at most the margin and upper apart at
- * t_hi. Near misses are at most upper apart at t_lo. swiftprox_pair_verify checks `contact`. `queries` is not checked.
+ * It proves without tolerance, at every time: free pairs stay farther apart than max_distance, and at least clearance. Other pairs
+ * stay farther apart than max_distance up to time_lower, unless that is the beginning. Hits are at most max_distance and upper
+ * apart at time_upper. Near misses are at most upper apart at time_lower. swiftprox_pair_verify checks `contact`. `queries` is not
+ * checked.
  *
  * Time grows with the number of vertices times the number of steps.
  *

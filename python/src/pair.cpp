@@ -38,7 +38,7 @@ struct Cast {
 swiftprox_pair_config config_of(double max_distance)
 {
     swiftprox_pair_config config = SWIFTPROX_PAIR_CONFIG_DEFAULT;
-    config.distance_tolerance = max_distance;
+    config.max_distance = max_distance;
     return config;
 }
 
@@ -148,7 +148,7 @@ nb::object distances(Pair &pair, nb::handle poses1, nb::handle poses2, double ma
 swiftprox_manifold_config manifold_config(double max_distance, bool reduces)
 {
     swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
-    config.margin = max_distance;
+    config.max_distance = max_distance;
     config.reduces = reduces;
     return config;
 }
@@ -178,12 +178,12 @@ Manifold manifold(Pair &pair, nb::handle pose1, nb::handle pose2, double max_dis
     return made;
 }
 
-Cast cast(Pair &pair, nb::handle motion1, nb::handle motion2, double max_distance, double t_begin, double t_end,
+Cast cast(Pair &pair, nb::handle motion1, nb::handle motion2, double max_distance, double time_begin, double time_end,
           double time_tolerance)
 {
     const swiftprox_motion a = read_motion(motion1, "motion1"), b = read_motion(motion2, "motion2");
     Cast made;
-    made.config = cast_config(max_distance, t_begin, t_end, time_tolerance);
+    made.config = cast_config(max_distance, time_begin, time_end, time_tolerance);
     run_alone(pair, [&] {
         return swiftprox_pair_cast(pair.shape1.get(), &a, pair.shape2.get(), &b, &pair.cache, &made.config, &made.answer);
     });
@@ -307,14 +307,14 @@ void bind_pair(nb::module_ &m)
     nb::class_<Cast>(m, "Cast", "When two moving bodies first meet.")
         .def_prop_ro("outcome", [](const Cast &self) { return word(self.answer.outcome); },
                      "'free': apart at every time. 'hit'. 'near': they graze, as far as doubles tell. 'budget': steps ran out.")
-        .def_prop_ro("t_lower", [](const Cast &self) { return self.answer.t_lo; }, "Up to this time the bodies are apart.")
-        .def_prop_ro("t_upper", [](const Cast &self) { return self.answer.t_hi; }, "At this time they meet; NaN unless it is a hit.")
+        .def_prop_ro("t_lower", [](const Cast &self) { return self.answer.time_lower; }, "Up to this time the bodies are apart.")
+        .def_prop_ro("t_upper", [](const Cast &self) { return self.answer.time_upper; }, "At this time they meet; NaN unless it is a hit.")
         .def_prop_ro("clearance", [](const Cast &self) { return self.answer.clearance; },
                      "Of free bodies: their distance is at least this at every time.")
         .def_prop_ro("contact", [](const Cast &self) { return self.answer.contact; },
                      "Of a hit the contact at t_upper, of a near miss the distance at t_lower.")
         .def("__repr__", [](const Cast &self) {
-            return nb::str("Cast({}, t_lower={}, t_upper={})").format(word(self.answer.outcome), self.answer.t_lo, self.answer.t_hi);
+            return nb::str("Cast({}, t_lower={}, t_upper={})").format(word(self.answer.outcome), self.answer.time_lower, self.answer.time_upper);
         });
 
 #define TWO_POSES "pose1: Pose | numpy.typing.ArrayLike, pose2: Pose | numpy.typing.ArrayLike"
@@ -339,9 +339,9 @@ void bind_pair(nb::module_ &m)
              nb::sig("def manifold(self, " TWO_POSES ", max_distance: float = 0.0, *, reduce: bool = False) -> Manifold"),
              "The contact points of bodies at most max_distance apart. reduce: four points at most.")
         .def("cast", &cast, nb::arg("motion1"), nb::arg("motion2"), nb::arg("max_distance") = 0.0, nb::kw_only(),
-             nb::arg("t_begin") = 0.0, nb::arg("t_end") = 1.0, nb::arg("time_tolerance") = 1e-9,
+             nb::arg("time_begin") = 0.0, nb::arg("time_end") = 1.0, nb::arg("time_tolerance") = 1e-9,
              nb::sig("def cast(self, motion1: Motion | Pose | numpy.typing.ArrayLike, motion2: Motion | Pose | "
-                     "numpy.typing.ArrayLike, max_distance: float = 0.0, *, t_begin: float = 0.0, t_end: float = 1.0, "
+                     "numpy.typing.ArrayLike, max_distance: float = 0.0, *, time_begin: float = 0.0, time_end: float = 1.0, "
                      "time_tolerance: float = 1e-9) -> Cast"),
              "Whether two moving bodies stay farther apart than max_distance, or when they first do not.")
         .def("verify", &verify, nb::arg("pose1"), nb::arg("pose2"), nb::arg("answer"),

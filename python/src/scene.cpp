@@ -78,7 +78,7 @@ void set_poses(Scene &scene, nb::handle poses, nb::handle ids)
 nb::object within(Scene &scene, double max_distance)
 {
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
-    query.distance_tolerance = max_distance;
+    query.max_distance = max_distance;
     std::vector<swiftprox_pair_result> pairs;
     run_alone(scene, [&] {
         swiftprox_scene_answer answer;
@@ -92,7 +92,7 @@ nb::object within(Scene &scene, double max_distance)
 nb::tuple contacts(Scene &scene, double max_distance, bool reduce)
 {
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
-    query.distance_tolerance = max_distance;
+    query.max_distance = max_distance;
     query.detail = reduce ? SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD : SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
     std::vector<SceneContact> all;
     std::vector<swiftprox_manifold_point> points;
@@ -204,8 +204,8 @@ nb::object ray(Scene &scene, nb::handle origin, nb::handle direction, double t_m
     return copy_records("ray hit", found.data(), found.size());
 }
 
-swiftprox_scene_cast_answer cast(Scene &scene, nb::handle ids, nb::handle motions, double max_distance, bool among, double t_begin,
-                                 double t_end, double time_tolerance)
+swiftprox_scene_cast_answer cast(Scene &scene, nb::handle ids, nb::handle motions, double max_distance, bool among, double time_begin,
+                                 double time_end, double time_tolerance)
 {
     const Set set(ids, nb::none(), "ids");
     std::vector<swiftprox_motion> moving;
@@ -216,7 +216,7 @@ swiftprox_scene_cast_answer cast(Scene &scene, nb::handle ids, nb::handle motion
             moving.push_back(read_motion(motion, "motions"));
         }
     }
-    const swiftprox_cast_config config = cast_config(max_distance, t_begin, t_end, time_tolerance);
+    const swiftprox_cast_config config = cast_config(max_distance, time_begin, time_end, time_tolerance);
     const swiftprox_object_set asked = set.at(0, among);
     swiftprox_scene_cast_answer answer;
     run_alone(scene, [&] {
@@ -246,7 +246,7 @@ swiftprox_pair_answer ground_distance(const Ground &ground, const Shape &shape, 
 {
     const Pose a = read_pose(pose, "pose"), still;
     swiftprox_pair_config config = SWIFTPROX_PAIR_CONFIG_DEFAULT;
-    config.distance_tolerance = max_distance;
+    config.max_distance = max_distance;
     swiftprox_ground_distance answer;
     run([&] {
         return swiftprox_pair_ground_distance(SWIFTPROX_QUERY_KIND_DISTANCE, shape.get(), a.m, ground.ground, still.m, &config, &answer);
@@ -258,7 +258,7 @@ nb::tuple ground_contacts(const Ground &ground, const Shape &shape, nb::handle p
 {
     const Pose a = read_pose(pose, "pose"), still;
     swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
-    config.margin = max_distance;
+    config.max_distance = max_distance;
     config.reduces = reduce;
     std::vector<swiftprox_ground_contact> all(16);
     std::vector<swiftprox_manifold_point> points(64);
@@ -298,8 +298,8 @@ void bind_scene(nb::module_ &m)
             static const char *const words[] = {"none", "free", "hit", "near", "budget"};
             return words[self.outcome];
         }, "'free', 'hit', 'near' or 'budget', as of a Cast.")
-        .def_ro("t_lower", &swiftprox_scene_cast_answer::t_lo, "Up to this time all pairs are apart.")
-        .def_ro("t_upper", &swiftprox_scene_cast_answer::t_hi, "At this time a pair meets; NaN unless it is a hit.")
+        .def_ro("t_lower", &swiftprox_scene_cast_answer::time_lower, "Up to this time all pairs are apart.")
+        .def_ro("t_upper", &swiftprox_scene_cast_answer::time_upper, "At this time a pair meets; NaN unless it is a hit.")
         .def_prop_ro("object1", [](const swiftprox_scene_cast_answer &self) { return self.pair.object1.bits; }, "The moving object; 0 if none.")
         .def_prop_ro("object2", [](const swiftprox_scene_cast_answer &self) { return self.pair.object2.bits; }, "What it meets; 0 if nothing.");
 
@@ -351,9 +351,9 @@ void bind_scene(nb::module_ &m)
              "What a ray meets: a structured array of dtype('ray hit'). Points are origin + t * direction, each of shape (3,).\n\n"
              "hits: 'first', 'all' in order, or 'any', found soonest.")
         .def("cast", &cast, nb::arg("ids"), nb::arg("motions"), nb::arg("max_distance") = 0.0, nb::kw_only(), nb::arg("among") = false,
-             nb::arg("t_begin") = 0.0, nb::arg("t_end") = 1.0, nb::arg("time_tolerance") = 1e-9,
+             nb::arg("time_begin") = 0.0, nb::arg("time_end") = 1.0, nb::arg("time_tolerance") = 1e-9,
              nb::sig("def cast(self, ids: " ARRAY ", motions: Motion | collections.abc.Sequence[Motion], max_distance: float = 0.0, *, "
-                     "among: bool = False, t_begin: float = 0.0, t_end: float = 1.0, time_tolerance: float = 1e-9) -> SceneCast"),
+                     "among: bool = False, time_begin: float = 0.0, time_end: float = 1.0, time_tolerance: float = 1e-9) -> SceneCast"),
              "Whether moving objects stay farther than max_distance from all that rest. One motion moves the set as one body.");
 
     nb::class_<Ground>(m, "Ground", "A fixed surface of triangles.")

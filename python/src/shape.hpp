@@ -39,12 +39,12 @@ template <class Owner, class Call> void run_alone(Owner &owner, Call call)
 swiftprox_motion read_motion(nb::handle source, const char *name);
 
 /// The options of a cast.
-inline swiftprox_cast_config cast_config(double max_distance, double t_begin, double t_end, double time_tolerance)
+inline swiftprox_cast_config cast_config(double max_distance, double time_begin, double time_end, double time_tolerance)
 {
     swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
-    config.margin = max_distance;
-    config.t_begin = t_begin;
-    config.t_end = t_end;
+    config.max_distance = max_distance;
+    config.time_begin = time_begin;
+    config.time_end = time_end;
     config.time_tolerance = time_tolerance;
     return config;
 }

@@ -211,7 +211,7 @@ pub struct CManifoldConfig {
     /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
     /// Largest gap of objects that have a manifold, and of its points: from 0 (the default) to infinity, which admits all.
-    pub margin: f64,
+    pub max_distance: f64,
     /// Nonzero: at most four points are kept, none is moved. They are the deepest, the farthest from it and the extremes on either
     /// side of the line through both. The last query's four, from the cache, stay while about as deep and as wide. 0 (the default):
     /// all.
@@ -228,7 +228,7 @@ impl CManifoldConfig {
     pub const DEFAULT: CManifoldConfig = CManifoldConfig {
         struct_size: size_of::<CManifoldConfig>(),
         rotation_limit: ROTATION_LIMIT,
-        margin: 0.0,
+        max_distance: 0.0,
         reduces: 0,
     };
 }
@@ -252,7 +252,7 @@ const _: () = {
 /// one rigorous interval, unit normal, witness points and features. It is as reliable as swiftprox_pair_distance and
 /// swiftprox_pair_depth.
 ///
-/// Pairs beyond config->distance_tolerance get less, see SWIFTPROX_OUTCOME_BEYOND. Allowed errors and step budget are ignored. Same
+/// Pairs beyond config->max_distance get less, see SWIFTPROX_OUTCOME_BEYOND. Allowed errors and step budget are ignored. Same
 /// arguments and errors as swiftprox_pair_distance, but with a manifold cache.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_signed_distance(
@@ -286,9 +286,9 @@ pub unsafe extern "C" fn swiftprox_pair_signed_distance(
     status
 }
 
-/// Computes where two objects meet or are at most config->margin apart: pairs of points along the normal, each with its gap. Points
-/// are written to room.points up to its capacity; manifold->found_count is the total. room.distance, if not null, receives the
-/// signed distance. Objects farther apart get no points and SWIFTPROX_OUTCOME_BEYOND.
+/// Computes where two objects meet or are at most config->max_distance apart: pairs of points along the normal, each with its gap.
+/// Points are written to room.points up to its capacity; manifold->found_count is the total. room.distance, if not null, receives
+/// the signed distance. Objects farther apart get no points and SWIFTPROX_OUTCOME_BEYOND.
 ///
 /// Vertices within the shape's face_noise (swiftprox_shape_options) of one plane are one face; gap intervals are guaranteed for the
 /// exact objects. Points are on their objects up to half a face's thickness, and in line up to twice its thickness plus 7.5e-9 of
@@ -430,7 +430,11 @@ unsafe fn read_points<'a>(points: *const ManifoldPoint, count: usize) -> Checked
 pub(super) unsafe fn read_manifold_config(config: *const CManifoldConfig) -> Checked<ManifoldConfig> {
     // SAFETY: by the caller.
     let config = unsafe { read_struct(config, CManifoldConfig::DEFAULT) }?;
-    Ok(ManifoldConfig { rotation_limit: config.rotation_limit, margin: config.margin, reduces: config.reduces != 0 })
+    Ok(ManifoldConfig {
+        rotation_limit: config.rotation_limit,
+        max_distance: config.max_distance,
+        reduces: config.reduces != 0,
+    })
 }
 
 /// Refuses an array to be filled in that cannot be one.

@@ -25,9 +25,9 @@ unsafe impl Send for User {}
 unsafe impl Sync for User {}
 
 /// Sets a filter that decides which pairs of objects are tested. It is called once for each pair of pieces that comes near. Queries
-/// of many objects without a tolerance call it each time. Null (the default): no filter. Each call of this function makes the scene
-/// ask again about near pairs, so set the same filter again after its decisions change. Any thread that queries the scene may call
-/// the filter.
+/// of many objects without a max_distance call it each time. Null (the default): no filter. Each call of this function makes the
+/// scene ask again about near pairs, so set the same filter again after its decisions change. Any thread that queries the scene may
+/// call the filter.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_pair_filter(
     scene: *mut SceneHandle,

@@ -197,9 +197,9 @@ pub struct GroundCount {
     pub point_count: usize,
 }
 
-/// Finds the contacts of a shape (object 1) with a ground, up to config->margin apart, sorted by triangle. Each contact has points
-/// and one normal out of the ground. `contacts` and `points` receive what fits, and may be null if their capacity is 0. `count`
-/// receives all numbers found. Points of contact c begin at its first_point; there are manifold.point_count.
+/// Finds the contacts of a shape (object 1) with a ground, up to config->max_distance apart, sorted by triangle. Each contact has
+/// points and one normal out of the ground. `contacts` and `points` receive what fits, and may be null if their capacity is 0.
+/// `count` receives all numbers found. Points of contact c begin at its first_point; there are manifold.point_count.
 ///
 /// A triangle acts only on bodies whose centre of mass is not behind its plane by more than the ground's thickness. The normal is
 /// the direction of least distance or overlap among those that are normal to the surface at the touched point. So bodies slide

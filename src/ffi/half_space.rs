@@ -31,9 +31,9 @@ pub unsafe extern "C" fn swiftprox_pair_half_space_distance(
     })
 }
 
-/// Computes where a shape (object 1) meets a half-space or is at most config->margin apart. The points are the corners of the face
-/// that points most towards the plane, with a gap of at most the margin. The lowest point is always included. Output is as in
-/// swiftprox_pair_manifold. There is no cache, so each call chooses the four points of a reduced manifold anew.
+/// Computes where a shape (object 1) meets a half-space or is at most config->max_distance apart. The points are the corners of the
+/// face that points most towards the plane, with a gap of at most max_distance. The lowest point is always included. Output is as
+/// in swiftprox_pair_manifold. There is no cache, so each call chooses the four points of a reduced manifold anew.
 ///
 /// Same errors as swiftprox_pair_half_space_distance and swiftprox_pair_manifold. On failure the manifold is reset and points are
 /// unchanged.

@@ -78,7 +78,7 @@ pub extern "C" fn swiftprox_library_outcome_string(outcome: OutcomeNumber) -> *c
     let string = match Outcome::from_number(outcome) {
         Some(Outcome::None) => c"nothing is said",
         Some(Outcome::Separated) => c"separated",
-        Some(Outcome::Beyond) => c"beyond the distance tolerance",
+        Some(Outcome::Beyond) => c"beyond max_distance",
         Some(Outcome::Intersecting) => c"intersecting",
         Some(Outcome::Undecided) => c"undecided",
         None => c"not an outcome",

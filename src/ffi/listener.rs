@@ -3,7 +3,7 @@
 use super::enumerators::QueryNumber;
 use super::failure::StatusCode;
 use super::guard::guard;
-use super::object_query::{default_tolerance, read_kind};
+use super::object_query::{default_max_distance, read_kind};
 use super::pointers::{exclusive, output};
 use super::query::{CSceneAnswer, CSceneQuery, ask};
 use super::scene::SceneHandle;
@@ -65,7 +65,7 @@ pub unsafe extern "C" fn swiftprox_listener_destroy(listener: *mut Listener) {
 /// points have begun, persist or have ended; in the first call all begin. Contacts with query->detail
 /// SWIFTPROX_CONTACT_DETAIL_MANIFOLD have points; swiftprox_scene_get_contacts returns their positions.
 ///
-/// Each listener has its own history, which other queries do not affect. Use one listener per tolerance; it defaults to 0 for
+/// Each listener has its own history, which other queries do not affect. Use one listener per max_distance; it defaults to 0 for
 /// contacts, else infinity. Removed objects, deactivated pairs and pairs of another scene have ended. Recordings include the query.
 ///
 /// On failure answer and events are empty, and the history is unchanged. SWIFTPROX_ERROR_INVALID_ARGUMENT: also for an unknown
@@ -92,7 +92,7 @@ pub unsafe extern "C" fn swiftprox_scene_listen(
                 events.write(CListenerEvents::new(&heard));
                 Ok(answer)
             },
-            default_tolerance(kind),
+            default_max_distance(kind),
             scene,
             query,
             answer,

@@ -79,13 +79,13 @@ pub struct CCastConfig {
     /// Set by SWIFTPROX_CAST_CONFIG_DEFAULT.
     pub struct_size: usize,
     /// Start of the time range. Default: 0.
-    pub t_begin: f64,
-    /// End of the time range, at least t_begin. Default: 1.
-    pub t_end: f64,
+    pub time_begin: f64,
+    /// End of the time range, at least time_begin. Default: 1.
+    pub time_end: f64,
     /// Allowed width of a hit's time interval, and the shortest step. At least 2^-50 of the larger end. Default: 1e-9.
     pub time_tolerance: f64,
     /// Objects farther apart than this are free; at least 0. Default: 0.
-    pub margin: f64,
+    pub max_distance: f64,
     /// The largest number of queries, 1 or more. Then the cast stops with the bounds so far. Default: 100,000.
     pub step_budget: u32,
 }
@@ -98,8 +98,15 @@ unsafe impl Versioned for CCastConfig {
 impl CCastConfig {
     /// What the header calls its default.
     pub fn defaults() -> CCastConfig {
-        let CastConfig { t_begin, t_end, time_tolerance, margin, step_budget } = CastConfig::default();
-        CCastConfig { struct_size: size_of::<CCastConfig>(), t_begin, t_end, time_tolerance, margin, step_budget }
+        let CastConfig { time_begin, time_end, time_tolerance, max_distance, step_budget } = CastConfig::default();
+        CCastConfig {
+            struct_size: size_of::<CCastConfig>(),
+            time_begin,
+            time_end,
+            time_tolerance,
+            max_distance,
+            step_budget,
+        }
     }
 }
 
@@ -110,9 +117,9 @@ pub struct CClearanceConfig {
     /// Set by SWIFTPROX_CLEARANCE_CONFIG_DEFAULT.
     pub struct_size: usize,
     /// Start of the time range. Default: 0.
-    pub t_begin: f64,
-    /// End of the time range, at least t_begin. Default: 1.
-    pub t_end: f64,
+    pub time_begin: f64,
+    /// End of the time range, at least time_begin. Default: 1.
+    pub time_end: f64,
     /// Allowed upper - lower, from 0 to infinity. Default: 0.
     pub absolute_error: f64,
     /// Allowed (upper - lower) / lower. Default: 0.01. It is enough to meet one of the two errors. Both 0: as narrow as possible.
@@ -129,10 +136,10 @@ unsafe impl Versioned for CClearanceConfig {
 impl CClearanceConfig {
     /// What the header calls its default.
     pub fn defaults() -> CClearanceConfig {
-        let ClearanceConfig { t_begin, t_end, absolute_error, relative_error, step_budget } =
+        let ClearanceConfig { time_begin, time_end, absolute_error, relative_error, step_budget } =
             ClearanceConfig::default();
         let struct_size = size_of::<CClearanceConfig>();
-        CClearanceConfig { struct_size, t_begin, t_end, absolute_error, relative_error, step_budget }
+        CClearanceConfig { struct_size, time_begin, time_end, absolute_error, relative_error, step_budget }
     }
 }
 
@@ -187,8 +194,8 @@ fn row_major(pose: &Pose) -> [f64; 12] {
     std::array::from_fn(|k| pose.rows[k / 4][k % 4])
 }
 
-/// Decides whether two moving objects stay farther apart than config->margin, or when they first do not. The answer is guaranteed
-/// for the motions as described at all times of the range, with poses' rounding included.
+/// Decides whether two moving objects stay farther apart than config->max_distance, or when they first do not. The answer is
+/// guaranteed for the motions as described at all times of the range, with poses' rounding included.
 ///
 /// `cache` may be shared with swiftprox_pair_distance. It affects speed and the choice of times within the guaranteed bounds. On
 /// failure the answer is reset and its outcome is SWIFTPROX_CAST_OUTCOME_NONE; SWIFTPROX_ERROR_BUG also resets the cache.
@@ -233,8 +240,8 @@ pub unsafe extern "C" fn swiftprox_pair_clearance(
     unsafe {
         ask(bodies, cache, answer, |bodies, cache, answer| {
             let given = read_struct(config, CClearanceConfig::defaults())?;
-            let CClearanceConfig { t_begin, t_end, absolute_error, relative_error, step_budget, .. } = given;
-            let config = ClearanceConfig { t_begin, t_end, absolute_error, relative_error, step_budget };
+            let CClearanceConfig { time_begin, time_end, absolute_error, relative_error, step_budget, .. } = given;
+            let config = ClearanceConfig { time_begin, time_end, absolute_error, relative_error, step_budget };
             Ok(clearance(bodies, cache, &config, answer)?)
         })
     }
@@ -242,9 +249,10 @@ pub unsafe extern "C" fn swiftprox_pair_clearance(
 
 /// Checks an answer of swiftprox_pair_cast for the same motions and config, independently of its search. SWIFTPROX_OK: it is right.
 ///
-/// It proves without tolerance, at every time: free pairs stay farther apart than the margin, and at least clearance. Other pairs
-/// stay farther apart than the margin up to t_lo, unless that is the beginning. Hits are at most the margin and upper apart at
-/// t_hi. Near misses are at most upper apart at t_lo. swiftprox_pair_verify checks `contact`. `queries` is not checked.
+/// It proves without tolerance, at every time: free pairs stay farther apart than max_distance, and at least clearance. Other pairs
+/// stay farther apart than max_distance up to time_lower, unless that is the beginning. Hits are at most max_distance and upper
+/// apart at time_upper. Near misses are at most upper apart at time_lower. swiftprox_pair_verify checks `contact`. `queries` is not
+/// checked.
 ///
 /// Time grows with the number of vertices times the number of steps.
 ///
@@ -381,8 +389,8 @@ fn read_motion<'a>(motion: &CMotion, pose: &'a dyn Fn(f64) -> Pose, name: &str) 
 pub(super) unsafe fn cast_config(config: *const CCastConfig) -> Checked<CastConfig> {
     // SAFETY: by the caller.
     let given = unsafe { read_struct(config, CCastConfig::defaults())? };
-    let CCastConfig { t_begin, t_end, time_tolerance, margin, step_budget, .. } = given;
-    Ok(CastConfig { t_begin, t_end, time_tolerance, margin, step_budget })
+    let CCastConfig { time_begin, time_end, time_tolerance, max_distance, step_budget, .. } = given;
+    Ok(CastConfig { time_begin, time_end, time_tolerance, max_distance, step_budget })
 }
 
 /// The caller's answer to read, its enumerators checked.

@@ -44,7 +44,7 @@ impl CSceneEvents {
     }
 }
 
-/// Runs a query of that kind over the pairs of one object. query->error_budget is ignored. The tolerance defaults to 0 for
+/// Runs a query of that kind over the pairs of one object. query->error_budget is ignored. max_distance defaults to 0 for
 /// contacts, else to infinity. The time depends on the number of near pairs, if nothing else has moved.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: also for an unknown kind. Else same errors as swiftprox_scene_query_intersection.
@@ -60,7 +60,7 @@ pub unsafe extern "C" fn swiftprox_scene_query_object(
     unsafe {
         ask(
             |scene, query| Ok(scene.query_object(id, read_kind(kind)?, query)?),
-            default_tolerance(kind),
+            default_max_distance(kind),
             scene,
             query,
             answer,
@@ -97,7 +97,7 @@ pub unsafe extern "C" fn swiftprox_scene_query_placed(
                     _ => Ok(scene.query_placed_pieces(&placed, mask, read_kind(kind)?, query)?),
                 }
             },
-            default_tolerance(kind),
+            default_max_distance(kind),
             scene,
             query,
             answer,
@@ -136,6 +136,6 @@ pub(super) fn read_kind(kind: QueryNumber) -> Result<Query, Failure> {
 }
 
 /// Of contacts 0, of all others infinity.
-pub(super) fn default_tolerance(kind: QueryNumber) -> f64 {
+pub(super) fn default_max_distance(kind: QueryNumber) -> f64 {
     if kind == Query::Contact as i32 { 0.0 } else { f64::INFINITY }
 }

@@ -74,17 +74,17 @@ pub unsafe extern "C" fn swiftprox_scene_prepare(scene: *mut SceneHandle) -> Sta
 }
 
 /// Returns the least distance between two sets, with its interval and a nearest pair. Null `against` means all other objects. For
-/// sets farther apart than cut_off the answer says only that; infinity means no limit. Only pairs that queries test count:
+/// sets farther apart than max_distance the answer says only that; infinity means no limit. Only pairs that queries test count:
 /// activation, groups and the filter are respected. Two fixed objects are skipped, unless one of the sets has poses.
 ///
 /// Any number of threads may query a scene that no call changes, each with its own scratch. A null scratch means a temporary one.
-/// On failure the answer's numbers are NaN. SWIFTPROX_ERROR_INVALID_ARGUMENT: cut_off is negative or NaN.
+/// On failure the answer's numbers are NaN. SWIFTPROX_ERROR_INVALID_ARGUMENT: max_distance is negative or NaN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_least_distance(
     scene: *const SceneHandle,
     set: *const CObjectSet,
     against: *const CObjectSet,
-    cut_off: f64,
+    max_distance: f64,
     scratch: *mut SetScratch,
     answer: *mut LeastDistance,
 ) -> StatusCode {
@@ -92,18 +92,18 @@ pub unsafe extern "C" fn swiftprox_scene_least_distance(
     unsafe {
         ask(scene, set, scratch, answer, LeastDistance::default(), |scene, set, scratch| {
             let against = against.as_ref().map(|against| read_set(against)).transpose()?;
-            Ok(scene.least_distance(&set, against.as_ref(), cut_off, scratch)?)
+            Ok(scene.least_distance(&set, against.as_ref(), max_distance, scratch)?)
         })
     }
 }
 
-/// Finds a time at which a set of objects is within margin of any other object, or of one another if set->among is not 0. poses
-/// holds 12 doubles per object for the first time, then for the second, and so on. set->poses and poses of untried times are not
-/// read. Only pairs that queries test count, but both objects may be fixed. Threads and scratch: as for
+/// Finds a time at which a set of objects is within max_distance of any other object, or of one another if set->among is not 0.
+/// poses holds 12 doubles per object for the first time, then for the second, and so on. set->poses and poses of untried times are
+/// not read. Only pairs that queries test count, but both objects may be fixed. Threads and scratch: as for
 /// swiftprox_scene_least_distance.
 ///
-/// On failure time and tried are 0, the pair's ids null. SWIFTPROX_ERROR_INVALID_ARGUMENT: an empty set, an unknown order, or a
-/// margin that is negative, infinite or NaN.
+/// On failure time and tried are 0, the pair's ids null. SWIFTPROX_ERROR_INVALID_ARGUMENT: an empty set, an unknown order, or
+/// max_distance is negative, infinite or NaN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_first_hit(
     scene: *const SceneHandle,
@@ -111,7 +111,7 @@ pub unsafe extern "C" fn swiftprox_scene_first_hit(
     poses: *const f64,
     time_count: usize,
     order: PoseOrderNumber,
-    margin: f64,
+    max_distance: f64,
     scratch: *mut SetScratch,
     answer: *mut FirstHit,
 ) -> StatusCode {
@@ -120,7 +120,7 @@ pub unsafe extern "C" fn swiftprox_scene_first_hit(
         ask(scene, set, scratch, answer, FirstHit::default(), |scene, set, scratch| {
             let order = read_enumerator(order, "order", "swiftprox_pose_order")?;
             let poses = array(poses.cast::<Pose>(), time_count.saturating_mul(set.ids.len()), "poses")?;
-            Ok(scene.first_hit(&set, poses, order, margin, scratch)?)
+            Ok(scene.first_hit(&set, poses, order, max_distance, scratch)?)
         })
     }
 }
@@ -153,10 +153,10 @@ pub unsafe extern "C" fn swiftprox_scene_cast_ray(
     })
 }
 
-/// Tests whether moving objects stay farther than config->margin from all others, which rest. If not, it finds the first time. The
-/// answer is guaranteed for all times of the range, as in swiftprox_pair_cast. One motion moves the whole set as one body;
-/// set->count motions move one object each. Pieces with their own poses move with their object. set->among not 0 adds pairs within
-/// the set; set->poses is not read.
+/// Tests whether moving objects stay farther than config->max_distance from all others, which rest. If not, it finds the first
+/// time. The answer is guaranteed for all times of the range, as in swiftprox_pair_cast. One motion moves the whole set as one
+/// body; set->count motions move one object each. Pieces with their own poses move with their object. set->among not 0 adds pairs
+/// within the set; set->poses is not read.
 ///
 /// Only pairs that queries test count, but both objects may be fixed. config->step_budget applies per pair; null config means the
 /// defaults. Threads and scratch: as for swiftprox_scene_least_distance. On failure the outcome is SWIFTPROX_CAST_OUTCOME_NONE.
@@ -183,7 +183,7 @@ pub unsafe extern "C" fn swiftprox_scene_cast(
 }
 
 /// Runs swiftprox_scene_cast for many edges; answers has room for edge_count. motions holds, edge after edge, either one motion per
-/// edge or one per object of the set. An edge is free up to its answer's t_lo.
+/// edge or one per object of the set. An edge is free up to its answer's time_lower.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is neither edge_count nor edge_count times set->count. Else same errors as
 /// swiftprox_scene_cast. The message names the edge; its answer and all later ones are reset.

@@ -22,7 +22,7 @@ pub struct CPairConfig {
     /// Set by SWIFTPROX_PAIR_CONFIG_DEFAULT.
     pub struct_size: usize,
     /// Pairs farther apart than this get SWIFTPROX_OUTCOME_BEYOND. From 0 to infinity (the default: never).
-    pub distance_tolerance: f64,
+    pub max_distance: f64,
     /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
     /// For swiftprox_pair_approximate: allowed upper - lower, from 0 to infinity. Default: 0. Other queries ignore this and the two
@@ -48,7 +48,7 @@ impl CPairConfig {
     /// What the header calls its default.
     pub const DEFAULT: CPairConfig = CPairConfig {
         struct_size: size_of::<CPairConfig>(),
-        distance_tolerance: f64::INFINITY,
+        max_distance: f64::INFINITY,
         rotation_limit: ROTATION_LIMIT,
         absolute_error: 0.0,
         relative_error: 0.0,
@@ -84,7 +84,7 @@ const _: () = {
 
 /// Computes the distance of two objects: a rigorous interval, witness points, normal and features. For intersecting pairs the
 /// distance is 0 and the answer holds the proof; points, normal and features are unset (see swiftprox_pair_contact). Pairs beyond
-/// config->distance_tolerance get less, see SWIFTPROX_OUTCOME_BEYOND. Unset numbers are NaN, unset features
+/// config->max_distance get less, see SWIFTPROX_OUTCOME_BEYOND. Unset numbers are NaN, unset features
 /// SWIFTPROX_FEATURE_KIND_NONE.
 ///
 /// Keep one `cache` per pair, zeroed at first, and pass the objects in the same order. On failure the answer is reset and its
@@ -104,7 +104,7 @@ pub unsafe extern "C" fn swiftprox_pair_distance(
 }
 
 /// Decides only whether two objects intersect. The outcome is SWIFTPROX_OUTCOME_INTERSECTING, SWIFTPROX_OUTCOME_SEPARATED with
-/// lower > 0 and an upper that may be loose, or, with a finite config->distance_tolerance, SWIFTPROX_OUTCOME_BEYOND. It is faster
+/// lower > 0 and an upper that may be loose, or, with a finite config->max_distance, SWIFTPROX_OUTCOME_BEYOND. It is faster
 /// than the distance for bodies that intersect or nearly do. Same arguments and errors as swiftprox_pair_distance.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_intersection(
@@ -260,7 +260,7 @@ pub(super) unsafe fn read_config(config: *const CPairConfig) -> Checked<PairConf
     // SAFETY: by the caller.
     let PairTuning { start, levels, refinement } = unsafe { read_pair_tuning(config.tuning) }?;
     Ok(PairConfig {
-        distance_tolerance: config.distance_tolerance,
+        max_distance: config.max_distance,
         rotation_limit: config.rotation_limit,
         start,
         absolute_error: config.absolute_error,

@@ -14,8 +14,8 @@ use crate::scene::{
     Contact, ContactDetail, PairResult, Scene, SceneAnswer, SceneContacts, SceneQuery, SceneStatistics,
 };
 
-/// Default of swiftprox_scene_query.distance_tolerance: 0 for swiftprox_scene_query_contact, infinity for all other queries.
-pub const DEFAULT_TOLERANCE: f64 = -1.0;
+/// Default of swiftprox_scene_query.max_distance: 0 for swiftprox_scene_query_contact, infinity for all other queries.
+pub const DEFAULT_MAX_DISTANCE: f64 = -1.0;
 
 /// Options of a query over a scene. Initialise with SWIFTPROX_SCENE_QUERY_DEFAULT.
 #[derive(Debug, Clone, Copy)]
@@ -24,9 +24,9 @@ pub struct CSceneQuery {
     /// Set by SWIFTPROX_SCENE_QUERY_DEFAULT.
     pub struct_size: usize,
     /// Pairs whose true distance is at most this are listed, from 0 to infinity (all pairs). Intersecting pairs, and pairs that
-    /// a step budget leaves undecided, are always listed. Default: SWIFTPROX_DEFAULT_TOLERANCE, which is 0 for contacts, else
+    /// a step budget leaves undecided, are always listed. Default: SWIFTPROX_DEFAULT_MAX_DISTANCE, which is 0 for contacts, else
     /// infinity. swiftprox_scene_query_intersection only checks its range.
-    pub distance_tolerance: f64,
+    pub max_distance: f64,
     /// swiftprox_scene_query_approximate: upper - lower of a pair may be at most the larger of this ... Default: 0.
     pub absolute_error: f64,
     /// ... and this times lower. Default: 0. If both are 0, intervals are as narrow as exact answers.
@@ -60,7 +60,7 @@ impl CSceneQuery {
     /// What the header calls its default.
     pub const DEFAULT: CSceneQuery = CSceneQuery {
         struct_size: size_of::<CSceneQuery>(),
-        distance_tolerance: DEFAULT_TOLERANCE,
+        max_distance: DEFAULT_MAX_DISTANCE,
         absolute_error: 0.0,
         relative_error: 0.0,
         error_budget: f64::INFINITY,
@@ -119,7 +119,7 @@ pub unsafe extern "C" fn swiftprox_scene_query_intersection(
     unsafe { ask(|scene, query| Ok(scene.query_intersection(query)?), f64::INFINITY, scene, query, answer) }
 }
 
-/// Lists the pairs within the distance tolerance, intersecting ones included, with answers as from swiftprox_pair_distance.
+/// Lists the pairs within query->max_distance, intersecting ones included, with answers as from swiftprox_pair_distance.
 /// Separated pairs have distance, lower, upper, points in all frames, normal and features. Intersecting pairs have the proof; for
 /// them distance, lower and upper are 0. Same errors as swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
@@ -145,7 +145,7 @@ pub unsafe extern "C" fn swiftprox_scene_query_approximate(
     unsafe { ask(|scene, query| Ok(scene.query_approximate(query)?), f64::INFINITY, scene, query, answer) }
 }
 
-/// Like swiftprox_scene_query_distance, with answers as from swiftprox_pair_contact. The tolerance defaults to 0, so only touching
+/// Like swiftprox_scene_query_distance, with answers as from swiftprox_pair_contact. max_distance defaults to 0, so only touching
 /// or intersecting pairs are listed.
 ///
 /// With a query->detail the answers are those of swiftprox_scene_query_distance. swiftprox_scene_get_contacts then returns depths
@@ -268,23 +268,23 @@ pub unsafe extern "C" fn swiftprox_scene_reset_statistics(scene: *mut SceneHandl
 /// The pointers meet the header's pointer rules.
 pub(super) unsafe fn ask(
     run: impl for<'a> FnOnce(&'a mut Scene, &SceneQuery) -> Checked<SceneAnswer<'a>>,
-    tolerance: f64,
+    by_default: f64,
     scene: *mut SceneHandle,
     query: *const CSceneQuery,
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
     // SAFETY: by the caller.
-    unsafe { ask_masked(|scene, query, _| run(scene, query), tolerance, scene, query, answer) }
+    unsafe { ask_masked(|scene, query, _| run(scene, query), by_default, scene, query, answer) }
 }
 
-/// Runs a query and shows its results where the scene has them. `tolerance` is the query's own default.
+/// Runs a query and shows its results where the scene has them. `by_default` is the query's own default.
 /// The groups of the query are handed over beside it.
 ///
 /// # Safety
 /// The pointers meet the header's pointer rules.
 pub(super) unsafe fn ask_masked(
     run: impl for<'a> FnOnce(&'a mut Scene, &SceneQuery, u32) -> Checked<SceneAnswer<'a>>,
-    tolerance: f64,
+    by_default: f64,
     scene: *mut SceneHandle,
     query: *const CSceneQuery,
     answer: *mut CSceneAnswer,
@@ -297,11 +297,11 @@ pub(super) unsafe fn ask_masked(
             let (mut older, defaults) = (MaybeUninit::uninit(), CSceneQuery::DEFAULT);
             let query = if query.is_null() { &defaults } else { view_struct(query, &defaults, &mut older)? };
             let PairTuning { start, levels, refinement } = read_pair_tuning(query.tuning)?;
-            let is_default = query.distance_tolerance == DEFAULT_TOLERANCE;
+            let is_default = query.max_distance == DEFAULT_MAX_DISTANCE;
             let mask = if query.mask == 0 { u32::MAX } else { query.mask };
             let query = SceneQuery {
                 early_exit: query.early_exit != 0,
-                distance_tolerance: if is_default { tolerance } else { query.distance_tolerance },
+                max_distance: if is_default { by_default } else { query.max_distance },
                 absolute_error: query.absolute_error,
                 relative_error: query.relative_error,
                 error_budget: query.error_budget,
@@ -310,8 +310,6 @@ pub(super) unsafe fn ask_masked(
                 refinement,
                 start,
                 detail: read_enumerator(query.detail, "query->detail", "swiftprox_contact_detail")?,
-                // All listed pairs have manifolds: the distance alone limits them.
-                margin: f64::INFINITY,
             };
             let said = CSceneAnswer::new(&run(scene, &query, mask)?);
             answer.write(said);

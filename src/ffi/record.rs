@@ -7,7 +7,7 @@ use super::enumerators::QueryNumber;
 use super::failure::{Checked, StatusCode};
 use super::guard::{guard, keep_panics_quiet};
 use super::pointers::{exclusive, input, output};
-use super::query::{CSceneAnswer, DEFAULT_TOLERANCE};
+use super::query::{CSceneAnswer, DEFAULT_MAX_DISTANCE};
 use super::scene::{CSceneOptions, SceneHandle, change, look, new_scene, swiftprox_scene_destroy};
 use super::structs::{Versioned, read_struct, write_struct};
 use crate::pair::Query;
@@ -182,8 +182,8 @@ pub unsafe extern "C" fn swiftprox_replay_change(replay: *mut ReplayHandle) -> S
 /// for queries with a step budget, which are not checked.
 ///
 /// The answer is as from the query itself; queries of events list near pairs of pieces. `*identical` is 1 if distances, intervals,
-/// points, normals and depths have the recorded bits, else 0; `identical` may be null. A `distance_tolerance` other than
-/// SWIFTPROX_DEFAULT_TOLERANCE replaces the recorded one, and the answer is not checked.
+/// points, normals and depths have the recorded bits, else 0; `identical` may be null. A `max_distance` other than
+/// SWIFTPROX_DEFAULT_MAX_DISTANCE replaces the recorded one, and the answer is not checked.
 ///
 /// SWIFTPROX_ERROR_UNVERIFIED: the answer differs; the message says where. It is still returned; after other errors it is empty.
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no query, the step was not applied, or the query is out of range. The last query of
@@ -192,7 +192,7 @@ pub unsafe extern "C" fn swiftprox_replay_change(replay: *mut ReplayHandle) -> S
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_replay_ask(
     replay: *mut ReplayHandle,
-    distance_tolerance: f64,
+    max_distance: f64,
     answer: *mut CSceneAnswer,
     identical: *mut i32,
 ) -> StatusCode {
@@ -209,7 +209,7 @@ pub unsafe extern "C" fn swiftprox_replay_ask(
     // SAFETY: the header's pointer rules; `answer` was written before.
     unsafe {
         with_replay(replay, |replay, scene| {
-            let tolerance = (distance_tolerance != DEFAULT_TOLERANCE).then_some(distance_tolerance);
+            let tolerance = (max_distance != DEFAULT_MAX_DISTANCE).then_some(max_distance);
             let said = replay.ask(scene, tolerance)?;
             answer.write(CSceneAnswer::new(&said.answer));
             if let Some(identical) = identical.as_mut() {

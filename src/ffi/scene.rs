@@ -105,7 +105,7 @@ pub struct CSceneOptions {
     /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
     /// Number of threads for a query, or for poses that are set together, including the caller's. It changes no bit of any
-    /// answer. Some work uses the caller's thread only: queries that stop early, queries without a tolerance over many objects,
+    /// answer. Some work uses the caller's thread only: queries that stop early, queries without a max_distance over many objects,
     /// and few pairs or objects. Numbers above 256 mean 256. Default: 0, which means 1.
     pub worker_count: u32,
     /// Starts work on the program's own threads. Default: null, and finish_task too: the scene then has threads of its own,
@@ -178,7 +178,7 @@ pub unsafe extern "C" fn swiftprox_scene_destroy(scene: *mut SceneHandle) -> Sta
     })
 }
 
-/// Sets for how many pairs of pieces a scene keeps caches. Queries without a tolerance test all pairs. Up to `limit` pairs, each
+/// Sets for how many pairs of pieces a scene keeps caches. Queries without a max_distance test all pairs. Up to `limit` pairs, each
 /// keeps its last answer, in about 150 bytes if there is memory. The next answer is then several times faster. Beyond `limit` only
 /// near pairs keep theirs, as with 0. Results and their order stay the same. Default: 1048576 pairs, about 150 MB, from 1448 single
 /// pieces.

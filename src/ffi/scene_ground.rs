@@ -30,9 +30,9 @@ impl CSceneGroundAnswer {
         CSceneGroundAnswer { contacts: std::ptr::null(), contact_count: 0, points: std::ptr::null(), point_count: 0 };
 }
 
-/// Finds the contacts of objects of a scene with a ground (grounds belong to no scene), up to config->margin apart. Contacts of
-/// each piece are as from swiftprox_pair_ground_contacts. Null set: all objects, in order of creation. Fixed objects are skipped,
-/// unless set->poses gives their poses; set->among is not read.
+/// Finds the contacts of objects of a scene with a ground (grounds belong to no scene), up to config->max_distance apart. Contacts
+/// of each piece are as from swiftprox_pair_ground_contacts. Null set: all objects, in order of creation. Fixed objects are
+/// skipped, unless set->poses gives their poses; set->among is not read.
 ///
 /// An object is tested if its groups have a bit of filter->mask, and its mask a bit of filter->groups. A null filter means group 1
 /// and a full mask. Activation and the scene's pair filter do not apply. config->rotation_limit is for the ground's pose.
@@ -60,7 +60,7 @@ pub unsafe extern "C" fn swiftprox_scene_ground_contacts(
     }
 }
 
-/// Like swiftprox_scene_ground_contacts for a half-space: one contact for each piece within the margin, as from
+/// Like swiftprox_scene_ground_contacts for a half-space: one contact for each piece within max_distance, as from
 /// swiftprox_pair_half_space_manifold. Its triangle is UINT32_MAX. Same errors as swiftprox_scene_ground_contacts and
 /// swiftprox_pair_half_space_distance.
 #[unsafe(no_mangle)]

@@ -6,7 +6,7 @@ use super::answer::GroundContacts;
 use super::corner::{Behind, behind_face};
 use super::grouping::{group, least_gap};
 use super::inside::{nearest_point, triangle_over};
-use super::lowest::{Lowest, Margin};
+use super::lowest::{Limit, Lowest};
 use super::normals::TILT;
 use super::reach::Reach;
 use super::room::{Room, Touch};
@@ -21,8 +21,8 @@ use crate::pair::{
 };
 use crate::shape::{Triangle, TriangleShape};
 
-/// Finds the contacts of a body, which is object 1, with a ground that it meets or is up to `config.margin` apart from. Writes
-/// them over the contents of `found`.
+/// Finds the contacts of a body, which is object 1, with a ground that it meets or is up to `config.max_distance` apart from.
+/// Writes them over the contents of `found`.
 ///
 /// The ground pushes out of the front of its triangles. A triangle acts on bodies whose centre of mass is not behind its plane, or
 /// not by more than the [thickness](crate::ground::Ground::with_thickness) of the ground.
@@ -69,7 +69,7 @@ pub(crate) fn add_contacts(
         let reach = Reach::new(body, ground)?;
         let bounds = reach.bounds;
         let within = PairConfig {
-            distance_tolerance: config.margin,
+            max_distance: config.max_distance,
             rotation_limit: config.rotation_limit,
             ..PairConfig::default()
         };
@@ -111,7 +111,7 @@ struct Meeting<'a> {
 
 impl Visit for Meeting<'_> {
     fn goes_to(&mut self, _: &Bounds, gap: f64) -> bool {
-        gap * self.reach.stretch <= self.all.margin
+        gap * self.reach.stretch <= self.all.max_distance
     }
 
     fn triangle(&mut self, triangle: u32) -> Result<bool> {
@@ -140,7 +140,7 @@ impl Visit for Meeting<'_> {
         let is_met = found.outcome == Outcome::Intersecting;
         // What is apart, but behind the triangle along all of its normals by more than rounding, is before another one.
         let rounding = TILT * self.body.shape.polyhedron().radius;
-        if !(is_met || gap > -rounding) || gap > self.all.margin {
+        if !(is_met || gap > -rounding) || gap > self.all.max_distance {
             return Ok(true);
         }
         let (mut contact, mut is_over) = search.contact(&best, &found);
@@ -158,7 +158,7 @@ impl Visit for Meeting<'_> {
 
 /// What is known of a body and a triangle.
 enum Found {
-    /// They are farther apart than the margin.
+    /// They are farther apart than `max_distance`.
     Beyond,
     Nearest(SignedDistance),
     /// They have points in common; how deep they are is open.
@@ -170,22 +170,22 @@ impl Meeting<'_> {
         self.goes_to(bounds, bounds.gap(&self.reach.bounds))
     }
 
-    /// How near the body is to a triangle, which is shown unless that is beyond the margin.
+    /// How near the body is to a triangle, which is shown unless that is beyond `max_distance`.
     fn nearest(&mut self, own: &Triangle) -> Result<Found> {
         let up = self.reach.world_normal(&own.normal);
         let lowest = Lowest::new(self.body, self.ground, own, &up, self.lowest);
         self.lowest = lowest.vertex;
-        let margin = Margin { radius: self.body.shape.swept_radius(), margin: self.all.margin };
-        if margin.is_beyond(lowest.lower) {
+        let limit = Limit { radius: self.body.shape.swept_radius(), max_distance: self.all.max_distance };
+        if limit.is_beyond(lowest.lower) {
             return Ok(Found::Beyond);
         }
         let is_meeting = lowest.is_through(self.body, own, self.reach);
-        let mut contact = if is_meeting { None } else { lowest.contact(self.body, own, self.reach, margin) };
+        let mut contact = if is_meeting { None } else { lowest.contact(self.body, own, self.reach, limit) };
         if contact.is_none() && !is_meeting {
-            contact = match behind_face(self.body, self.ground, own, &lowest, margin) {
+            contact = match behind_face(self.body, self.ground, own, &lowest, limit) {
                 Behind::Beyond => return Ok(Found::Beyond),
                 Behind::Nearest(contact) => Some(contact),
-                Behind::Open if self.is_aside(own, margin) => return Ok(Found::Beyond),
+                Behind::Open if self.is_aside(own, limit) => return Ok(Found::Beyond),
                 Behind::Open => None,
             };
         }
@@ -197,7 +197,7 @@ impl Meeting<'_> {
             return Ok(Found::Nearest(contact));
         }
         // That takes longer than all before.
-        if margin.radius == 0.0 {
+        if limit.radius == 0.0 {
             let bodies = [self.body, self.shape.complete().at(self.ground.pose)];
             let mut answer = PairAnswer::default();
             pair::distance(bodies, &mut PairCache::default(), &self.within, &mut answer)?;
@@ -211,8 +211,9 @@ impl Meeting<'_> {
         Ok(if contact.outcome == Outcome::Beyond { Found::Beyond } else { Found::Nearest(contact) })
     }
 
-    /// Whether the body is beyond the margin along the way from the triangle to its centre, or to the vertex that is lowest there.
-    fn is_aside(&self, own: &Triangle, margin: Margin) -> bool {
+    /// Whether the body is beyond `max_distance` along the way from the triangle to its centre, or to the vertex that is lowest
+    /// there.
+    fn is_aside(&self, own: &Triangle, limit: Limit) -> bool {
         let (mut point, mut vertex) = (self.reach.centre, self.lowest);
         (0..2).any(|_| {
             let way = point - nearest_point(&own.corners, &point).0;
@@ -223,7 +224,7 @@ impl Meeting<'_> {
             }
             let lowest = Lowest::new(self.body, self.ground, own, &(up / length), vertex);
             (point, vertex) = (self.reach.point(&lowest.world), lowest.vertex);
-            margin.is_beyond(lowest.lower)
+            limit.is_beyond(lowest.lower)
         })
     }
 
@@ -345,7 +346,7 @@ mod tests {
             std::array::from_fn(|k| Vector::new(k as f64 % 2.0, (k / 2) as f64 % 2.0, (k / 4) as f64));
         let cube = Shape::from_points(&corners, &ShapeOptions::default()).unwrap();
         let mut shape = TriangleShape::new().unwrap();
-        let (config, mut most) = (ManifoldConfig { margin: 1.0, ..ManifoldConfig::default() }, 0);
+        let (config, mut most) = (ManifoldConfig { max_distance: 1.0, ..ManifoldConfig::default() }, 0);
         for _ in 0..300 {
             let corners: [Vector; 3] = std::array::from_fn(|_| random.vector() * 2.0);
             let normal = (corners[1] - corners[0]).cross(&(corners[2] - corners[0])).normalize();

@@ -2,7 +2,7 @@
 //! triangles that are out of reach; where all other faces are farther from the corner, it is the nearest point, or the deepest.
 
 use super::PlacedGround;
-use super::lowest::{Lowest, Margin, local_point};
+use super::lowest::{Limit, Lowest, local_point};
 use super::tree::Bounds;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::pair::{Feature, FeatureKind, Placed, SignedDistance, label};
@@ -15,7 +15,7 @@ const RIGID: f64 = 16.0 * U;
 
 /// The verdict of a face of the body on a triangle.
 pub(super) enum Behind {
-    /// The triangle is farther from the body than the margin.
+    /// The triangle is farther from the body than `max_distance`.
     Beyond,
     Nearest(SignedDistance),
     Open,
@@ -33,7 +33,7 @@ pub(super) fn behind_face(
     ground: PlacedGround,
     triangle: &Triangle,
     lowest: &Lowest,
-    margin: Margin,
+    limit: Limit,
 ) -> Behind {
     let (polyhedron, pose) = (body.shape.polyhedron(), body.pose);
     if pose.rotation_defect() > RIGID {
@@ -43,7 +43,7 @@ pub(super) fn behind_face(
     let error = 2.0 * lowest.error;
     let world = triangle.corners.map(|corner| ground.pose.transform(&corner));
     let corners = world.map(|corner| pose.rotate_back(&(corner - pose.translation())) - polyhedron.centre);
-    if margin.is_beyond(gap_of_own_box(body, &Bounds::of(&corners)) - error) {
+    if limit.is_beyond(gap_of_own_box(body, &Bounds::of(&corners)) - error) {
         return Behind::Beyond;
     }
     if polyhedron.dimension < 3 || body.shape.extent().inner_radius <= 0.0 {
@@ -56,7 +56,7 @@ pub(super) fn behind_face(
     let heights = corners.map(|corner| plane.planes.value(0, &corner));
     let least = (1..3).fold(0, |least, k| if heights[k] < heights[least] { k } else { least });
     let lower = heights[least] - plane.slack - error;
-    if margin.is_beyond(lower) {
+    if limit.is_beyond(lower) {
         return Behind::Beyond;
     }
     let is_deep = heights[least] + plane.slack + error < 0.0;
@@ -72,7 +72,7 @@ pub(super) fn behind_face(
     }
     // The sum with +0 turns −0 into 0.
     let normal = (-pose.rotate(&plane.normal)).add_scalar(0.0);
-    let Some(distance) = margin.distance([lower, upper], heights[least]) else { return Behind::Open };
+    let Some(distance) = limit.distance([lower, upper], heights[least]) else { return Behind::Open };
     let world1 = world[least] + normal * distance.distance;
     Behind::Nearest(SignedDistance {
         local1: local_point(pose, &world1).into(),

@@ -42,7 +42,7 @@ pub fn ground_distance(
         config.check(query)?;
         body.pose.check(config.rotation_limit)?;
         ground.pose.check(config.rotation_limit)?;
-        let is_verdict = query == Query::Intersection && config.distance_tolerance == f64::INFINITY;
+        let is_verdict = query == Query::Intersection && config.max_distance == f64::INFINITY;
         let count = ground.ground.triangle_count() as u32;
         let reach = Reach::new(body, ground)?;
         let bounds = reach.bounds;
@@ -55,7 +55,7 @@ pub fn ground_distance(
             scratch: TriangleShape::new()?,
             nearest: GroundDistance { answer: unsaid, triangle: count },
             lower: f64::INFINITY,
-            enough: if is_verdict { 0.0 } else { config.distance_tolerance },
+            enough: if is_verdict { 0.0 } else { config.max_distance },
             is_verdict,
             reach,
         };
@@ -106,7 +106,7 @@ impl Visit for Least<'_> {
         let shape = self.scratch.of(&own);
         let bodies = [self.body, shape.at(self.ground.pose)];
         if !self.is_verdict {
-            self.config.distance_tolerance = self.enough;
+            self.config.max_distance = self.enough;
         }
         (self.ask)(bodies, &mut PairCache::default(), &self.config, &mut answer)?;
         self.lower = self.lower.min(answer.lower);

@@ -48,14 +48,14 @@ impl Lowest {
 
     /// The signed distance of body and triangle where it is certain that the vertex is nearest: it is over the triangle, and the
     /// polyhedron above it.
-    pub fn contact(&self, body: Placed, triangle: &Triangle, reach: &Reach, margin: Margin) -> Option<SignedDistance> {
+    pub fn contact(&self, body: Placed, triangle: &Triangle, reach: &Reach, limit: Limit) -> Option<SignedDistance> {
         let foot = self.world - self.up * self.height;
         let local2 = reach.point(&foot);
         if !(self.lower > 0.0 && is_inside(triangle, &local2, 4.0 * self.error)) {
             return None;
         }
-        let distance = margin.distance([self.lower, self.height + self.error], self.height)?;
-        let lowest = self.world - self.up * margin.radius;
+        let distance = limit.distance([self.lower, self.height + self.error], self.height)?;
+        let lowest = self.world - self.up * limit.radius;
         let label = body.shape.polyhedron().vertex_labels[self.vertex as usize];
         Some(SignedDistance {
             local1: local_point(body.pose, &lowest).into(),
@@ -86,23 +86,23 @@ impl Lowest {
 
 /// How near a body has to be that has a swept radius.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Margin {
+pub(super) struct Limit {
     pub radius: f64,
-    pub margin: f64,
+    pub max_distance: f64,
 }
 
-impl Margin {
-    /// Whether a polyhedron that is at least so far away belongs to a body beyond the margin.
+impl Limit {
+    /// Whether a polyhedron that is at least so far away belongs to a body beyond `max_distance`.
     pub fn is_beyond(&self, lower: f64) -> bool {
-        Radii::of_one(self.radius).off([lower, lower])[0] > self.margin
+        Radii::of_one(self.radius).off([lower, lower])[0] > self.max_distance
     }
 
     /// Outcome, interval and estimate of the body for those of its polyhedron, without points; `None` where rounding hides which
-    /// sign the distance has, or whether it is more than the margin.
+    /// sign the distance has, or whether it is more than `max_distance`.
     pub fn distance(&self, of_polyhedron: [f64; 2], estimate: f64) -> Option<SignedDistance> {
         let [lower, upper] = Radii::of_one(self.radius).off(of_polyhedron);
         let is_open = |limit: f64| lower <= limit && upper > limit;
-        if is_open(0.0) || is_open(self.margin) {
+        if is_open(0.0) || is_open(self.max_distance) {
             return None;
         }
         let outcome = if lower > 0.0 { Outcome::Separated } else { Outcome::Intersecting };

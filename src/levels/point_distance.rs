@@ -98,7 +98,7 @@ impl<'a> PointDistance<'a> {
         let in_range = (SMALLEST..=LARGEST).contains(&self.polyhedron.radius) && point.amax() <= LARGEST;
         let hint = corners.map(|v| [0, v]);
         let poses = [&pose, &Pose::IDENTITY];
-        let wanted = Wanted { tight: true, distance_tolerance: f64::INFINITY };
+        let wanted = Wanted { tight: true, max_distance: f64::INFINITY };
         let (pairs, found, upper) =
             match decide::decide([&self.probe, self.polyhedron], poses, in_range, &hint, wanted).0 {
                 Decision::Intersecting { pairs, .. } => (pairs, *point, 0.0),

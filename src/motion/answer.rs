@@ -9,15 +9,16 @@ pub enum CastOutcome {
     /// Nothing is said yet: the value of a fresh answer.
     #[default]
     None = 0,
-    /// Farther apart than the margin at every time of the range.
+    /// Farther apart than `max_distance` at every time of the range.
     Free = 1,
-    /// Farther apart than the margin at every time before `t_lo` and at it, no farther than the margin at `t_hi`. Both are the
-    /// beginning where that is no farther. `t_hi` − `t_lo` is at most the time tolerance wherever contact can be proved so soon.
+    /// Farther apart than `max_distance` at every time before `time_lower` and at it, no farther than `max_distance` at
+    /// `time_upper`. Both are the beginning where that is no farther. `time_upper` − `time_lower` is at most the time tolerance
+    /// wherever contact can be proved so soon.
     Hit = 2,
-    /// Farther apart than the margin up to `t_lo`, and hardly farther there: the objects graze, and rounding hides whether they
-    /// meet.
+    /// Farther apart than `max_distance` up to `time_lower`, and hardly farther there: the objects graze, and rounding hides
+    /// whether they meet.
     Near = 3,
-    /// The step budget ran out: farther apart than the margin up to `t_lo`, and nothing is said of what follows.
+    /// The step budget ran out: farther apart than `max_distance` up to `time_lower`, and nothing is said of what follows.
     Budget = 4,
 }
 
@@ -29,16 +30,16 @@ pub struct CastAnswer {
     pub outcome: CastOutcome,
     /// Certified queries made.
     pub queries: u32,
-    /// The objects are farther apart than the margin from the beginning up to here; the end of the range if they are free.
-    pub t_lo: f64,
-    /// Where they are no farther apart than the margin. Only of a hit.
-    pub t_hi: f64,
+    /// The objects are farther apart than `max_distance` from the beginning up to here; the end of the range if they are free.
+    pub time_lower: f64,
+    /// Where they are no farther apart than `max_distance`. Only of a hit.
+    pub time_upper: f64,
     /// Their distance is at least this at every time of the range. Only of objects that are free.
     pub clearance: f64,
-    /// Of a hit their distance at `t_hi` is at most this, 0 where they intersect; of a near miss that at `t_lo`.
+    /// Of a hit their distance at `time_upper` is at most this, 0 where they intersect; of a near miss that at `time_lower`.
     pub upper: f64,
-    /// Of a hit the contact at `t_hi`, of a near miss the distance at `t_lo`, with witness points, normal and features: for the
-    /// poses there as rounded.
+    /// Of a hit the contact at `time_upper`, of a near miss the distance at `time_lower`, with witness points, normal and features:
+    /// for the poses there as rounded.
     pub contact: PairAnswer,
 }
 
@@ -47,8 +48,8 @@ impl Default for CastAnswer {
         CastAnswer {
             outcome: CastOutcome::None,
             queries: 0,
-            t_lo: f64::NAN,
-            t_hi: f64::NAN,
+            time_lower: f64::NAN,
+            time_upper: f64::NAN,
             clearance: f64::NAN,
             upper: f64::NAN,
             contact: PairAnswer::default(),

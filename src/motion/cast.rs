@@ -9,8 +9,8 @@ use crate::base::error::Result;
 use crate::base::simd::environment::with_default;
 use crate::pair::PairCache;
 
-/// Whether two moving objects stay farther apart than a margin, or when they first do not. Certain for the motions exactly as they
-/// are described: rounding of poses and times is accounted for.
+/// Whether two moving objects stay farther apart than `max_distance`, or when they first do not. Certain for the motions exactly as
+/// they are described: rounding of poses and times is accounted for.
 ///
 /// The cache is one of [`crate::pair`]; it changes how long the cast takes, and where between two proofs a time lies, never what
 /// holds.
@@ -44,19 +44,19 @@ pub(crate) fn cast_carried(
 }
 
 fn run(pair: &MovingPair, sweep: &mut Sweep, config: &CastConfig) -> Result<CastAnswer> {
-    let wanted = Wanted { margin: config.margin, with_slack: true, shortest: config.time_tolerance };
-    let mut here = pair.at(config.t_begin)?;
+    let wanted = Wanted { max_distance: config.max_distance, with_slack: true, shortest: config.time_tolerance };
+    let mut here = pair.at(config.time_begin)?;
     let mut clearance = f64::INFINITY;
     loop {
         let near = sweep.distance(&here)?;
-        match sweep.on(&here, &near, config.t_end, &wanted)? {
+        match sweep.on(&here, &near, config.time_end, &wanted)? {
             Ahead::Free(step) => {
                 clearance = clearance.min(clearance_of(&step));
                 here = step.ends[1];
             }
             Ahead::Contact(there, contact) => {
-                let upper = if config.margin == 0.0 { 0.0 } else { upper_bound(&contact, &there) };
-                let hit = CastAnswer { t_hi: there.time, upper, contact, ..CastAnswer::default() };
+                let upper = if config.max_distance == 0.0 { 0.0 } else { upper_bound(&contact, &there) };
+                let hit = CastAnswer { time_upper: there.time, upper, contact, ..CastAnswer::default() };
                 return Ok(said(CastOutcome::Hit, &here, sweep, hit));
             }
             Ahead::Open => {
@@ -64,8 +64,8 @@ fn run(pair: &MovingPair, sweep: &mut Sweep, config: &CastConfig) -> Result<Cast
                 return Ok(said(CastOutcome::Near, &here, sweep, near_miss));
             }
         }
-        if here.time >= config.t_end {
-            let free = CastAnswer { clearance: clearance.max(config.margin), ..CastAnswer::default() };
+        if here.time >= config.time_end {
+            let free = CastAnswer { clearance: clearance.max(config.max_distance), ..CastAnswer::default() };
             return Ok(said(CastOutcome::Free, &here, sweep, free));
         }
         if sweep.queries >= config.step_budget {
@@ -75,7 +75,7 @@ fn run(pair: &MovingPair, sweep: &mut Sweep, config: &CastConfig) -> Result<Cast
 }
 
 fn said(outcome: CastOutcome, here: &Moment, sweep: &Sweep, rest: CastAnswer) -> CastAnswer {
-    CastAnswer { outcome, t_lo: here.time, queries: sweep.queries, ..rest }
+    CastAnswer { outcome, time_lower: here.time, queries: sweep.queries, ..rest }
 }
 
 /// Less than the sweep has proved, so that another proof need not find the very axis.

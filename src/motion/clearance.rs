@@ -12,9 +12,9 @@ use crate::pair::{Outcome, PairCache, check_accuracy};
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ClearanceConfig {
     /// The start of the range of times; by default 0.
-    pub t_begin: f64,
+    pub time_begin: f64,
     /// The end of the range, not before it begins; by default 1.
-    pub t_end: f64,
+    pub time_end: f64,
     /// `upper` − `lower` may be as large as this …
     pub absolute_error: f64,
     /// … or as this times `lower`; by default 0.01. Both 0: as narrow as can be proved.
@@ -25,7 +25,13 @@ pub struct ClearanceConfig {
 
 impl Default for ClearanceConfig {
     fn default() -> Self {
-        ClearanceConfig { t_begin: 0.0, t_end: 1.0, absolute_error: 0.0, relative_error: 0.01, step_budget: 100_000 }
+        ClearanceConfig {
+            time_begin: 0.0,
+            time_end: 1.0,
+            absolute_error: 0.0,
+            relative_error: 0.01,
+            step_budget: 100_000,
+        }
     }
 }
 
@@ -61,7 +67,7 @@ pub fn clearance(
     answer: &mut Clearance,
 ) -> Result<()> {
     with_default(|| {
-        let range = [config.t_begin, config.t_end];
+        let range = [config.time_begin, config.time_end];
         check_times(range)?;
         check_accuracy(config.absolute_error, config.relative_error, config.step_budget)?;
         let pair = MovingPair::new(bodies, range)?;
@@ -70,7 +76,7 @@ pub fn clearance(
             sweep: Sweep::new(&pair, cache),
             config,
             upper: f64::INFINITY,
-            time: config.t_begin,
+            time: config.time_begin,
             error: 0.0,
         };
         *answer = search.run()?;
@@ -179,11 +185,11 @@ impl Search<'_> {
                 let part = (end - begin) / f64::from(SAMPLES + 1);
                 self.narrow(here.time, (here.time + part).min(end))?;
             }
-            let margin = self.wanted(&here);
-            if !(margin > 0.0) || self.sweep.queries >= self.config.step_budget {
+            let max_distance = self.wanted(&here);
+            if !(max_distance > 0.0) || self.sweep.queries >= self.config.step_budget {
                 return Ok(0.0);
             }
-            let wanted = Wanted { margin, with_slack: false, shortest: shortest_step(self.pair.range()) };
+            let wanted = Wanted { max_distance, with_slack: false, shortest: shortest_step(self.pair.range()) };
             match self.sweep.on(&here, &near, end, &wanted)? {
                 Ahead::Free(step) => {
                     proved = proved.min(step.least);

@@ -8,13 +8,13 @@ use crate::base::math::UNIT_ROUNDOFF as U;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct CastConfig {
     /// The start of the range of times; by default 0.
-    pub t_begin: f64,
+    pub time_begin: f64,
     /// The end of the range, not before it begins; by default 1.
-    pub t_end: f64,
+    pub time_end: f64,
     /// How wide the interval of a hit may be, and the shortest step; by default 1e-9. From 2⁻⁵⁰ of the larger end on.
     pub time_tolerance: f64,
     /// Objects are free where they are farther apart than this: from 0, the default, to the largest double.
-    pub margin: f64,
+    pub max_distance: f64,
     /// Certified queries after which it stops with its proved result, 1 or more; by default 100,000. It makes at most six for
     /// each time tolerance in the range and a dozen in the end.
     pub step_budget: u32,
@@ -22,7 +22,7 @@ pub struct CastConfig {
 
 impl Default for CastConfig {
     fn default() -> Self {
-        CastConfig { t_begin: 0.0, t_end: 1.0, time_tolerance: 1e-9, margin: 0.0, step_budget: 100_000 }
+        CastConfig { time_begin: 0.0, time_end: 1.0, time_tolerance: 1e-9, max_distance: 0.0, step_budget: 100_000 }
     }
 }
 
@@ -39,17 +39,17 @@ pub(super) fn shortest_step(range: [f64; 2]) -> f64 {
 /// # Errors
 /// [`Error::Argument`], naming the end.
 pub(super) fn check_times([begin, end]: [f64; 2]) -> Result<()> {
-    check_range("t_begin", begin, -LARGEST_TIME..=LARGEST_TIME)?;
-    check_range("t_end", end, -LARGEST_TIME..=LARGEST_TIME)?;
+    check_range("time_begin", begin, -LARGEST_TIME..=LARGEST_TIME)?;
+    check_range("time_end", end, -LARGEST_TIME..=LARGEST_TIME)?;
     if end < begin {
-        return Err(Error::Argument(format!("t_end is {end:?}, before t_begin, {begin:?}")));
+        return Err(Error::Argument(format!("time_end is {end:?}, before time_begin, {begin:?}")));
     }
     Ok(())
 }
 
 impl CastConfig {
     pub(crate) fn range(&self) -> [f64; 2] {
-        [self.t_begin, self.t_end]
+        [self.time_begin, self.time_end]
     }
 
     /// Refuses values out of range.
@@ -59,7 +59,7 @@ impl CastConfig {
     pub(crate) fn check(&self) -> Result<()> {
         check_times(self.range())?;
         check_range("time_tolerance", self.time_tolerance, shortest_step(self.range())..=f64::MAX)?;
-        check_range("margin", self.margin, 0.0..=f64::MAX)?;
+        check_range("max_distance", self.max_distance, 0.0..=f64::MAX)?;
         if self.step_budget == 0 {
             return Err(Error::Argument("step_budget is 0, it must be at least 1".into()));
         }

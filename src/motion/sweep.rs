@@ -25,8 +25,8 @@ const MOST_DOUBLINGS: i32 = 10;
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wanted {
     /// Farther apart than this.
-    pub margin: f64,
-    /// Whether gaps are to exceed the margin by [`MovingPair::slack`].
+    pub max_distance: f64,
+    /// Whether gaps are to exceed `max_distance` by [`MovingPair::slack`].
     pub with_slack: bool,
     /// The shortest step.
     pub shortest: f64,
@@ -42,7 +42,7 @@ pub(super) struct FreeStep {
     pub gaps: [f64; 2],
     /// and at all times between, along one that turns from the first to the second, at least so much.
     pub least: f64,
-    /// The least amount by which `least` exceeds the margin.
+    /// The least amount by which `least` exceeds `max_distance`.
     pub slack: f64,
 }
 
@@ -50,7 +50,7 @@ pub(super) struct FreeStep {
 pub(super) enum Ahead {
     /// A step forward.
     Free(FreeStep),
-    /// They are no farther apart than the margin at a later moment, or at this one.
+    /// They are no farther apart than `max_distance` at a later moment, or at this one.
     Contact(Moment, PairAnswer),
     /// Neither a step nor contact could be proved.
     Open,
@@ -59,7 +59,7 @@ pub(super) enum Ahead {
 /// The result that one moment proves about contact.
 #[allow(clippy::large_enum_variant, reason = "made in the end of a cast, and not kept")]
 enum Look {
-    /// No farther apart than the margin.
+    /// No farther apart than `max_distance`.
     Contact(PairAnswer),
     /// Farther apart, along that direction.
     Apart([f64; 3]),
@@ -116,11 +116,11 @@ impl<'a> Sweep<'a> {
 
     /// On from a moment, whose distance is known, to `end` at most.
     pub fn on(&mut self, here: &Moment, near: &PairAnswer, end: f64, wanted: &Wanted) -> Result<Ahead> {
-        if near.outcome == Outcome::Separated && near.lower > wanted.margin {
+        if near.outcome == Outcome::Separated && near.lower > wanted.max_distance {
             if let Some(step) = self.step(here, near, end, wanted)? {
                 return Ok(Ahead::Free(step));
             }
-        } else if let Look::Contact(answer) = self.look(here, wanted.margin)? {
+        } else if let Look::Contact(answer) = self.look(here, wanted.max_distance)? {
             return Ok(Ahead::Contact(*here, answer));
         }
         self.contact_ahead(here, end, wanted)
@@ -203,7 +203,7 @@ impl<'a> Sweep<'a> {
                 break;
             }
             let there = self.pair.at(time)?;
-            match self.look(&there, wanted.margin)? {
+            match self.look(&there, wanted.max_distance)? {
                 Look::Contact(answer) => return Ok(Ahead::Contact(there, answer)),
                 Look::Apart(direction) if doubling == 0 => {
                     let trial = Trial::new(self.pair, here, direction.into(), wanted, &mut self.vertices);
@@ -222,18 +222,18 @@ impl<'a> Sweep<'a> {
         Ok(Ahead::Open)
     }
 
-    /// Whether the motion is provably in contact at a moment. Without a margin the poses have to be deeper in each other than
-    /// they are rounded; with one their distance has to be so much less.
-    fn look(&mut self, moment: &Moment, margin: f64) -> Result<Look> {
+    /// Whether the motion is provably in contact at a moment. With a `max_distance` of 0 the poses have to be deeper in each other
+    /// than they are rounded; with one their distance has to be so much less.
+    fn look(&mut self, moment: &Moment, max_distance: f64) -> Result<Look> {
         self.queries += 1;
         let mut answer = PairAnswer::default();
         pair::contact(self.pair.placed(moment), &mut self.cache, &PairConfig::default(), &mut answer)?;
-        let is_hidden = margin == 0.0 && moment.rounding > 0.0 && answer.outcome == Outcome::Intersecting;
+        let is_hidden = max_distance == 0.0 && moment.rounding > 0.0 && answer.outcome == Outcome::Intersecting;
         if is_hidden && !self.is_deep(moment)? {
             return Ok(Look::Open);
         }
-        let is_contact = is_contact(&answer, moment, margin);
-        let is_apart = answer.outcome == Outcome::Separated && answer.lower > margin;
+        let is_contact = is_contact(&answer, moment, max_distance);
+        let is_apart = answer.outcome == Outcome::Separated && answer.lower > max_distance;
         Ok(match (is_contact, is_apart) {
             (true, _) => Look::Contact(answer),
             (false, true) => Look::Apart(answer.normal),
@@ -279,12 +279,12 @@ pub(super) fn depth_at(pair: &MovingPair, moment: &Moment, cache: &mut DepthCach
     Ok(depth)
 }
 
-/// Whether an answer about the poses of a moment shows that the motion has its objects no farther apart than the margin, if those
-/// that intersect without a margin are deep enough in each other.
-pub(super) fn is_contact(answer: &PairAnswer, moment: &Moment, margin: f64) -> bool {
+/// Whether an answer about the poses of a moment shows that the motion has its objects no farther apart than `max_distance`, if
+/// those that intersect are, where it is 0, deep enough in each other.
+pub(super) fn is_contact(answer: &PairAnswer, moment: &Moment, max_distance: f64) -> bool {
     match answer.outcome {
-        Outcome::Intersecting => margin == 0.0 || moment.rounding <= margin,
-        Outcome::Separated => margin > 0.0 && upper_bound(answer, moment) <= margin,
+        Outcome::Intersecting => max_distance == 0.0 || moment.rounding <= max_distance,
+        Outcome::Separated => max_distance > 0.0 && upper_bound(answer, moment) <= max_distance,
         _ => false,
     }
 }
@@ -321,7 +321,7 @@ impl<'a> Trial<'a> {
     fn with_gap(pair: &'a MovingPair<'a>, here: &Moment, direction: Vector, gap: f64, wanted: &Wanted) -> Trial<'a> {
         let slack = if wanted.with_slack { pair.slack(here) } else { 0.0 };
         let acceleration = pair.acceleration(&direction);
-        Trial { pair, here: *here, direction, gap, acceleration, slack, needed: wanted.margin + slack }
+        Trial { pair, here: *here, direction, gap, acceleration, slack, needed: wanted.max_distance + slack }
     }
 
     fn room(&self) -> f64 {

@@ -17,12 +17,12 @@ const MOST_STEPS: u32 = 1_000_000;
 ///
 /// | outcome | what is proved |
 /// |---|---|
-/// | [`CastOutcome::Free`] | farther apart than the margin, and at least `clearance`, at every time of the range |
-/// | [`CastOutcome::Hit`] | farther apart than the margin from the beginning to `t_lo`; no farther, and no farther than `upper`, at `t_hi` |
-/// | [`CastOutcome::Near`] | farther apart than the margin from the beginning to `t_lo`; no farther than `upper` there |
-/// | [`CastOutcome::Budget`] | farther apart than the margin from the beginning to `t_lo` |
+/// | [`CastOutcome::Free`] | farther apart than `max_distance`, and at least `clearance`, at every time of the range |
+/// | [`CastOutcome::Hit`] | farther apart than `max_distance` from the beginning to `time_lower`; no farther, and no farther than `upper`, at `time_upper` |
+/// | [`CastOutcome::Near`] | farther apart than `max_distance` from the beginning to `time_lower`; no farther than `upper` there |
+/// | [`CastOutcome::Budget`] | farther apart than `max_distance` from the beginning to `time_lower` |
 ///
-/// If `t_lo` is the beginning, nothing is proved about it. `contact` is checked as an answer about the poses there. How many
+/// If `time_lower` is the beginning, nothing is proved about it. `contact` is checked as an answer about the poses there. How many
 /// queries were made is not checked, nor how narrow the interval of a hit is.
 ///
 /// A sweep of its own, from no cache, proposes steps and directions. Each is proved anew: the gaps at both ends over all vertices
@@ -40,37 +40,37 @@ pub fn verify_cast(bodies: [Moving; 2], config: &CastConfig, answer: &CastAnswer
         match answer.outcome {
             CastOutcome::None => Err(Error::Argument("the answer holds no outcome".into())),
             CastOutcome::Free => {
-                if !(answer.clearance >= config.margin && answer.clearance < f64::INFINITY) {
+                if !(answer.clearance >= config.max_distance && answer.clearance < f64::INFINITY) {
                     return Err(unverified(format!(
                         "a clearance of {:?} beyond {:?}",
-                        answer.clearance, config.margin
+                        answer.clearance, config.max_distance
                     )));
                 }
-                prove_free(&pair, config, answer.t_lo, answer.clearance)
+                prove_free(&pair, config, answer.time_lower, answer.clearance)
             }
             CastOutcome::Hit => {
-                prove_free_before(&pair, config, answer.t_lo)?;
-                prove_contact(&pair, config.margin, answer)
+                prove_free_before(&pair, config, answer.time_lower)?;
+                prove_contact(&pair, config.max_distance, answer)
             }
             CastOutcome::Near => {
-                prove_free_before(&pair, config, answer.t_lo)?;
-                let there = pair.at(answer.t_lo)?;
+                prove_free_before(&pair, config, answer.time_lower)?;
+                let there = pair.at(answer.time_lower)?;
                 check_upper(&pair, &there, answer)
             }
-            CastOutcome::Budget => prove_free_before(&pair, config, answer.t_lo),
+            CastOutcome::Budget => prove_free_before(&pair, config, answer.time_lower),
         }
     })
 }
 
 /// Whether an answer contains what its outcome allows, for times in the range.
 fn check_times(config: &CastConfig, answer: &CastAnswer) -> Result<()> {
-    let CastAnswer { outcome, t_lo, t_hi, clearance, upper, .. } = *answer;
+    let CastAnswer { outcome, time_lower, time_upper, clearance, upper, .. } = *answer;
     let [begin, end] = config.range();
     let is_in_range = |time: f64| (begin..=end).contains(&time);
     let (is_hit, is_free) = (outcome == CastOutcome::Hit, outcome == CastOutcome::Free);
-    let times_hold = is_in_range(t_lo)
-        && (!is_free || t_lo == end)
-        && if is_hit { is_in_range(t_hi) && t_lo <= t_hi } else { t_hi.is_nan() };
+    let times_hold = is_in_range(time_lower)
+        && (!is_free || time_lower == end)
+        && if is_hit { is_in_range(time_upper) && time_lower <= time_upper } else { time_upper.is_nan() };
     let says_distance = is_hit || outcome == CastOutcome::Near;
     let numbers_hold = clearance.is_nan() != is_free && if says_distance { upper >= 0.0 } else { upper.is_nan() };
     let contact_holds = says_distance || answer.contact.outcome == Outcome::None;
@@ -78,40 +78,40 @@ fn check_times(config: &CastConfig, answer: &CastAnswer) -> Result<()> {
         return Ok(());
     }
     Err(unverified(format!(
-        "it is {outcome:?} and says t_lo {t_lo:?}, t_hi {t_hi:?}, clearance {clearance:?}, upper {upper:?} and a contact that is \
+        "it is {outcome:?} and says time_lower {time_lower:?}, time_upper {time_upper:?}, clearance {clearance:?}, upper {upper:?} and a contact that is \
          {:?}, of times from {begin:?} to {end:?}",
         answer.contact.outcome
     )))
 }
 
 fn prove_free_before(pair: &MovingPair, config: &CastConfig, end: f64) -> Result<()> {
-    if end > pair.range()[0] { prove_free(pair, config, end, config.margin) } else { Ok(()) }
+    if end > pair.range()[0] { prove_free(pair, config, end, config.max_distance) } else { Ok(()) }
 }
 
-/// Farther apart than the margin from the beginning to `end`: by the steps of a cast, else by any.
-fn prove_free(pair: &MovingPair, config: &CastConfig, end: f64, margin: f64) -> Result<()> {
-    let of_cast = Wanted { margin: config.margin, with_slack: true, shortest: config.time_tolerance };
-    let any = Wanted { margin, with_slack: false, shortest: shortest_step(pair.range()) };
-    match prove_steps(pair, &of_cast, end, margin) {
-        Err(Error::Unverified(_)) => prove_steps(pair, &any, end, margin),
+/// Farther apart than `max_distance` from the beginning to `end`: by the steps of a cast, else by any.
+fn prove_free(pair: &MovingPair, config: &CastConfig, end: f64, max_distance: f64) -> Result<()> {
+    let of_cast = Wanted { max_distance: config.max_distance, with_slack: true, shortest: config.time_tolerance };
+    let any = Wanted { max_distance, with_slack: false, shortest: shortest_step(pair.range()) };
+    match prove_steps(pair, &of_cast, end, max_distance) {
+        Err(Error::Unverified(_)) => prove_steps(pair, &any, end, max_distance),
         proved => proved,
     }
 }
 
-/// Farther apart than the margin in each step of a sweep to `end`.
-fn prove_steps(pair: &MovingPair, wanted: &Wanted, end: f64, margin: f64) -> Result<()> {
+/// Farther apart than `max_distance` in each step of a sweep to `end`.
+fn prove_steps(pair: &MovingPair, wanted: &Wanted, end: f64, max_distance: f64) -> Result<()> {
     let mut sweep = Sweep::new(pair, &PairCache::default());
     let mut here = pair.at(pair.range()[0])?;
     for _ in 0..MOST_STEPS {
         let near = sweep.distance(&here)?;
         match sweep.on(&here, &near, end, wanted)? {
             Ahead::Free(step) => {
-                check_step(pair, &step, margin)?;
+                check_step(pair, &step, max_distance)?;
                 here = step.ends[1];
             }
             Ahead::Contact(there, _) => {
                 return Err(unverified(format!(
-                    "at time {:?} the objects are no farther apart than {margin:?}",
+                    "at time {:?} the objects are no farther apart than {max_distance:?}",
                     there.time
                 )));
             }
@@ -122,13 +122,13 @@ fn prove_steps(pair: &MovingPair, wanted: &Wanted, end: f64, margin: f64) -> Res
         }
     }
     Err(unverified(format!(
-        "beyond time {:?} the objects are not proved to be farther apart than {margin:?}",
+        "beyond time {:?} the objects are not proved to be farther apart than {max_distance:?}",
         here.time
     )))
 }
 
 /// Proves a step: that its gaps are the claimed ones, at poses computed anew, and that they suffice.
-fn check_step(pair: &MovingPair, step: &FreeStep, margin: f64) -> Result<()> {
+fn check_step(pair: &MovingPair, step: &FreeStep, max_distance: f64) -> Result<()> {
     let [start, end] = step.ends.map(|moment| moment.time);
     let moments = [pair.at(start)?, pair.at(end)?];
     for ((moment, direction), gap) in moments.iter().zip(&step.directions).zip(step.gaps) {
@@ -143,18 +143,18 @@ fn check_step(pair: &MovingPair, step: &FreeStep, margin: f64) -> Result<()> {
     }
     let [first, last] = &step.directions;
     let least = least_between(step.gaps, pair.sag([&moments[0], &moments[1]], [first, last]));
-    if least > margin {
+    if least > max_distance {
         return Ok(());
     }
     Err(unverified(format!("from time {start:?} to {end:?} the objects may be {least:e} apart")))
 }
 
-fn prove_contact(pair: &MovingPair, margin: f64, answer: &CastAnswer) -> Result<()> {
-    let there = pair.at(answer.t_hi)?;
-    if !is_contact(&answer.contact, &there, margin) {
-        return Err(unverified(format!("no contact within {margin:?} at time {:?}", answer.t_hi)));
+fn prove_contact(pair: &MovingPair, max_distance: f64, answer: &CastAnswer) -> Result<()> {
+    let there = pair.at(answer.time_upper)?;
+    if !is_contact(&answer.contact, &there, max_distance) {
+        return Err(unverified(format!("no contact within {max_distance:?} at time {:?}", answer.time_upper)));
     }
-    if margin > 0.0 {
+    if max_distance > 0.0 {
         return check_upper(pair, &there, answer);
     }
     verify(pair.placed(&there), &answer.contact)?;
@@ -167,7 +167,7 @@ fn prove_contact(pair: &MovingPair, margin: f64, answer: &CastAnswer) -> Result<
     if depth.lower > there.rounding {
         return Ok(());
     }
-    Err(unverified(format!("at time {:?} rounding hides whether the objects intersect", answer.t_hi)))
+    Err(unverified(format!("at time {:?} rounding hides whether the objects intersect", answer.time_upper)))
 }
 
 /// The answer about the poses of a moment holds, and `upper` for the motion.

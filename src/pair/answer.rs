@@ -9,7 +9,7 @@ pub enum Outcome {
     None = 0,
     /// The objects are disjoint, `0 < lower ≤ distance ≤ upper`; `lower` is 0 only for a distance below the smallest double.
     Separated = 1,
-    /// The objects are disjoint and farther apart than the distance tolerance. `lower` is at least that, `distance` is `lower`,
+    /// The objects are disjoint and farther apart than `max_distance`. `lower` is at least that, `distance` is `lower`,
     /// `upper` is infinity, and along the unit normal the objects are at least `lower` apart. Points and features stay unset.
     Beyond = 2,
     /// The closed objects have a common point (touching included).
@@ -38,7 +38,7 @@ pub enum DecidedBy {
     /// The step budget of an approximate query, which ran out: the interval holds, and the next query with the same cache goes on
     /// from there.
     Budget = 6,
-    /// The bounding spheres: they are apart, and farther than the distance tolerance if there is one.
+    /// The bounding spheres: they are apart, and farther than `max_distance` if that is finite.
     BoundingSpheres = 7,
     /// Balls inside the objects overlap. Such an answer carries no vertex pairs as its proof.
     InscribedSpheres = 8,
@@ -90,7 +90,7 @@ pub struct Statistics {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct PairAnswer {
-    /// Disjoint, beyond the tolerance, or intersecting.
+    /// Disjoint, beyond `max_distance`, or intersecting.
     pub outcome: Outcome,
     /// Which rung of the search decided.
     pub decided_by: DecidedBy,

@@ -91,7 +91,7 @@ impl Accuracy {
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct PairConfig {
     /// Pairs farther apart than this are [`Outcome::Beyond`](super::Outcome::Beyond); from 0 to +∞ (the default: none is).
-    pub distance_tolerance: f64,
+    pub max_distance: f64,
     /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default).
     pub rotation_limit: f64,
     /// The starting point of marching.
@@ -116,7 +116,7 @@ pub struct PairConfig {
 impl Default for PairConfig {
     fn default() -> Self {
         PairConfig {
-            distance_tolerance: f64::INFINITY,
+            max_distance: f64::INFINITY,
             rotation_limit: ROTATION_LIMIT,
             start: Start::Automatic,
             absolute_error: 0.0,
@@ -141,7 +141,7 @@ impl PairConfig {
     #[inline(always)]
     pub(super) fn is_in_range(&self, query: Query) -> bool {
         let is_accurate = (self.absolute_error >= 0.0) & (self.relative_error >= 0.0) & (self.step_budget > 0);
-        (self.distance_tolerance >= 0.0)
+        (self.max_distance >= 0.0)
             & (0.0..=ROTATION_LIMIT).contains(&self.rotation_limit)
             & (is_accurate | (query != Query::Approximate))
     }
@@ -150,7 +150,7 @@ impl PairConfig {
     #[cold]
     #[inline(never)]
     pub(super) fn first_fault(&self) -> Error {
-        check_range("distance_tolerance", self.distance_tolerance, 0.0..=f64::INFINITY)
+        check_range("max_distance", self.max_distance, 0.0..=f64::INFINITY)
             .and_then(|()| check_range("rotation_limit", self.rotation_limit, 0.0..=ROTATION_LIMIT))
             .and_then(|()| check_accuracy(self.absolute_error, self.relative_error, self.step_budget))
             .err()

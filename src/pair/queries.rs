@@ -17,11 +17,11 @@ use crate::base::simd::environment::with_default;
 /// Exact distance with its interval, witness points, normal and features.
 ///
 /// For an intersecting pair the distance and its interval are 0, and `proof` holds the vertex pairs. Points, normal and features
-/// stay unset (see [`contact()`]). For a pair beyond `config.distance_tolerance` only `lower` is set.
+/// stay unset (see [`contact()`]). For a pair beyond `config.max_distance` only `lower` is set.
 ///
 /// # Errors
 /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted (not finite, a reflection, an entry of RᵀR −
-/// I above `config.rotation_limit`), [`Error::Argument`](crate::base::error::Error::Argument) for a tolerance that is NaN or
+/// I above `config.rotation_limit`), [`Error::Argument`](crate::base::error::Error::Argument) for a `max_distance` that is NaN or
 /// negative and for a rotation limit that is not from 0 to [`ROTATION_LIMIT`](crate::base::math::ROTATION_LIMIT). Then `answer`
 /// and `cache` are as they were. The fields of `config` that only [`approximate`] uses are ignored.
 pub fn distance(
@@ -34,7 +34,7 @@ pub fn distance(
 }
 
 /// The verdict alone: [`Outcome::Separated`] with `lower` > 0 and a valid but not tight `upper`, or [`Outcome::Intersecting`]; and
-/// [`Outcome::Beyond`] with a finite `config.distance_tolerance`.
+/// [`Outcome::Beyond`] with a finite `config.max_distance`.
 ///
 /// # Errors
 /// As [`distance`].
@@ -62,7 +62,7 @@ pub fn contact(bodies: [Placed; 2], cache: &mut PairCache, config: &PairConfig, 
 ///
 /// The verdict is as certain as that of [`distance`], unless the step budget ran out ([`DecidedBy::Budget`]). Points and features
 /// stay unset in an answer that comes from maps of support functions or from levels of detail. For a pair beyond
-/// `config.distance_tolerance` only `lower` is set.
+/// `config.max_distance` only `lower` is set.
 ///
 /// # Errors
 /// As [`distance`]; [`Error::Argument`](crate::base::error::Error::Argument) for an error tolerance that is NaN or negative and a
@@ -126,9 +126,9 @@ pub fn depth(
 }
 
 /// The distance of objects that are apart, minus the depth of those that intersect; each is as certain and as narrow as those of
-/// [`distance`] and [`depth()`]. For a pair beyond `config.distance_tolerance` only `lower` is reported.
+/// [`distance`] and [`depth()`]. For a pair beyond `config.max_distance` only `lower` is reported.
 ///
-/// The query uses the tolerance, the rotation limit, the start and the levels of `config`.
+/// The query uses `max_distance`, the rotation limit, the start and the levels of `config`.
 ///
 /// # Errors
 /// As of [`distance`]; then `answer` is as it was.

@@ -29,8 +29,8 @@ impl SignedDistanceCache {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct SignedDistance {
-    /// [`Outcome::Intersecting`] (touching included), [`Outcome::Separated`], or [`Outcome::Beyond`] the
-    /// tolerance: then `lower` is all that is known, which `distance` repeats, and `upper` is infinite.
+    /// [`Outcome::Intersecting`] (touching included), [`Outcome::Separated`], or [`Outcome::Beyond`]
+    /// `max_distance`: then `lower` is all that is known, which `distance` repeats, and `upper` is infinite.
     pub outcome: Outcome,
     /// The best estimate, `lower ≤ distance ≤ upper`: how far the objects are apart, or minus how deep they are in each other.
     pub distance: f64,

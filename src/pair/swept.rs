@@ -36,17 +36,16 @@ pub(super) fn query(
     if !environment::is_default() {
         return with_default(|| self::query(query, bodies, radii, cache, config, answer));
     }
-    let is_verdict = query == Query::Intersection && config.distance_tolerance == f64::INFINITY;
-    let tolerance = if is_verdict { 0.0 } else { config.distance_tolerance };
+    let is_verdict = query == Query::Intersection && config.max_distance == f64::INFINITY;
+    let tolerance = if is_verdict { 0.0 } else { config.max_distance };
     if are_round(bodies) {
         // Here a verdict costs no more than a distance.
-        let round =
-            Round { bodies, radii, tolerance: config.distance_tolerance, rotation_limit: config.rotation_limit };
+        let round = Round { bodies, radii, tolerance: config.max_distance, rotation_limit: config.rotation_limit };
         if round.answers(Place::Pair(query, answer)) {
             return Ok(());
         }
     }
-    let of_polyhedra = PairConfig { distance_tolerance: radii.with(tolerance), ..*config };
+    let of_polyhedra = PairConfig { max_distance: radii.with(tolerance), ..*config };
     // With the radii as a tolerance a verdict tells whether polyhedra are nearer, but not with more than that.
     let asked = if query == Query::Intersection && !is_verdict { Query::Distance } else { query };
     let before = *answer;
@@ -183,11 +182,8 @@ pub(super) fn depth(
     depth::of_polyhedra(&bodies, cache, config, &mut found)?;
     let (mut of_polyhedra, mut ending) = (SignedDistance::from(&found), found.ending);
     if found.outcome != Outcome::Intersecting {
-        let within = PairConfig {
-            distance_tolerance: radii.upper,
-            rotation_limit: config.rotation_limit,
-            ..PairConfig::default()
-        };
+        let within =
+            PairConfig { max_distance: radii.upper, rotation_limit: config.rotation_limit, ..PairConfig::default() };
         let mut apart = PairAnswer::default();
         ladder::ask(Query::Distance, Glances::Asked, &bodies, &mut PairCache::default(), &within, &mut apart)?;
         (of_polyhedra, ending) = ((&apart).into(), DepthEnding::Narrow);
@@ -235,16 +231,16 @@ pub(super) fn signed_distance(
 ) -> Result<()> {
     config.check(Query::Distance)?;
     if are_round(bodies) {
-        let (tolerance, rotation_limit) = (config.distance_tolerance, config.rotation_limit);
+        let (tolerance, rotation_limit) = (config.max_distance, config.rotation_limit);
         let round = Round { bodies, radii, tolerance, rotation_limit };
         if round.answers(Place::Signed(answer)) {
             return Ok(());
         }
     }
     let mut found = SignedDistance::default();
-    let grown = PairConfig { distance_tolerance: radii.with(config.distance_tolerance), ..*config };
+    let grown = PairConfig { max_distance: radii.with(config.max_distance), ..*config };
     of_polyhedra(bodies, cache, &grown, &mut found)?;
-    of_bodies(bodies, radii, config.distance_tolerance, &found, answer)
+    of_bodies(bodies, radii, config.max_distance, &found, answer)
 }
 
 /// The signed distance of bodies from that of their polyhedra, which is beyond the tolerance only if the bodies are.

@@ -196,7 +196,7 @@ impl Scene {
     }
 
     /// Asks `filter` for each pair of objects whether it should be tested, once for each of its pairs of pieces when that becomes
-    /// near, and in queries without a tolerance of many objects each time. `None`: none is asked. All pairs that are near are
+    /// near, and in queries without a `max_distance` of many objects each time. `None`: none is asked. All pairs that are near are
     /// asked anew. The filter is called with the earlier created object first, and should always decide the same for a pair; it
     /// cannot use the scene.
     pub fn set_pair_filter(&mut self, filter: Option<PairFilter>) {
@@ -224,14 +224,14 @@ impl Scene {
     /// Lists the intersecting pairs (touching ones are), each with its verdict alone.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a tolerance, an error or a budget that is negative or NaN and a step budget of 0, also where the
-    /// query needs none of them; [`Error::Memory`] when that for a changed list of pairs is not there: the next query tries
+    /// [`Error::Argument`] for a `max_distance`, an error or a budget that is negative or NaN and a step budget of 0, also where
+    /// the query needs none of them; [`Error::Memory`] when that for a changed list of pairs is not there: the next query tries
     /// again.
     pub fn query_intersection(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
         self.ask(&Subject::AllPairs, Query::Intersection, query)
     }
 
-    /// Lists the pairs whose distance is at most the distance tolerance, and the intersecting ones, with distance, witness
+    /// Lists the pairs whose distance is at most `max_distance`, and the intersecting ones, with distance, witness
     /// points, normal and features ([`pair::distance`]).
     ///
     /// # Errors
@@ -247,7 +247,8 @@ impl Scene {
     /// how deep each pair is, and where its objects meet: the results of [`pair::depth()`] and [`pair::manifold()`].
     ///
     /// # Errors
-    /// As [`Scene::query_intersection`], for a margin as well; and [`Error::Memory`] when that for depths and points is not there.
+    /// As [`Scene::query_intersection`], for a `detail` as well; and [`Error::Memory`] when that for depths and points is not
+    /// there.
     pub fn query_contact(&mut self, query: &SceneQuery) -> Result<SceneAnswer<'_>> {
         self.ask(&Subject::AllPairs, Query::Contact, query)
     }
@@ -314,7 +315,7 @@ impl Scene {
     /// # Errors
     /// As [`Scene::query_intersection`], for a distance that is negative or NaN; the near pairs stay remembered.
     pub fn query_events(&mut self, distance: f64) -> Result<SceneEvents<'_>> {
-        let query = SceneQuery { distance_tolerance: distance, ..SceneQuery::default() };
+        let query = SceneQuery { max_distance: distance, ..SceneQuery::default() };
         let kind = if distance == 0.0 { Query::Intersection } else { Query::Distance };
         self.ask(&Subject::Events, kind, &query)?;
         self.search.compare(&self.world.objects)
@@ -366,13 +367,13 @@ impl Scene {
     // --- Work and memory ---------------------------------------------------------------------------------------------------------
 
     /// Lets several threads work on a query and on poses that are set together, or one again. It changes no bit of any answer.
-    /// Queries that stop early, those without a tolerance over many objects, and few pairs or objects are left to the caller's
+    /// Queries that stop early, those without a `max_distance` over many objects, and few pairs or objects are left to the caller's
     /// thread.
     pub fn set_workers(&mut self, workers: Option<Workers>) {
         self.workers = workers.unwrap_or_else(Workers::none);
     }
 
-    /// Queries without a tolerance are about all pairs of pieces. While these are no more than `limit`, each keeps its last
+    /// Queries without a `max_distance` are about all pairs of pieces. While these are no more than `limit`, each keeps its last
     /// answer, which makes the next one several times faster and takes about 150 bytes, if there is memory for that. Above
     /// `limit`, only near pairs keep their caches. Results and their order are the same. Default: 2²⁰ pairs, about 150 MB, which
     /// 1,448 single pieces make.

@@ -326,7 +326,7 @@ impl Replay {
         let Some(Question { subject, kind, mut query, outcome }) = self.question.clone().filter(|_| is_open) else {
             return Err(Error::Argument("the step has no query, or has not been done".into()));
         };
-        query.distance_tolerance = tolerance.unwrap_or(query.distance_tolerance);
+        query.max_distance = tolerance.unwrap_or(query.max_distance);
         match subject {
             Subject::AllPairs => scene.ask(&Subject::AllPairs, kind, &query).map(drop)?,
             Subject::Object(object) => scene.query_object(id(&self.ids, object)?, kind, &query).map(drop)?,
@@ -335,7 +335,7 @@ impl Replay {
                 pieces.iter().try_for_each(|(k, pose)| push(&mut known, (shape(&self.shapes, *k)?.clone(), *pose)))?;
                 scene.ask(&Subject::Placed(PlacedBody { pieces: known.into(), mask }), kind, &query).map(drop)?;
             }
-            Subject::Events => scene.query_events(query.distance_tolerance).map(drop)?,
+            Subject::Events => scene.query_events(query.max_distance).map(drop)?,
         }
         let scene = &*scene;
         let answer = scene.search.answer();

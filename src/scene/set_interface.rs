@@ -37,7 +37,7 @@ impl Scene {
     }
 
     /// The least distance between two sets of objects, or between a set and all other objects (`against` is `None`), with its
-    /// interval and a pair that has it; for sets farther apart than `cut_off` no more than that is reported.
+    /// interval and a pair that has it; for sets farther apart than `max_distance` no more than that is reported.
     ///
     /// Pairs are those that queries test: activation, groups and the filter are heeded. Two fixed objects are left out, unless
     /// the question gives the poses of those of a set. Pairs of two objects of the first set are asked about if it requests that.
@@ -51,7 +51,7 @@ impl Scene {
         &self,
         set: &ObjectSet,
         against: Option<&ObjectSet>,
-        cut_off: f64,
+        max_distance: f64,
         scratch: &mut SetScratch,
     ) -> Result<LeastDistance> {
         with_default(|| {
@@ -66,30 +66,30 @@ impl Scene {
                 against: against.map_or(Against::Others(self.others(set)), |_| Against::Set(second)),
                 among: set.among,
                 moved: set.poses.is_some() || against.is_some_and(|against| against.poses.is_some()),
-                cut_off,
+                max_distance,
             };
             nearest::least_distance(question, candidates, caches)
         })
     }
 
-    /// At which of many times a set of objects is no farther from something than `margin`: all other objects, and if the set says
-    /// so one another. `poses` are those of all objects at the first time, then at the second, and so on; those of the set are not
-    /// looked at, nor are poses of times that are not tried. Pairs are those that queries test; both may be fixed.
+    /// At which of many times a set of objects is no farther from something than `max_distance`: all other objects, and if the set
+    /// says so one another. `poses` are those of all objects at the first time, then at the second, and so on; those of the set are
+    /// not looked at, nor are poses of times that are not tried. Pairs are those that queries test; both may be fixed.
     ///
     /// # Errors
     /// As [`Scene::least_distance`], and [`Error::Argument`](crate::base::error::Error::Argument) for poses that do not come out
-    /// even and a margin that is negative, infinite or NaN.
+    /// even and a `max_distance` that is negative, infinite or NaN.
     pub fn first_hit(
         &self,
         set: &ObjectSet,
         poses: &[Pose],
         order: PoseOrder,
-        margin: f64,
+        max_distance: f64,
         scratch: &mut SetScratch,
     ) -> Result<FirstHit> {
         with_default(|| {
             let SetScratch { members, open, found, caches, .. } = scratch;
-            let question = first_hit::Question { others: self.others(set), poses, order, margin };
+            let question = first_hit::Question { others: self.others(set), poses, order, max_distance };
             first_hit::first_hit(question, &mut first_hit::Room { members, open, found, caches })
         })
     }
@@ -115,9 +115,9 @@ impl Scene {
         })
     }
 
-    /// Whether moving objects stay farther than `config.margin` from all others, which rest, or when they first do not: certain,
-    /// same as for [`motion::cast`](crate::motion::cast()). One motion moves all objects of the set as one body, else each has
-    /// its own; pieces with poses of their own move with their object. Pairs of two of them are asked about if the set requests
+    /// Whether moving objects stay farther than `config.max_distance` from all others, which rest, or when they first do not:
+    /// certain, same as for [`motion::cast`](crate::motion::cast()). One motion moves all objects of the set as one body, else each
+    /// has its own; pieces with poses of their own move with their object. Pairs of two of them are asked about if the set requests
     /// that; its poses are not looked at. Pairs are those that queries test; both may be fixed. `config.step_budget` is that of
     /// each pair.
     ///
@@ -167,8 +167,8 @@ impl Scene {
         Ok(())
     }
 
-    /// The contacts of objects, all or those of a set, with a ground that is in no scene, or up to `config.margin` apart from it.
-    /// Each piece gets the result of [`ground_contacts`](crate::ground::ground_contacts), with the default rotation limit for
+    /// The contacts of objects, all or those of a set, with a ground that is in no scene, or up to `config.max_distance` apart from
+    /// it. Each piece gets the result of [`ground_contacts`](crate::ground::ground_contacts), with the default rotation limit for
     /// objects; that of `config` is for the ground.
     ///
     /// Objects are asked whose groups and mask go with the filter's; activation and the scene's filter are about pairs, and do
@@ -190,7 +190,7 @@ impl Scene {
         self.floor_contacts(set, Floor::Ground(ground), config, filter, scratch)
     }
 
-    /// The same for a half-space: a contact for each piece that is within the margin, as
+    /// The same for a half-space: a contact for each piece that is within `max_distance`, as
     /// [`half_space_manifold`](crate::pair::half_space_manifold) gives it.
     ///
     /// # Errors

@@ -70,13 +70,13 @@ pub struct Wanted {
     pub tight: bool,
     /// It is on one side of this, as far as doubles can tell: the integers' interval always tells, as its ends are neighbours and
     /// the true distance is between them, or both are it. `upper` is at most the tolerance just where the true distance is.
-    pub distance_tolerance: f64,
+    pub max_distance: f64,
 }
 
 impl Wanted {
     fn is_met_by(&self, interval: &Interval, size: f64) -> bool {
         let is_narrow = if self.tight { interval.is_tight(size) } else { interval.lower > 0.0 };
-        is_narrow && interval.settles(self.distance_tolerance)
+        is_narrow && interval.settles(self.max_distance)
     }
 }
 

@@ -28,7 +28,7 @@ pub fn depths(answer: &DepthAnswer, truth: &Length) -> Vec<DepthAnswer> {
     forged.into_iter().flatten().map(with).collect()
 }
 
-/// Of bodies that are not beyond the margin.
+/// Of bodies that are not beyond `max_distance`.
 pub fn manifolds(manifold: &Manifold, truth: &Length) -> Vec<Manifold> {
     let is_near = matches!(manifold.outcome, Outcome::Separated | Outcome::Intersecting);
     let forged = is_near.then(|| ends([manifold.lower, manifold.lower, manifold.upper], truth));

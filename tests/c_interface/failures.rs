@@ -119,7 +119,7 @@ fn what_a_failed_call_does_not_say_is_nan() {
     let bad_pose = [f64::NAN; 12];
     let (here, there) = (moved(0.0), moved(3.0));
     let (here, there) = (here.as_ptr(), there.as_ptr());
-    let config = CPairConfig { distance_tolerance: -1.0, ..pair_config() };
+    let config = CPairConfig { max_distance: -1.0, ..pair_config() };
     let small = CPairConfig { struct_size: 8, ..pair_config() };
     let queries =
         [swiftprox_pair_distance, swiftprox_pair_intersection, swiftprox_pair_contact, swiftprox_pair_approximate];

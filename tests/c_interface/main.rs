@@ -119,7 +119,7 @@ fn a_struct_may_be_of_a_newer_header_as_long_as_it_asks_for_nothing_new() {
     let shape = tetrahedron();
     let known = CPairConfig { struct_size: size_of::<Newer>(), ..CPairConfig::DEFAULT };
     let mut newer = Newer { known, unknown: [0; 16] };
-    newer.known.distance_tolerance = 1.0;
+    newer.known.max_distance = 1.0;
     let (status, answer) = distance(shape, &mut CPairCache::default(), (&raw const newer).cast());
     assert_eq!((status, answer.outcome), (StatusCode::Ok, Outcome::Beyond), "{}", last_message());
 
@@ -142,16 +142,16 @@ fn a_struct_of_an_older_header_is_read_and_written_as_far_as_it_goes() {
     #[repr(C)]
     struct Older {
         struct_size: usize,
-        distance_tolerance: f64,
+        max_distance: f64,
         own: [u64; 16],
     }
     const OWN: [u64; 16] = [0xa5a5_a5a5_a5a5_a5a5; 16];
     const SIZE: usize = std::mem::offset_of!(Older, own);
     let shape = tetrahedron();
-    let mut older = Older { struct_size: SIZE, distance_tolerance: f64::INFINITY, own: OWN };
+    let mut older = Older { struct_size: SIZE, max_distance: f64::INFINITY, own: OWN };
     let ask = |older: &Older| distance(shape, &mut CPairCache::default(), (&raw const *older).cast());
     assert_eq!(ask(&older).1.outcome, Outcome::Separated, "{}", last_message());
-    older.distance_tolerance = 1.0;
+    older.max_distance = 1.0;
     assert_eq!(ask(&older).1.outcome, Outcome::Beyond, "{}", last_message());
 
     #[repr(C)]
@@ -229,7 +229,7 @@ fn an_answer_beyond_the_tolerance_says_what_is_documented() {
     for (x, tolerance) in
         [(3.0, 1.0), (3.0, 1.999_999), (1.3, 0.1), (1.3, 0.3_f64.next_down()), (50.0, 0.0), (1.001, 0.0)]
     {
-        let config = CPairConfig { distance_tolerance: tolerance, ..pair_config() };
+        let config = CPairConfig { max_distance: tolerance, ..pair_config() };
         let (here, there) = (moved(0.0), moved(x));
         for query in queries {
             let mut cache = CPairCache::default();

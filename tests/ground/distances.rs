@@ -76,12 +76,12 @@ fn intervals_hold_the_least_over_all_triangles() {
                 FeatureKind::None => panic!("{answer:?}"),
             }
             for query in [Query::Distance, Query::Intersection] {
-                let below = ask(query, &PairConfig { distance_tolerance: 0.5 * answer.lower, ..PairConfig::default() });
+                let below = ask(query, &PairConfig { max_distance: 0.5 * answer.lower, ..PairConfig::default() });
                 assert_eq!(below.answer.outcome, Outcome::Beyond);
                 assert!(
                     least.lies_between(below.answer.lower, f64::INFINITY) && below.answer.lower >= 0.5 * answer.lower
                 );
-                let above = ask(query, &PairConfig { distance_tolerance: 2.0 * answer.upper, ..PairConfig::default() });
+                let above = ask(query, &PairConfig { max_distance: 2.0 * answer.upper, ..PairConfig::default() });
                 assert_eq!(above.answer.outcome, Outcome::Separated);
                 seen[2] += 1;
             }
@@ -100,7 +100,7 @@ fn what_is_asked_is_checked() {
     assert!(matches!(ask(Query::Contact, &here, &here, &config), Err(Error::Argument(_))));
     assert!(matches!(ask(Query::Distance, &skewed, &here, &config), Err(Error::Pose(_))));
     assert!(matches!(ask(Query::Distance, &here, &skewed, &config), Err(Error::Pose(_))));
-    let refused = PairConfig { distance_tolerance: -1.0, ..config };
+    let refused = PairConfig { max_distance: -1.0, ..config };
     assert!(matches!(ask(Query::Distance, &here, &here, &refused), Err(Error::Argument(_))));
 }
 

@@ -160,7 +160,7 @@ fn distance(body: &Shape, pose: &Pose, ground: &Ground) -> f64 {
         Query::Distance,
         body.at(pose),
         ground.at(&Pose::IDENTITY),
-        &PairConfig { distance_tolerance: f64::INFINITY, ..PairConfig::default() },
+        &PairConfig { max_distance: f64::INFINITY, ..PairConfig::default() },
     );
     found.unwrap().answer.lower
 }

@@ -31,8 +31,9 @@ fn pair_of(bodies: [Placed; 2]) -> SignedDistance {
 #[test]
 fn normals_are_those_of_the_least_way() {
     let mut random = Random::new(0x1ea5);
-    let (config, mut found) = (ManifoldConfig { margin: 0.05, ..ManifoldConfig::default() }, GroundContacts::default());
-    // Deep, apart, and beyond the margin.
+    let (config, mut found) =
+        (ManifoldConfig { max_distance: 0.05, ..ManifoldConfig::default() }, GroundContacts::default());
+    // Deep, apart, and beyond `max_distance`.
     let mut seen = [0; 3];
     for round in 0..1200 {
         let size = [0.3, 1.0, 4.0][round % 3];
@@ -61,9 +62,9 @@ fn normals_are_those_of_the_least_way() {
         let (body, own) = (shape.at(&pose), ground.at(&place));
         let truth = pair_of([body, triangle.at(&place)]);
         ground_contacts(body, own, &config, &mut found).unwrap();
-        let is_near = truth.lower <= config.margin;
+        let is_near = truth.lower <= config.max_distance;
         let Some(contact) = found.contacts.first() else {
-            // Beyond the margin, or it acts on what is in front of it alone.
+            // Beyond `max_distance`, or it acts on what is in front of it alone.
             let centre = pose.transform(&shape.polyhedron().mass.centre_of_mass);
             let height =
                 place.rotation().try_inverse().unwrap().tr_mul(&up).dot(&(centre - place.transform(&corners[0])));
@@ -73,7 +74,7 @@ fn normals_are_those_of_the_least_way() {
         };
         let manifold = &contact.manifold;
         assert_eq!(manifold.outcome == Outcome::Intersecting, truth.outcome == Outcome::Intersecting, "{round}");
-        assert!(truth.lower <= config.margin, "{round}: {truth:?}");
+        assert!(truth.lower <= config.max_distance, "{round}: {truth:?}");
         let normal = Vector::from(manifold.normal);
         let along = gap(body, own, &corners, &normal);
         let rounding = 1e-12 * (1.0 + aside.norm());

@@ -73,16 +73,16 @@ pub fn check(flight: &mut Flight) {
             let (name, query) = QUERIES[asked];
             // Without a limit to the distance, or with one that is as near to it as can be.
             let limits = [f64::INFINITY, 0.0, cold.lower, cold.upper, cold.distance.next_up(), 0.5 * cold.distance];
-            let distance_tolerance = limits[random.below(12).saturating_sub(6)];
+            let max_distance = limits[random.below(12).saturating_sub(6)];
             let start_at = STARTS[random.below(5)];
-            let config = PairConfig { distance_tolerance, start: start_at, ..PairConfig::default() };
+            let config = PairConfig { max_distance, start: start_at, ..PairConfig::default() };
             let shapes = if random.below(2) == 0 { shapes } else { [&other1, &other2] };
             let (mut used, mut answer) = (cache, PairAnswer::default());
             query([shapes[0].at(&placed[0]), shapes[1].at(&placed[1])], &mut used, &config, &mut answer)
                 .expect("accepted poses");
             let checked =
                 verify([shapes[0].at(&placed[0]), shapes[1].at(&placed[1])], &answer).err().map(|e| e.to_string());
-            let is_beyond = distance_tolerance < f64::INFINITY && !is_within(distance_tolerance);
+            let is_beyond = max_distance < f64::INFINITY && !is_within(max_distance);
             let complaints = [
                 contradiction(&cold, &answer),
                 checked,

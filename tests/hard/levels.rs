@@ -89,7 +89,7 @@ fn any_config(random: &mut Random, size: f64) -> PairConfig {
     PairConfig {
         absolute_error,
         relative_error,
-        distance_tolerance: if random.below(4) == 0 { tolerance } else { f64::INFINITY },
+        max_distance: if random.below(4) == 0 { tolerance } else { f64::INFINITY },
         step_budget: if random.below(6) == 0 { 1 + random.below(12) as u32 } else { u32::MAX },
         levels: [Levels::Automatic, Levels::None, Levels::All, Levels::All][random.below(4)],
         refinement: REFINEMENTS[random.below(4)],
@@ -116,8 +116,8 @@ fn judge(exact: &PairAnswer, answer: &PairAnswer, config: &PairConfig, asked: f6
             return (answer.upper < exact.lower).then(|| "an interval that misses".to_string());
         }
         Outcome::Intersecting => {}
-        Outcome::Separated if answer.upper <= config.distance_tolerance || is_spent => {}
-        Outcome::Beyond if answer.lower >= config.distance_tolerance => {}
+        Outcome::Separated if answer.upper <= config.max_distance || is_spent => {}
+        Outcome::Beyond if answer.lower >= config.max_distance => {}
         _ => return Some("an unknown outcome".to_string()),
     }
     let is_wide = answer.outcome == Outcome::Separated && !is_spent && !(answer.upper - answer.lower <= asked);

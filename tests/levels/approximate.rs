@@ -107,7 +107,7 @@ impl Session<'_> {
         PairConfig {
             absolute_error: size * error(random),
             relative_error: error(random),
-            distance_tolerance: match random.below(8) {
+            max_distance: match random.below(8) {
                 0 => size * error(random),
                 1 => distance * (1.0 + random.power(-50, -1) * random.signed()),
                 _ => f64::INFINITY,
@@ -157,8 +157,8 @@ impl Session<'_> {
         match answer.outcome {
             Outcome::Undecided if answer.decided_by == DecidedBy::Budget && answer.lower == 0.0 => {}
             Outcome::Intersecting if is_intersecting => return self.verify_some(answer),
-            Outcome::Separated if !is_intersecting && answer.lower <= config.distance_tolerance => {}
-            Outcome::Beyond if !is_intersecting && answer.lower >= config.distance_tolerance => {}
+            Outcome::Separated if !is_intersecting && answer.lower <= config.max_distance => {}
+            Outcome::Beyond if !is_intersecting && answer.lower >= config.max_distance => {}
             _ => return Err("the verdict is wrong".into()),
         }
         // Both intervals hold the true distance.
@@ -175,7 +175,7 @@ impl Session<'_> {
             return Err("the interval is too wide".into());
         }
         // Whatever is asked, a distance tolerance is decided.
-        if is_answered && answer.upper > config.distance_tolerance {
+        if is_answered && answer.upper > config.max_distance {
             return Err("the interval leaves the distance tolerance open".into());
         }
         let [level1, level2] = answer.statistics.levels.map(usize::from);
@@ -374,10 +374,10 @@ fn coarse_questions_are_answered_by_coarse_levels() {
         let exact = ask(pair::distance, all);
         assert_eq!((exact.statistics.levels, exact.decided_by), ([0, 0], DecidedBy::Marching));
         // Beyond the tolerance the coarsest levels may tell.
-        let beyond = ask(pair::approximate, PairConfig { distance_tolerance: 0.5, ..all });
+        let beyond = ask(pair::approximate, PairConfig { max_distance: 0.5, ..all });
         assert_eq!(beyond.outcome, Outcome::Beyond);
         assert!(beyond.statistics.levels.iter().all(|&level| level > 0), "{beyond:?}");
-        assert_eq!(ask(pair::distance, PairConfig { distance_tolerance: 0.5, ..all }).outcome, Outcome::Beyond);
+        assert_eq!(ask(pair::distance, PairConfig { max_distance: 0.5, ..all }).outcome, Outcome::Beyond);
     }
 }
 
@@ -675,9 +675,9 @@ fn no_levels_are_made_where_nothing_asks_for_them() {
         query([shape.at(&Pose::IDENTITY), shape.at(pose)], &mut cache, &config, &mut answer).map(|()| answer.decided_by)
     };
     let plain = PairConfig::default();
-    let nan = PairConfig { distance_tolerance: f64::NAN, ..plain };
+    let nan = PairConfig { max_distance: f64::NAN, ..plain };
     assert_eq!(ask(pair::intersection, &at(1000.0), plain), Ok(DecidedBy::BoundingSpheres));
-    let within = PairConfig { distance_tolerance: 10.0, absolute_error: 0.1, ..plain };
+    let within = PairConfig { max_distance: 10.0, absolute_error: 0.1, ..plain };
     assert_eq!(ask(pair::approximate, &at(1000.0), within), Ok(DecidedBy::BoundingSpheres));
     assert!(matches!(ask(pair::intersection, &skewed, plain), Err(Error::Pose(_))));
     for x in [0.7, 1000.0] {
@@ -740,7 +740,7 @@ fn settings_out_of_range_are_refused() {
         PairConfig { absolute_error: f64::NAN, ..good },
         PairConfig { relative_error: -1e-300, ..good },
         PairConfig { relative_error: f64::NAN, ..good },
-        PairConfig { distance_tolerance: f64::NAN, ..good },
+        PairConfig { max_distance: f64::NAN, ..good },
         PairConfig { rotation_limit: -1.0, ..good },
         PairConfig { step_budget: 0, ..good },
     ] {

@@ -187,7 +187,7 @@ fn patches(shape: &Shape) -> usize {
 /// Noisy bodies over larger ones, some in each other and some apart.
 fn good_turns(turns: usize) {
     let mut random = Random::new(12);
-    let config = ManifoldConfig { margin: 0.05, ..ALL };
+    let config = ManifoldConfig { max_distance: 0.05, ..ALL };
     let (mut all, mut good, mut rays, mut missed) = (0, 0, 0, 0);
     for ideal in ideals() {
         for noise in NOISES {
@@ -251,7 +251,7 @@ fn check_lattice_boxes(noise: Noise, turns: usize) {
         let spin = rotation(&Vector::z(), 0.3 * random.signed());
         let pose = Pose::new(&(spin * stands), &Vector::new(0.01, 0.0, 0.902));
         let placed = [&pose, &Pose::IDENTITY];
-        let config = ManifoldConfig { margin: 0.05, ..ALL };
+        let config = ManifoldConfig { max_distance: 0.05, ..ALL };
         let (answer, points) = query([&upper, &floor], placed, &mut ManifoldCache::default(), &config);
         assert_eq!(answer.outcome, Outcome::Separated, "{turn}");
         assert!((area_of(&points) / 0.8 - 1.0).abs() < 0.01, "{turn} {points:?}");

@@ -248,8 +248,8 @@ fn check_pairs(seed: u64, rounds: usize) {
         let shapes = [any_shape(&mut random), any_shape(&mut random)];
         let radii = shapes[0].swept_radius() + shapes[1].swept_radius();
         let poses = nearly_in_line(&shapes, radii, &mut random);
-        let margin = random.pick(&[0.0, 0.05, f64::INFINITY]);
-        let config = ManifoldConfig { margin, ..if random.below(4) == 0 { FOUR } else { ALL } };
+        let max_distance = random.pick(&[0.0, 0.05, f64::INFINITY]);
+        let config = ManifoldConfig { max_distance, ..if random.below(4) == 0 { FOUR } else { ALL } };
         match ask(shapes.each_ref(), poses.each_ref(), &mut ManifoldCache::default(), &config) {
             Ok((_, points)) => {
                 several += usize::from(points.len() > 1);
@@ -291,7 +291,7 @@ fn points_of_needles_within_their_noise_are_on_them() {
         let turn = if random.below(2) == 0 { Matrix::identity() } else { random.rotation() };
         let (p, q) = (points[0][random.below(4)], points[1][random.below(4)]);
         let poses = [Pose::new(&turn, &(q - turn * p + random.lattice(1) * random.power(-30, 3))), Pose::IDENTITY];
-        let config = ManifoldConfig { margin: random.pick(&[0.0, 1.0, f64::INFINITY]), ..ALL };
+        let config = ManifoldConfig { max_distance: random.pick(&[0.0, 1.0, f64::INFINITY]), ..ALL };
         match ask(shapes.each_ref(), poses.each_ref(), &mut ManifoldCache::default(), &config) {
             Ok((_, points)) => several += usize::from(points.len() > 1),
             Err(text) => failures.push(format!("{round}: {text}")),

@@ -15,7 +15,7 @@ use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use testkit::random::{Random, rotation};
 use testkit::shapes::{at, cuboid, hull};
 
-const ALL: ManifoldConfig = ManifoldConfig { rotation_limit: 1e-2, margin: 0.0, reduces: false };
+const ALL: ManifoldConfig = ManifoldConfig { rotation_limit: 1e-2, max_distance: 0.0, reduces: false };
 const FOUR: ManifoldConfig = ManifoldConfig { reduces: true, ..ALL };
 
 fn query(
@@ -40,7 +40,7 @@ fn ids(points: &[ManifoldPoint]) -> Vec<u64> {
 fn check(shapes: [&Shape; 2], poses: [&Pose; 2], config: &ManifoldConfig, answer: &Manifold, points: &[ManifoldPoint]) {
     let normal = Vector::from(answer.normal);
     assert!((normal.norm() - 1.0).abs() < 1e-15);
-    assert!(!points.is_empty() && answer.lower <= answer.upper && answer.lower <= config.margin);
+    assert!(!points.is_empty() && answer.lower <= answer.upper && answer.lower <= config.max_distance);
     let size: f64 = shapes.iter().map(|shape| shape.polyhedron().radius).sum();
     let rounding = 1e-12 * (size + poses[1].translation().norm());
     // Of four that stayed another may be a little deeper.
@@ -56,7 +56,10 @@ fn check(shapes: [&Shape; 2], poses: [&Pose; 2], config: &ManifoldConfig, answer
         assert!(point.gap_upper - point.gap_lower <= gap_off, "{point:?}");
         // What is as near as 2⁻²⁷ of the size is at one place.
         assert!(((first - second) - normal * gap).norm() <= off + 2e-8 * size, "{point:?}");
-        assert!(point.gap_lower <= config.margin && answer.lower <= point.gap_upper + rounding, "{answer:?} {point:?}");
+        assert!(
+            point.gap_lower <= config.max_distance && answer.lower <= point.gap_upper + rounding,
+            "{answer:?} {point:?}"
+        );
         for (i, local) in [point.local1, point.local2].into_iter().enumerate() {
             let polyhedron = shapes[i].polyhedron();
             let centred = Vector::from(local) - polyhedron.centre;
@@ -87,7 +90,7 @@ fn a_box_on_a_larger_box_stands_on_its_four_corners() {
     for gap in [-0.125, -1e-6, 0.0, 1e-6, 0.03125] {
         for turn in [0.0, 0.3, 0.785, 1.2] {
             let ([upper, lower], poses) = stacked(gap, turn);
-            let config = ManifoldConfig { margin: 0.05, ..ALL };
+            let config = ManifoldConfig { max_distance: 0.05, ..ALL };
             let placed = [&poses[0], &poses[1]];
             let mut cache = ManifoldCache::default();
             let (answer, points) = query([&upper, &lower], placed, &mut cache, &config);
@@ -112,10 +115,10 @@ fn a_margin_opens_the_manifold_and_ends_it() {
     let placed = [&poses[0], &poses[1]];
     let (answer, points) = query([&upper, &lower], placed, &mut ManifoldCache::default(), &ALL);
     assert_eq!((answer.outcome, points.len(), answer.found_count), (Outcome::Beyond, 0, 0));
-    let config = ManifoldConfig { margin: 0.011, ..ALL };
+    let config = ManifoldConfig { max_distance: 0.011, ..ALL };
     let (answer, points) = query([&upper, &lower], placed, &mut ManifoldCache::default(), &config);
     assert_eq!((answer.outcome, points.len()), (Outcome::Separated, 4));
-    // Tilted, the far corners are beyond the margin.
+    // Tilted, the far corners are beyond `max_distance`.
     let tilted = Pose::new(&rotation(&Vector::y(), 0.05), &Vector::new(0.0, 0.0, 0.75 + 0.052));
     let (answer, points) = query([&upper, &lower], [&tilted, placed[1]], &mut ManifoldCache::default(), &config);
     check([&upper, &lower], [&tilted, placed[1]], &config, &answer, &points);
@@ -127,12 +130,12 @@ fn a_margin_opens_the_manifold_and_ends_it() {
 fn an_infinite_margin_admits_all() {
     let ([upper, lower], poses) = stacked(1e3, 0.2);
     let placed = [&poses[0], &poses[1]];
-    let config = ManifoldConfig { margin: f64::INFINITY, ..ALL };
+    let config = ManifoldConfig { max_distance: f64::INFINITY, ..ALL };
     let (answer, points) = query([&upper, &lower], placed, &mut ManifoldCache::default(), &config);
     assert_eq!((answer.outcome, points.len()), (Outcome::Separated, 4));
-    for margin in [f64::NAN, -1.0, f64::NEG_INFINITY] {
+    for max_distance in [f64::NAN, -1.0, f64::NEG_INFINITY] {
         let bodies = [upper.at(placed[0]), lower.at(placed[1])];
-        let config = ManifoldConfig { margin, ..ALL };
+        let config = ManifoldConfig { max_distance, ..ALL };
         let refused = manifold(bodies, &mut ManifoldCache::default(), &config, &mut []).unwrap_err();
         assert!(refused.message().ends_with("it must be at least 0"), "{refused:?}");
     }
@@ -150,7 +153,7 @@ fn sides_that_lie_on_each_other_have_no_crossings() {
         let away = Vector::new(0.0, 0.3 * random.signed(), 0.53);
         let poses = [Pose::new(&(turn * tilt), &(turn * away)), Pose::new(&turn, &Vector::zeros())];
         let placed = [&poses[0], &poses[1]];
-        let config = ManifoldConfig { margin: 0.2, ..ALL };
+        let config = ManifoldConfig { max_distance: 0.2, ..ALL };
         let (answer, points) = query([&shapes[0], &shapes[1]], placed, &mut ManifoldCache::default(), &config);
         check([&shapes[0], &shapes[1]], placed, &config, &answer, &points);
         assert!(points.len() <= 4, "{points:?}");
@@ -255,7 +258,7 @@ fn hulls_on_hulls_have_points_on_both() {
         let away = Vector::new(random.signed(), random.signed(), 0.8 * random.signed()) * 0.7;
         let poses = [Pose::new(&turn, &away), Pose::new(&random.quarter_turns(), &Vector::zeros())];
         let placed = [&poses[0], &poses[1]];
-        let config = ManifoldConfig { margin: 0.05, ..ALL };
+        let config = ManifoldConfig { max_distance: 0.05, ..ALL };
         let (answer, points) = query(pair, placed, &mut ManifoldCache::default(), &config);
         if answer.outcome == Outcome::Beyond {
             continue;
@@ -345,7 +348,7 @@ fn any_magnitude_has_a_manifold() {
         let shapes = [cuboid([scale, scale, 0.25 * scale]), cuboid([2.0 * scale, 2.0 * scale, 0.5 * scale])];
         for gap in [-0.125, 0.0, 0.125] {
             let above = Pose::new(&Matrix::identity(), &Vector::new(0.0, 0.0, (0.75 + gap) * scale));
-            let config = ManifoldConfig { margin: 0.2 * scale, ..ALL };
+            let config = ManifoldConfig { max_distance: 0.2 * scale, ..ALL };
             let placed = [&above, &Pose::IDENTITY];
             let (answer, points) = query([&shapes[0], &shapes[1]], placed, &mut ManifoldCache::default(), &config);
             assert_eq!(answer.found_count, if scale > 1e150 { 1 } else { 4 }, "{scale:e} {gap} {answer:?}");

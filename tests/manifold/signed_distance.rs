@@ -45,8 +45,8 @@ fn it_is_the_distance_or_minus_the_depth() {
             let off = (first - second) - Vector::from(answer.normal) * answer.distance;
             assert!(off.norm() <= 1e-12, "{answer:?}");
             let mut manifold = ManifoldCache::default();
-            let margin = ManifoldConfig { margin: f64::INFINITY, ..ManifoldConfig::default() };
-            let (contact, _) = query([&shape, &shape], [&poses[0], &poses[1]], &mut manifold, &margin);
+            let all = ManifoldConfig { max_distance: f64::INFINITY, ..ManifoldConfig::default() };
+            let (contact, _) = query([&shape, &shape], [&poses[0], &poses[1]], &mut manifold, &all);
             assert!((contact.lower - answer.lower).abs() <= narrow && (contact.upper - answer.upper).abs() <= narrow);
         }
         assert!(seen.iter().all(|&count| count > 100), "{seen:?}");
@@ -63,11 +63,11 @@ fn ask(shape: &Shape, poses: &[Pose; 2], cache: &mut SignedDistanceCache, config
 fn beyond_the_tolerance_a_lower_end_is_all_that_is_said() {
     let shape = cuboid([0.5; 3]);
     let poses = [Pose::IDENTITY, at(3.0, 0.0, 0.0)];
-    let config = PairConfig { distance_tolerance: 1.0, ..PairConfig::default() };
+    let config = PairConfig { max_distance: 1.0, ..PairConfig::default() };
     let answer = ask(&shape, &poses, &mut SignedDistanceCache::default(), &config);
     assert_eq!(answer.outcome, Outcome::Beyond);
     assert!(answer.lower > 1.0 && answer.upper == f64::INFINITY && answer.distance == answer.lower, "{answer:?}");
-    let bad = PairConfig { distance_tolerance: f64::NAN, ..config };
+    let bad = PairConfig { max_distance: f64::NAN, ..config };
     let before = SignedDistance { lower: 7.0, ..SignedDistance::default() };
     let mut kept = before;
     let bodies = [shape.at(&poses[0]), shape.at(&poses[1])];

@@ -101,7 +101,7 @@ fn what_queries_say_holds() {
             [turn, turn * testkit::random::rotation(&Vector::z(), random.uniform(0.0, 3.0))]
         };
         let poses = [Pose::new(&turns[0], &(place + apart)), Pose::new(&turns[1], &place)];
-        let config = ManifoldConfig { margin: 0.75, ..if round % 3 == 0 { FOUR } else { ALL } };
+        let config = ManifoldConfig { max_distance: 0.75, ..if round % 3 == 0 { FOUR } else { ALL } };
         let mut case = Case::new(shapes, poses, config);
         assert!(case.verify().is_ok(), "{round}: {:?} {:?} {:?}", case.verify(), case.manifold, case.points);
         outcomes[case.manifold.outcome as usize] += 1;
@@ -126,7 +126,7 @@ fn an_interval_that_misses_the_truth_by_one_double_is_refused() {
     for (height, truth) in [(1.25, 0.5), (0.625, -0.125)] {
         let shapes = [cuboid([1.0, 1.0, 0.25]), cuboid([2.0, 2.0, 0.5])];
         let poses = [at(0.0, 0.0, height), at(0.0, 0.0, 0.0)];
-        let case = Case::new(shapes, poses, ManifoldConfig { margin: 1.0, ..ALL });
+        let case = Case::new(shapes, poses, ManifoldConfig { max_distance: 1.0, ..ALL });
         assert_eq!(case.points.len(), 4);
         let with =
             |lower: f64, upper: f64| case.refuses(|manifold, _| (manifold.lower, manifold.upper) = (lower, upper));
@@ -146,11 +146,11 @@ fn forgeries_are_refused() {
     let ([upper, lower], poses) = stacked(-0.0625, 0.3);
     let tilted = Pose::new(&testkit::random::rotation(&Vector::y(), 0.01), &Vector::new(0.0, 0.0, 0.75));
     let cases = [
-        Case::new([upper, lower], poses, ManifoldConfig { margin: 0.05, ..ALL }),
+        Case::new([upper, lower], poses, ManifoldConfig { max_distance: 0.05, ..ALL }),
         Case::new(
             [cuboid([1.0, 1.0, 0.25]), cuboid([2.0, 2.0, 0.5])],
             [tilted, Pose::IDENTITY],
-            ManifoldConfig { margin: 0.25, ..ALL },
+            ManifoldConfig { max_distance: 0.25, ..ALL },
         ),
     ];
     for case in &cases {
@@ -220,7 +220,7 @@ fn forgeries_are_refused() {
 #[test]
 fn a_point_beside_its_body_is_refused_however_wide_its_gap() {
     let ([upper, lower], poses) = stacked(-0.0625, 0.3);
-    let case = Case::new([upper, lower], poses, ManifoldConfig { margin: 0.05, ..ALL });
+    let case = Case::new([upper, lower], poses, ManifoldConfig { max_distance: 0.05, ..ALL });
     for k in 0..4 {
         assert_eq!(case.points[k].feature1.kind, FeatureKind::Vertex);
         let is_refused = |off: f64| {
@@ -246,7 +246,7 @@ fn a_point_on_the_far_side_is_refused() {
     let of = |turn: Vector| {
         let shapes = [cuboid([2.0, 2.0, 0.25]), cuboid([1.0, 1.0, 0.5])];
         let above = Pose::new(&Matrix::from_diagonal(&turn), &Vector::new(0.0, 0.0, 0.75));
-        Case::new(shapes, [above, Pose::IDENTITY], ManifoldConfig { margin: 1.0, ..ALL })
+        Case::new(shapes, [above, Pose::IDENTITY], ManifoldConfig { max_distance: 1.0, ..ALL })
     };
     // Turned over, the plate lies on its far face, and says its name.
     let (case, turned_over) = (of(Vector::repeat(1.0)), of(Vector::new(1.0, -1.0, -1.0)));

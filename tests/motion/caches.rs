@@ -42,7 +42,8 @@ fn any_cache_gives_an_answer_that_holds() {
         };
         let (cold, left) = with(PairCache::default());
         let bits = |answer: &CastAnswer| {
-            [answer.t_lo, answer.t_hi, answer.clearance, answer.upper, answer.contact.lower].map(f64::to_bits)
+            [answer.time_lower, answer.time_upper, answer.clearance, answer.upper, answer.contact.lower]
+                .map(f64::to_bits)
         };
         assert_eq!(bits(&with(PairCache::default()).0), bits(&cold));
         for cache in [left, cache_of(&mut random), cache_of(&mut random)] {
@@ -51,7 +52,10 @@ fn any_cache_gives_an_answer_that_holds() {
             assert_eq!(answer.outcome, cold.outcome);
             if answer.outcome == CastOutcome::Hit {
                 // Both intervals hold the first contact.
-                assert!(answer.t_lo <= cold.t_hi && cold.t_lo <= answer.t_hi, "{answer:?} {cold:?}");
+                assert!(
+                    answer.time_lower <= cold.time_upper && cold.time_lower <= answer.time_upper,
+                    "{answer:?} {cold:?}"
+                );
                 hit += 1;
             } else {
                 free += 1;

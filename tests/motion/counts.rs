@@ -28,7 +28,7 @@ fn turning_bodies_are_met_in_few_queries() {
         verify_cast(bodies, &CastConfig::default(), &answer).unwrap();
         queries += answer.queries;
         if answer.outcome == CastOutcome::Hit {
-            assert!(answer.t_hi - answer.t_lo <= 1.01e-9, "{answer:?}");
+            assert!(answer.time_upper - answer.time_lower <= 1.01e-9, "{answer:?}");
             hits += 1;
         }
     }

@@ -20,21 +20,25 @@ fn forged_answers_are_refused() {
     let still = Motion::Fixed(Pose::IDENTITY);
     let hitting = screw(at(3.0, 0.1, 0.2), [-4.0, 0.0, 0.0], [1.0, 2.0, 0.5]);
     let missing = screw(at(-4.0, 3.2, 0.2), [8.0, 0.0, 0.0], [0.4, 0.2, 0.5]);
-    let margin = CastConfig { margin: 0.1, ..CastConfig::default() };
-    for config in [CastConfig::default(), margin] {
+    let within = CastConfig { max_distance: 0.1, ..CastConfig::default() };
+    for config in [CastConfig::default(), within] {
         let hit = moving([&bar, &cube], [&hitting, &still]);
         let answer = run(hit, &config);
         assert_eq!(answer.outcome, CastOutcome::Hit);
         verify_cast(hit, &config, &answer).unwrap();
-        let later = CastAnswer { t_lo: answer.t_hi, ..answer };
-        let sooner = CastAnswer { t_hi: answer.t_lo, ..answer };
-        let outside = CastAnswer { t_hi: 1.5, ..answer };
-        let swapped = CastAnswer { t_lo: answer.t_hi, t_hi: answer.t_lo, ..answer };
+        let later = CastAnswer { time_lower: answer.time_upper, ..answer };
+        let sooner = CastAnswer { time_upper: answer.time_lower, ..answer };
+        let outside = CastAnswer { time_upper: 1.5, ..answer };
+        let swapped = CastAnswer { time_lower: answer.time_upper, time_upper: answer.time_lower, ..answer };
         let no_contact = CastAnswer { contact: Default::default(), ..answer };
-        let none = CastAnswer { t_lo: f64::NAN, ..answer };
-        let free =
-            CastAnswer { outcome: CastOutcome::Free, t_lo: 1.0, clearance: config.margin, ..CastAnswer::default() };
-        let beyond = CastAnswer { outcome: CastOutcome::Budget, t_lo: 0.9, ..CastAnswer::default() };
+        let none = CastAnswer { time_lower: f64::NAN, ..answer };
+        let free = CastAnswer {
+            outcome: CastOutcome::Free,
+            time_lower: 1.0,
+            clearance: config.max_distance,
+            ..CastAnswer::default()
+        };
+        let beyond = CastAnswer { outcome: CastOutcome::Budget, time_lower: 0.9, ..CastAnswer::default() };
         for forged in [later, sooner, outside, swapped, no_contact, none, free, beyond] {
             let refused = verify_cast(hit, &config, &forged);
             assert!(matches!(refused, Err(Error::Unverified(_))), "{forged:?}: {refused:?}");
@@ -47,9 +51,9 @@ fn forged_answers_are_refused() {
         assert_eq!(answer.outcome, CastOutcome::Free, "{answer:?}");
         verify_cast(free, &config, &answer).unwrap();
         let too_far = CastAnswer { clearance: 5.0, ..answer };
-        let too_near = CastAnswer { clearance: config.margin - 0.01, ..answer };
-        let partial = CastAnswer { t_lo: 0.5, ..answer };
-        let with_time = CastAnswer { t_hi: 0.5, ..answer };
+        let too_near = CastAnswer { clearance: config.max_distance - 0.01, ..answer };
+        let partial = CastAnswer { time_lower: 0.5, ..answer };
+        let with_time = CastAnswer { time_upper: 0.5, ..answer };
         let as_near = CastAnswer { outcome: CastOutcome::Near, upper: 0.01, ..answer };
         for forged in [too_far, too_near, partial, with_time, as_near] {
             let refused = verify_cast(free, &config, &forged);
@@ -110,20 +114,20 @@ fn one_double_beyond_the_first_contact_is_refused() {
         });
         let motions = poses.map(|[start, end]| Motion::Affine { start, end });
         let pair = moving([&shapes[0], &shapes[1]], [&motions[0], &motions[1]]);
-        let margin = random.pick(&[0.0, 0.125]);
-        let config = CastConfig { margin, ..CastConfig::default() };
+        let max_distance = random.pick(&[0.0, 0.125]);
+        let config = CastConfig { max_distance, ..CastConfig::default() };
         let answer = run(pair, &config);
         assert_eq!(verify_cast(pair, &config, &answer), Ok(()), "{round} {answer:?}");
-        if answer.outcome != CastOutcome::Hit || answer.t_lo == 0.0 {
+        if answer.outcome != CastOutcome::Hit || answer.time_lower == 0.0 {
             continue;
         }
         hits += 1;
-        let reach = rational(radii[0]) + rational(radii[1]) + rational(margin);
+        let reach = rational(radii[0]) + rational(radii[1]) + rational(max_distance);
         let beyond = |time: f64| {
             let [first, second] = [0, 1].map(|i| points_at(&points[i], &poses[i], time));
             truth(&first, &IDENTITY, &second, &IDENTITY).squared_distance.cmp(&(&reach * &reach))
         };
-        let (mut apart, mut within) = (answer.t_lo, answer.t_hi);
+        let (mut apart, mut within) = (answer.time_lower, answer.time_upper);
         assert!(beyond(apart) == Ordering::Greater && beyond(within) != Ordering::Greater, "{round} {answer:?}");
         while apart.next_up() < within {
             let middle = 0.5 * (apart + within);
@@ -136,18 +140,22 @@ fn one_double_beyond_the_first_contact_is_refused() {
             contact(placed, &mut PairCache::default(), &PairConfig::default(), &mut answer).unwrap();
             answer
         };
-        for t_lo in [within, answer.t_hi] {
+        for time_lower in [within, answer.time_upper] {
             assert!(
-                is_refused(pair, &config, &CastAnswer { t_lo, t_hi: t_lo.max(answer.t_hi), ..answer }),
-                "{round} {t_lo}"
+                is_refused(
+                    pair,
+                    &config,
+                    &CastAnswer { time_lower, time_upper: time_lower.max(answer.time_upper), ..answer }
+                ),
+                "{round} {time_lower}"
             );
-            let budget = CastAnswer { outcome: CastOutcome::Budget, t_lo, ..CastAnswer::default() };
-            assert!(is_refused(pair, &config, &budget), "{round} {t_lo}");
+            let budget = CastAnswer { outcome: CastOutcome::Budget, time_lower, ..CastAnswer::default() };
+            assert!(is_refused(pair, &config, &budget), "{round} {time_lower}");
         }
-        for t_hi in [apart, answer.t_lo] {
-            let sooner = CastAnswer { t_hi, contact: contact_at(t_hi), ..answer };
-            assert!(is_refused(pair, &config, &sooner), "{round} {t_hi}");
-            assert!(is_refused(pair, &config, &CastAnswer { t_hi, ..answer }), "{round} {t_hi}");
+        for time_upper in [apart, answer.time_lower] {
+            let sooner = CastAnswer { time_upper, contact: contact_at(time_upper), ..answer };
+            assert!(is_refused(pair, &config, &sooner), "{round} {time_upper}");
+            assert!(is_refused(pair, &config, &CastAnswer { time_upper, ..answer }), "{round} {time_upper}");
         }
     }
     assert!(hits > 30, "{hits}");
@@ -168,17 +176,17 @@ fn closed_forms_of_flights_are_told_to_the_double_or_to_rounding() {
         to(shrunk(3.0), at(1.0, 0.0, 0.0)),
     ] {
         let pair = moving([&ball, &cube], [&flight, &still]);
-        for margin in [0.0, 0.25] {
-            let config = CastConfig { margin, ..CastConfig::default() };
+        for max_distance in [0.0, 0.25] {
+            let config = CastConfig { max_distance, ..CastConfig::default() };
             let answer = run(pair, &config);
-            let first = 0.75 - 0.5 * margin;
+            let first = 0.75 - 0.5 * max_distance;
             assert_eq!((answer.outcome, verify_cast(pair, &config, &answer)), (CastOutcome::Hit, Ok(())), "{answer:?}");
-            let until = |t_lo: f64| verify_cast(pair, &config, &CastAnswer { t_lo, ..answer });
+            let until = |time_lower: f64| verify_cast(pair, &config, &CastAnswer { time_lower, ..answer });
             assert_eq!(until(first - 1e-12), Ok(()));
-            assert!([first, first.next_up()].iter().all(|&t_lo| until(t_lo).is_err()));
-            assert!(is_refused(pair, &config, &CastAnswer { t_hi: first.next_down(), ..answer }));
-            if margin > 0.0 {
-                let apart = 1.5 - 2.0 * answer.t_hi;
+            assert!([first, first.next_up()].iter().all(|&time_lower| until(time_lower).is_err()));
+            assert!(is_refused(pair, &config, &CastAnswer { time_upper: first.next_down(), ..answer }));
+            if max_distance > 0.0 {
+                let apart = 1.5 - 2.0 * answer.time_upper;
                 // The width that docs/conventions.md promises, of centres at most 1.25 apart.
                 assert!(answer.upper >= apart && answer.upper < apart + 2e-14 * 1.25, "{:e}", answer.upper - apart);
                 for upper in [apart.next_down(), 0.0] {
@@ -199,7 +207,10 @@ fn closed_forms_of_flights_are_told_to_the_double_or_to_rounding() {
     let arriving = to(at(3.5, 0.0, 0.0), at(1.5, 0.0, 0.0));
     let pair = moving([&ball, &cube], [&arriving, &still]);
     let answer = run(pair, &config);
-    assert_eq!((answer.outcome, answer.t_hi, verify_cast(pair, &config, &answer)), (CastOutcome::Hit, 1.0, Ok(())));
-    assert!(is_refused(pair, &config, &CastAnswer { t_hi: 1.0_f64.next_down(), ..answer }));
-    assert!(is_refused(pair, &config, &CastAnswer { t_lo: 1.0, ..answer }));
+    assert_eq!(
+        (answer.outcome, answer.time_upper, verify_cast(pair, &config, &answer)),
+        (CastOutcome::Hit, 1.0, Ok(()))
+    );
+    assert!(is_refused(pair, &config, &CastAnswer { time_upper: 1.0_f64.next_down(), ..answer }));
+    assert!(is_refused(pair, &config, &CastAnswer { time_lower: 1.0, ..answer }));
 }

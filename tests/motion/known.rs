@@ -16,7 +16,10 @@ fn a_cube_falls_on_a_cube() {
     let (still, falling) = (Motion::Fixed(Pose::IDENTITY), straight(at(0.25, 0.125, 3.0), [0.0, 0.0, -4.0]));
     let answer = run(moving([&cube, &cube], [&falling, &still]), &CastConfig::default());
     assert_eq!(answer.outcome, CastOutcome::Hit);
-    assert!(answer.t_lo < 0.5 && 0.5 <= answer.t_hi && answer.t_hi - answer.t_lo <= 1e-9, "{answer:?}");
+    assert!(
+        answer.time_lower < 0.5 && 0.5 <= answer.time_upper && answer.time_upper - answer.time_lower <= 1e-9,
+        "{answer:?}"
+    );
     assert_eq!((answer.upper, answer.contact.outcome), (0.0, Outcome::Intersecting));
     assert!((answer.contact.normal[2] - 1.0).abs() < 1e-12, "{answer:?}");
     assert!((answer.contact.world1[2] - 0.5).abs() < 1e-8, "{answer:?}");
@@ -31,7 +34,7 @@ fn a_start_in_contact_is_a_hit_at_the_beginning() {
     for height in [1.0, 0.5] {
         let rising = straight(at(0.0, 0.25, height), [0.0, 0.0, 1.0]);
         let answer = run(moving([&cube, &cube], [&rising, &still]), &CastConfig::default());
-        assert_eq!((answer.outcome, answer.t_lo, answer.t_hi), (CastOutcome::Hit, 0.0, 0.0), "{answer:?}");
+        assert_eq!((answer.outcome, answer.time_lower, answer.time_upper), (CastOutcome::Hit, 0.0, 0.0), "{answer:?}");
     }
 }
 
@@ -42,7 +45,11 @@ fn a_bullet_does_not_pass_between_samples() {
     let answer = run(moving([&bullet, &plate], [&flight, &still]), &CastConfig::default());
     let first = (50.0 - 0.01 - 5e-4) / 100.0;
     assert_eq!(answer.outcome, CastOutcome::Hit);
-    assert!(answer.t_lo <= first + 1e-15 && first - 1e-15 <= answer.t_hi && answer.t_hi - answer.t_lo <= 1e-9);
+    assert!(
+        answer.time_lower <= first + 1e-15
+            && first - 1e-15 <= answer.time_upper
+            && answer.time_upper - answer.time_lower <= 1e-9
+    );
     assert!(answer.contact.normal[2] < -0.999_999, "{answer:?}");
 }
 
@@ -56,16 +63,18 @@ fn a_bar_that_turns_hits_a_post_by_its_corner() {
     let first = 1.0 - 0.9_f64.acos() / FRAC_PI_4;
     assert_eq!(answer.outcome, CastOutcome::Hit);
     assert!(
-        answer.t_lo < first + 1e-14 && first - 1e-14 < answer.t_hi && answer.t_hi - answer.t_lo <= 1e-9,
+        answer.time_lower < first + 1e-14
+            && first - 1e-14 < answer.time_upper
+            && answer.time_upper - answer.time_lower <= 1e-9,
         "{answer:?}"
     );
 
     // Beyond the corner's reach it is free; the clearance is at most that of the corner and not much less.
     let away = Motion::Fixed(at(1.6, 0.0, 0.0));
     let answer = run(moving([&square, &wall], [&turning, &away]), &CastConfig::default());
-    assert_eq!((answer.outcome, answer.t_lo), (CastOutcome::Free, 1.0));
+    assert_eq!((answer.outcome, answer.time_lower), (CastOutcome::Free, 1.0));
     assert!(answer.clearance > 0.0 && answer.clearance <= 0.1 + 1e-12, "{answer:?}");
-    assert!(answer.t_hi.is_nan() && answer.upper.is_nan());
+    assert!(answer.time_upper.is_nan() && answer.upper.is_nan());
 }
 
 #[test]
@@ -106,7 +115,10 @@ fn a_ball_hits_a_ball() {
     let (still, flying) = (Motion::Fixed(Pose::IDENTITY), straight(at(-3.0, 0.0, 0.0), [4.0, 0.0, 0.0]));
     let answer = run(moving([&ball, &ball], [&flying, &still]), &CastConfig::default());
     assert_eq!(answer.outcome, CastOutcome::Hit, "{answer:?}");
-    assert!(answer.t_lo <= 0.25 && 0.25 <= answer.t_hi && answer.t_hi - answer.t_lo <= 1e-9, "{answer:?}");
+    assert!(
+        answer.time_lower <= 0.25 && 0.25 <= answer.time_upper && answer.time_upper - answer.time_lower <= 1e-9,
+        "{answer:?}"
+    );
     let past = straight(at(-3.0, 2.5, 0.0), [4.0, 0.0, 0.0]);
     let answer = run(moving([&ball, &ball], [&past, &still]), &CastConfig::default());
     assert!(answer.outcome == CastOutcome::Free && answer.clearance <= 0.5, "{answer:?}");
@@ -125,14 +137,14 @@ fn grazing_is_told_from_touching() {
         assert_eq!(answer.outcome, outcome, "{clearance:e}: {answer:?}");
         assert!(answer.queries < 200, "{clearance:e}: {answer:?}");
         if outcome == CastOutcome::Hit {
-            assert!(answer.t_lo < 0.5 && answer.t_hi < 0.501);
+            assert!(answer.time_lower < 0.5 && answer.time_upper < 0.501);
         }
     }
     // As near as rounding hides: no verdict, and an upper bound of the distance.
     let still = Motion::Fixed(at(1.5, 0.0, 0.0));
     let answer = run(moving([&square, &wall], [&turning, &still]), &CastConfig::default());
     assert_eq!(answer.outcome, CastOutcome::Near, "{answer:?}");
-    assert!(answer.t_lo < 0.5 && answer.upper < 1e-12, "{answer:?}");
+    assert!(answer.time_lower < 0.5 && answer.upper < 1e-12, "{answer:?}");
 }
 
 #[test]
@@ -140,13 +152,13 @@ fn a_margin_is_kept() {
     let cube = cuboid([0.5; 3]);
     let (still, passing) = (Motion::Fixed(Pose::IDENTITY), straight(at(-4.0, 0.0, 1.25), [8.0, 0.0, 0.0]));
     let bodies = moving([&cube, &cube], [&passing, &still]);
-    let with = |margin: f64| run(bodies, &CastConfig { margin, ..CastConfig::default() });
+    let with = |max_distance: f64| run(bodies, &CastConfig { max_distance, ..CastConfig::default() });
     assert_eq!(with(0.2).outcome, CastOutcome::Free);
     let hit = with(0.5);
     assert_eq!(hit.outcome, CastOutcome::Hit);
     // The edges are 0.5 apart when they are √(0.5² − 0.25²) apart along the path.
     let first = (3.0 - 0.1875_f64.sqrt()) / 8.0;
-    assert!(hit.t_lo < first && first < hit.t_hi && hit.t_hi - hit.t_lo <= 1e-9, "{hit:?}");
+    assert!(hit.time_lower < first && first < hit.time_upper && hit.time_upper - hit.time_lower <= 1e-9, "{hit:?}");
     assert!(hit.upper <= 0.5 && hit.upper > 0.499_999);
 }
 
@@ -155,13 +167,14 @@ fn a_range_of_times_is_kept_and_may_be_one_moment() {
     let cube = cuboid([0.5; 3]);
     let (still, falling) = (Motion::Fixed(Pose::IDENTITY), straight(at(0.0, 0.0, 3.0), [0.0, 0.0, -4.0]));
     let bodies = moving([&cube, &cube], [&falling, &still]);
-    let of = |t_begin: f64, t_end: f64| run(bodies, &CastConfig { t_begin, t_end, ..CastConfig::default() });
+    let of =
+        |time_begin: f64, time_end: f64| run(bodies, &CastConfig { time_begin, time_end, ..CastConfig::default() });
     assert_eq!(of(-2.0, 0.4).outcome, CastOutcome::Free);
     assert_eq!(of(0.4, 0.4).outcome, CastOutcome::Free);
     assert_eq!(of(0.75, 3.0).outcome, CastOutcome::Hit);
     assert_eq!(of(1.25, 3.0).outcome, CastOutcome::Free);
     let inside = of(0.6, 0.6);
-    assert_eq!((inside.outcome, inside.t_lo, inside.t_hi), (CastOutcome::Hit, 0.6, 0.6));
+    assert_eq!((inside.outcome, inside.time_lower, inside.time_upper), (CastOutcome::Hit, 0.6, 0.6));
 }
 
 #[test]
@@ -176,7 +189,9 @@ fn an_affine_motion_and_a_callback_say_the_same() {
         let answer = run(moving([&cube, &cube], [motion, &still]), &CastConfig::default());
         assert_eq!(answer.outcome, CastOutcome::Hit);
         assert!(
-            answer.t_lo < 0.5 + 1e-14 && 0.5 - 1e-14 < answer.t_hi && answer.t_hi - answer.t_lo <= 1e-9,
+            answer.time_lower < 0.5 + 1e-14
+                && 0.5 - 1e-14 < answer.time_upper
+                && answer.time_upper - answer.time_lower <= 1e-9,
             "{answer:?}"
         );
     }
@@ -191,5 +206,5 @@ fn a_budget_ends_it_with_what_is_proved() {
     let config = CastConfig { step_budget: 3, ..CastConfig::default() };
     let answer = run(moving([&square, &wall], [&turning, &still]), &config);
     assert_eq!((answer.outcome, answer.queries), (CastOutcome::Budget, 3));
-    assert!(answer.t_lo > 0.1 && answer.t_lo < 0.5, "{answer:?}");
+    assert!(answer.time_lower > 0.1 && answer.time_lower < 0.5, "{answer:?}");
 }

@@ -32,14 +32,14 @@ fn numbers_that_are_none_are_refused() {
     let (still, good) = (Motion::Fixed(Pose::IDENTITY), straight(at(0.0, 0.0, 3.0), [0.0, 0.0, -4.0]));
     let usual = CastConfig::default();
     let configs = [
-        (CastConfig { t_begin: f64::NAN, ..usual }, "t_begin"),
-        (CastConfig { t_end: f64::INFINITY, ..usual }, "t_end"),
-        (CastConfig { t_begin: 2.0, ..usual }, "before t_begin"),
+        (CastConfig { time_begin: f64::NAN, ..usual }, "time_begin"),
+        (CastConfig { time_end: f64::INFINITY, ..usual }, "time_end"),
+        (CastConfig { time_begin: 2.0, ..usual }, "before time_begin"),
         (CastConfig { time_tolerance: 0.0, ..usual }, "time_tolerance"),
         (CastConfig { time_tolerance: 1e-17, ..usual }, "time_tolerance"),
         (CastConfig { time_tolerance: f64::NAN, ..usual }, "time_tolerance"),
-        (CastConfig { margin: -1.0, ..usual }, "margin"),
-        (CastConfig { margin: f64::NAN, ..usual }, "margin"),
+        (CastConfig { max_distance: -1.0, ..usual }, "max_distance"),
+        (CastConfig { max_distance: f64::NAN, ..usual }, "max_distance"),
         (CastConfig { step_budget: 0, ..usual }, "step_budget"),
     ];
     for (config, name) in configs {

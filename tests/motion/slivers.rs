@@ -85,7 +85,7 @@ fn check_hit(shapes: &[Shape; 2], first: &Motion, second: &Motion) {
     assert_eq!((answer.outcome, verify_cast(pair, &config, &answer)), (CastOutcome::Hit, Ok(())), "{answer:?}");
 }
 
-/// A speck that stays beside a beam 5e14 long. Cause: a clearance comes from steps that were chosen for the margin; the check
+/// A speck that stays beside a beam 5e14 long. Cause: a clearance comes from steps that were chosen for `max_distance`; the check
 /// chose its own for the clearance, and found none.
 #[test]
 fn a_clearance_is_proved_by_the_steps_of_the_cast() {

@@ -78,13 +78,13 @@ fn a_refused_query_leaves_cache_and_answer_alone() {
                 assert!(matches!(result, Err(Error::Pose(_))), "{result:?} of {config:?} at {pose:?}");
             }
             for refused in [
-                PairConfig { distance_tolerance: f64::NAN, ..config },
-                PairConfig { distance_tolerance: -1.0, ..config },
+                PairConfig { max_distance: f64::NAN, ..config },
+                PairConfig { max_distance: -1.0, ..config },
                 PairConfig { rotation_limit: f64::NAN, ..config },
                 PairConfig { rotation_limit: -1e-9, ..config },
                 PairConfig { rotation_limit: ROTATION_LIMIT.next_up(), ..config },
                 PairConfig { rotation_limit: f64::INFINITY, ..config },
-                PairConfig { rotation_limit: 0.5, distance_tolerance: 0.1, ..config },
+                PairConfig { rotation_limit: 0.5, max_distance: 0.1, ..config },
             ] {
                 let result =
                     query([body.at(&at(0.0, 0.0, 0.0)), body.at(&at(x, 0.0, 0.0))], &mut cache, &refused, &mut answer);

@@ -31,8 +31,8 @@ fn fly(shape: &Shape, orbit: Orbit, step: &str) -> [usize; 3] {
     let (mut cache, mut answer, mut exact) = (PairCache::default(), PairAnswer::default(), PairAnswer::default());
     for (number, pose) in poses(orbit, step.parse::<Step>().unwrap(), COUNT).into_iter().enumerate() {
         // Now and then with a tolerance: the answer is on the side of it that the distance is.
-        let distance_tolerance = if number % 8 == 7 { 1.0 } else { f64::INFINITY };
-        let config = PairConfig { distance_tolerance, ..PairConfig::default() };
+        let max_distance = if number % 8 == 7 { 1.0 } else { f64::INFINITY };
+        let config = PairConfig { max_distance, ..PairConfig::default() };
         let [pose1, pose2] = [&pose[..12], &pose[12..]].map(|m| Pose::from_row_major(m.try_into().unwrap()));
         intersection([shape.at(&pose1), shape.at(&pose2)], &mut cache, &config, &mut answer).unwrap();
         distance([shape.at(&pose1), shape.at(&pose2)], &mut PairCache::default(), &config, &mut exact).unwrap();
@@ -92,12 +92,12 @@ fn spheres_decide_where_they_may() {
     let mut random = Random::new(3);
     let mut counts = [0; 4];
     for round in 0..4_000 {
-        let distance_tolerance = [f64::INFINITY, 0.0, 0.3][round % 3];
-        let beyond = if distance_tolerance < f64::INFINITY { distance_tolerance } else { 0.0 };
+        let max_distance = [f64::INFINITY, 0.0, 0.3][round % 3];
+        let beyond = if max_distance < f64::INFINITY { max_distance } else { 0.0 };
         let near = [0.0, 1e-15, 1e-12, 1e-2][random.below(4)] * random.uniform(-1.0, 1.0);
         let away = random.direction() * ((2.0 * radius + beyond) * (1.0 + near));
         let [pose1, pose2] = [Vector::zeros(), away].map(|t| Pose::new(&random.rotation(), &t));
-        let config = PairConfig { distance_tolerance, ..PairConfig::default() };
+        let config = PairConfig { max_distance, ..PairConfig::default() };
         let mut exact = PairAnswer::default();
         let ask = |query: Query, config: &PairConfig, answer: &mut PairAnswer| {
             query([shape.at(&pose1), shape.at(&pose2)], &mut PairCache::default(), config, answer).unwrap();
@@ -109,7 +109,7 @@ fn spheres_decide_where_they_may() {
             verify([shape.at(&pose1), shape.at(&pose2)], &answer).unwrap();
             assert!(answer.lower <= exact.upper && exact.lower <= answer.upper, "{answer:?}\n{exact:?}");
             let is_beyond = answer.outcome == Outcome::Beyond;
-            assert!(if is_beyond { answer.lower >= distance_tolerance } else { answer.upper <= distance_tolerance });
+            assert!(if is_beyond { answer.lower >= max_distance } else { answer.upper <= max_distance });
             counts[i] += usize::from(answer.decided_by == DecidedBy::BoundingSpheres);
         }
     }

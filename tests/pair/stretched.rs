@@ -77,8 +77,7 @@ fn check_pair(mut random: Random, tally: &mut Tally, name: &str) {
     let truth = solve(polyhedra[0], &poses[0], polyhedra[1], &poses[1], &[]);
     let mut config = PairConfig::default();
     if random.below(4) == 0 {
-        config.distance_tolerance =
-            [truth.lower, truth.upper][random.below(2)] * [1.0, random.power(-2, 2)][random.below(2)];
+        config.max_distance = [truth.lower, truth.upper][random.below(2)] * [1.0, random.power(-2, 2)][random.below(2)];
     }
     for start in 0..3 + STARTS {
         let forced = if start < 3 { Some(PairCache::default()) } else { any_features(random, polyhedra) };
@@ -91,7 +90,7 @@ fn check_pair(mut random: Random, tally: &mut Tally, name: &str) {
         tally.queries += 1;
         tally.separated += u64::from(is_separated);
         tally.marched += u64::from(is_separated && answer.decided_by == DecidedBy::Marching);
-        if let Err(what) = check_answer(&answer, &truth, config.distance_tolerance) {
+        if let Err(what) = check_answer(&answer, &truth, config.max_distance) {
             tally.violations.push(format!("{name}: {what}: {answer:?}, the truth is {truth:?}"));
         }
         if let Err(error) = verify([shapes[0].at(&poses[0]), shapes[1].at(&poses[1])], &answer) {
@@ -100,11 +99,11 @@ fn check_pair(mut random: Random, tally: &mut Tally, name: &str) {
     }
 }
 
-fn check_answer(answer: &PairAnswer, truth: &ExactAnswer, distance_tolerance: f64) -> Result<(), &'static str> {
+fn check_answer(answer: &PairAnswer, truth: &ExactAnswer, max_distance: f64) -> Result<(), &'static str> {
     if (answer.outcome == Outcome::Intersecting) != truth.intersecting {
         return Err("the verdict is wrong");
     }
-    if (answer.outcome == Outcome::Beyond) != (truth.upper > distance_tolerance) {
+    if (answer.outcome == Outcome::Beyond) != (truth.upper > max_distance) {
         return Err("the distance tolerance is decided wrongly");
     }
     if answer.lower > truth.upper || answer.upper < truth.lower {

@@ -131,9 +131,9 @@ fn intervals_from_maps_hold_the_true_distance() {
         for k in 0..12 {
             let error = [0.3, 0.1, 0.03, 0.01][random.below(4)] * sizes[0].max(sizes[1]);
             let relative_error = if k % 5 == 4 { 0.05 } else { 0.0 };
-            let distance_tolerance =
+            let max_distance =
                 if k % 6 == 5 { random.uniform(0.0, 1.0) * (sizes[0] + sizes[1]) } else { f64::INFINITY };
-            let config = PairConfig { absolute_error: error, relative_error, distance_tolerance, ..Default::default() };
+            let config = PairConfig { absolute_error: error, relative_error, max_distance, ..Default::default() };
             let mut cache = match k % 4 {
                 0 => PairCache::default(),
                 1 => garbage(&mut random),
@@ -151,7 +151,7 @@ fn intervals_from_maps_hold_the_true_distance() {
             assert!(truth.compare(answer.lower).is_ge() && truth.compare(answer.upper).is_le(), "{answer:?}");
             if answer.outcome == Outcome::Separated {
                 let asked = error.max(relative_error * answer.lower);
-                assert!(answer.upper - answer.lower <= asked && answer.upper <= distance_tolerance, "{answer:?}");
+                assert!(answer.upper - answer.lower <= asked && answer.upper <= max_distance, "{answer:?}");
             }
             // What the cache held changes the answer within its interval alone.
             let cold = ask(pair, &poses, &mut PairCache::default(), &config);

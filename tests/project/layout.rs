@@ -100,7 +100,7 @@ fn layouts() -> Vec<Layout> {
         swiftprox_placed = CPlaced { shape, pose },
         swiftprox_pair_cache = CPairCache { words },
         swiftprox_pair_config = CPairConfig {
-            struct_size, distance_tolerance, rotation_limit, absolute_error, relative_error, step_budget,
+            struct_size, max_distance, rotation_limit, absolute_error, relative_error, step_budget,
             tuning
         },
         swiftprox_depth_statistics = DepthStatistics { steps, supports, triangles, exact_iterations },
@@ -121,14 +121,14 @@ fn layouts() -> Vec<Layout> {
         },
         swiftprox_manifold = Manifold { outcome, reference, lower, upper, normal, point_count, found_count },
         swiftprox_manifold_room = CManifoldRoom { points, capacity, distance },
-        swiftprox_manifold_config = CManifoldConfig { struct_size, rotation_limit, margin, reduces },
+        swiftprox_manifold_config = CManifoldConfig { struct_size, rotation_limit, max_distance, reduces },
         swiftprox_scene_options = CSceneOptions {
             struct_size, rotation_limit, worker_count, enqueue_task, finish_task, task_user
         },
         swiftprox_object_options = CObjectOptions { struct_size, user_data, pose, fixed, groups, mask },
         swiftprox_object_info = ObjectInfo { struct_size, user_data, piece_count, pose, fixed, groups, mask },
         swiftprox_scene_query = CSceneQuery {
-            struct_size, distance_tolerance, absolute_error, relative_error, error_budget, step_budget,
+            struct_size, max_distance, absolute_error, relative_error, error_budget, step_budget,
             early_exit, tuning, detail, mask
         },
         swiftprox_pair_result = PairResult {
@@ -158,15 +158,15 @@ fn layouts() -> Vec<Layout> {
         swiftprox_motion = CMotion {
             kind, start, end, centre, velocity, rotation, pose, user, bend, rounding
         },
-        swiftprox_cast_answer = CastAnswer { outcome, queries, t_lo, t_hi, clearance, upper, contact },
+        swiftprox_cast_answer = CastAnswer { outcome, queries, time_lower, time_upper, clearance, upper, contact },
         swiftprox_cast_config = CCastConfig {
-            struct_size, t_begin, t_end, time_tolerance, margin, step_budget
+            struct_size, time_begin, time_end, time_tolerance, max_distance, step_budget
         },
         swiftprox_clearance = Clearance { lower, upper, time, queries },
         swiftprox_clearance_config = CClearanceConfig {
-            struct_size, t_begin, t_end, absolute_error, relative_error, step_budget
+            struct_size, time_begin, time_end, absolute_error, relative_error, step_budget
         },
-        swiftprox_scene_cast_answer = SceneCastAnswer { outcome, queries, t_lo, t_hi, upper, pair },
+        swiftprox_scene_cast_answer = SceneCastAnswer { outcome, queries, time_lower, time_upper, upper, pair },
         swiftprox_half_space = HalfSpace { normal, offset },
         swiftprox_ground_info = GroundInfo { vertex_count, triangle_count, bytes },
         swiftprox_ground_distance = GroundDistance { answer, triangle },
@@ -272,14 +272,14 @@ macro_rules! defaults {
 fn constants_of_c_are_the_defaults_of_rust() {
     let defaults = [
         defaults!(swiftprox_shape_options = CShapeOptions::DEFAULT, { struct_size, input, rotation, translation, scale, convexity_tolerance, progress, progress_user, tuning, face_noise, swept_radius }),
-        defaults!(swiftprox_pair_config = CPairConfig::DEFAULT, { struct_size, distance_tolerance, rotation_limit, absolute_error, relative_error, step_budget, tuning }),
+        defaults!(swiftprox_pair_config = CPairConfig::DEFAULT, { struct_size, max_distance, rotation_limit, absolute_error, relative_error, step_budget, tuning }),
         defaults!(swiftprox_depth_config = CDepthConfig::DEFAULT, { struct_size, rotation_limit, absolute_error, relative_error, step_budget }),
-        defaults!(swiftprox_manifold_config = CManifoldConfig::DEFAULT, { struct_size, rotation_limit, margin, reduces }),
+        defaults!(swiftprox_manifold_config = CManifoldConfig::DEFAULT, { struct_size, rotation_limit, max_distance, reduces }),
         defaults!(swiftprox_scene_options = CSceneOptions::DEFAULT, { struct_size, rotation_limit, worker_count, enqueue_task, finish_task, task_user }),
         defaults!(swiftprox_object_options = CObjectOptions::DEFAULT, { struct_size, user_data, pose, fixed, groups, mask }),
-        defaults!(swiftprox_scene_query = CSceneQuery::DEFAULT, { struct_size, distance_tolerance, absolute_error, relative_error, error_budget, step_budget, early_exit, tuning, detail, mask }),
-        defaults!(swiftprox_cast_config = CCastConfig::defaults(), { struct_size, t_begin, t_end, time_tolerance, margin, step_budget }),
-        defaults!(swiftprox_clearance_config = CClearanceConfig::defaults(), { struct_size, t_begin, t_end, absolute_error, relative_error, step_budget }),
+        defaults!(swiftprox_scene_query = CSceneQuery::DEFAULT, { struct_size, max_distance, absolute_error, relative_error, error_budget, step_budget, early_exit, tuning, detail, mask }),
+        defaults!(swiftprox_cast_config = CCastConfig::defaults(), { struct_size, time_begin, time_end, time_tolerance, max_distance, step_budget }),
+        defaults!(swiftprox_clearance_config = CClearanceConfig::defaults(), { struct_size, time_begin, time_end, absolute_error, relative_error, step_budget }),
         defaults!(swiftprox_shape_tuning = CShapeTuning::DEFAULT, { struct_size, hierarchy, lookup, decimation, minimum_triangles, most_levels, lookup_radius_factor, lookup_resolution }),
         defaults!(swiftprox_pair_tuning = CPairTuning::DEFAULT, { struct_size, start, levels, refinement }),
     ];

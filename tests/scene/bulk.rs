@@ -39,7 +39,7 @@ fn told(pairs: &[PairResult]) -> Vec<(u64, u64, String)> {
 fn together_is_as_one_by_one() {
     let (shapes, options) = bodies(200);
     let (mut together, mut single) = (scene(), scene());
-    let query = SceneQuery { distance_tolerance: 0.2, ..SceneQuery::default() };
+    let query = SceneQuery { max_distance: 0.2, ..SceneQuery::default() };
     let mut ids = [together.add_shapes(&shapes, &options).unwrap(), Vec::new()];
     for (shape, options) in shapes.iter().zip(&options) {
         ids[1].push(single.add_object(vec![shape.clone()], options).unwrap());

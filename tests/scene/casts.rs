@@ -32,7 +32,7 @@ struct Piece {
 struct Course {
     pieces: Vec<Piece>,
     screws: Vec<Screw>,
-    margin: f64,
+    max_distance: f64,
     among: bool,
 }
 
@@ -67,7 +67,12 @@ fn course(random: &mut Random, turns: bool) -> Course {
         Screw { start, centre: random.lattice(3), velocity, rotation: Vector::zeros() }
     });
     let screws = screws.collect();
-    Course { pieces, screws, margin: if turns { 0.125 } else { random.pick(&[0.0, 0.5]) }, among: random.below(2) == 0 }
+    Course {
+        pieces,
+        screws,
+        max_distance: if turns { 0.125 } else { random.pick(&[0.0, 0.5]) },
+        among: random.below(2) == 0,
+    }
 }
 
 impl Course {
@@ -121,19 +126,19 @@ impl Course {
             scene.prepare().unwrap();
         }
         let motions: Vec<Motion> = self.screws.iter().map(|screw| Motion::Screw(*screw)).collect();
-        let config = CastConfig { margin: self.margin, ..CastConfig::default() };
+        let config = CastConfig { max_distance: self.max_distance, ..CastConfig::default() };
         let set = ObjectSet { ids: &ids, poses: None, among: self.among };
         scene.cast(&set, &motions, &config, &mut SetScratch::default()).unwrap()
     }
 
     /// Refutes an answer by what integers say; `off` is how far poses of the test may be off. Returns whether there is contact.
     fn judge(&self, answer: &SceneCastAnswer, off: f64) -> bool {
-        let told = format!("{answer:?}, margin {}", self.margin);
+        let told = format!("{answer:?}, max_distance {}", self.max_distance);
         let time = |k: u32| f64::from(k) / f64::from(SAMPLES);
-        let first = (0..=SAMPLES).find(|&k| self.is_within(time(k), self.margin - off));
+        let first = (0..=SAMPLES).find(|&k| self.is_within(time(k), self.max_distance - off));
         if answer.outcome == CastOutcome::Hit {
             // Poses between fractions of a power of two are rounded.
-            assert!(self.is_within(answer.t_hi, self.margin + 1e-12), "no contact at t_hi: {told}");
+            assert!(self.is_within(answer.time_upper, self.max_distance + 1e-12), "no contact at time_upper: {told}");
         } else {
             assert_ne!(answer.outcome, CastOutcome::Budget);
         }
@@ -143,12 +148,12 @@ impl Course {
         let (mut apart, mut within) = (time(first.saturating_sub(1)), time(first));
         for _ in 0..HALVINGS {
             let middle = 0.5 * (apart + within);
-            *(if self.is_within(middle, self.margin - off) { &mut within } else { &mut apart }) = middle;
+            *(if self.is_within(middle, self.max_distance - off) { &mut within } else { &mut apart }) = middle;
         }
         // Of the beginning itself nothing is said.
-        assert!(answer.t_lo < within || within == 0.0 && answer.t_lo == 0.0, "contact at {within}: {told}");
+        assert!(answer.time_lower < within || within == 0.0 && answer.time_lower == 0.0, "contact at {within}: {told}");
         if answer.outcome == CastOutcome::Hit {
-            assert!(answer.t_hi <= within + 1e-8, "contact at {within}: {told}");
+            assert!(answer.time_upper <= within + 1e-8, "contact at {within}: {told}");
         }
         true
     }
@@ -166,7 +171,7 @@ fn pieces_on_a_lattice_meet_when_integers_say() {
     assert!(counts.iter().all(|&count| count > 2), "{counts:?}");
 }
 
-/// The same anyhow and turning, within a margin.
+/// The same anyhow and turning, within `max_distance`.
 #[test]
 fn turning_pieces_come_near_when_integers_say() {
     let mut random = Random::new(0x7a17);

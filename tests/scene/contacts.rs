@@ -50,8 +50,8 @@ fn step(random: &mut Random, scene: &mut Scene, ids: &[ObjectId], length: f64) {
     }
 }
 
-fn asking(detail: ContactDetail, distance_tolerance: f64) -> SceneQuery {
-    SceneQuery { detail, distance_tolerance, ..SceneQuery::default() }
+fn asking(detail: ContactDetail, max_distance: f64) -> SceneQuery {
+    SceneQuery { detail, max_distance, ..SceneQuery::default() }
 }
 
 /// The pieces of a result, and where they are.
@@ -118,7 +118,7 @@ fn check(scene: &Scene, query: &SceneQuery, said: &Said) -> [usize; 2] {
             assert_eq!((contact.manifold.outcome, points.len()), (Outcome::None, 0));
             continue;
         }
-        let config = ManifoldConfig { margin: query.distance_tolerance, reduces, ..ManifoldConfig::default() };
+        let config = ManifoldConfig { max_distance: query.max_distance, reduces, ..ManifoldConfig::default() };
         let (own, own_points) = own_manifold(&bodies, &config);
         let told = &contact.manifold;
         assert_eq!(told.outcome, result.answer.outcome);
@@ -130,7 +130,7 @@ fn check(scene: &Scene, query: &SceneQuery, said: &Said) -> [usize; 2] {
         for point in points {
             let gap = normal.dot(&(Vector::from(point.world1) - Vector::from(point.world2)));
             assert!(point.gap_lower - 1e-12 <= gap && gap <= point.gap_upper + 1e-12, "{point:?}");
-            assert!(point.gap_lower <= query.distance_tolerance);
+            assert!(point.gap_lower <= query.max_distance);
         }
         // Where nothing but the past chooses another least direction, or another reference.
         if (normal - Vector::from(own.normal)).norm() < 1e-12 && told.reference == own.reference {
@@ -294,9 +294,9 @@ fn answers_outlive_queries_of_other_kinds() {
     let far = ObjectOptions { pose: Pose::new(&random.rotation(), &Vector::new(50.0, 0.0, 0.0)), ..Default::default() };
     for id in ids.iter().take(5) {
         let others = scene.add_object(vec![shape.clone()], &far).unwrap();
-        assert!(scene.query_contact(&SceneQuery { margin: -1.0, ..query }).is_err());
+        assert!(scene.query_contact(&SceneQuery { max_distance: -1.0, ..query }).is_err());
         let first = told(&copied(scene.query_contact(&query).unwrap()));
-        scene.query_distance(&SceneQuery { distance_tolerance: f64::NAN, ..query }).unwrap_err();
+        scene.query_distance(&SceneQuery { max_distance: f64::NAN, ..query }).unwrap_err();
         scene.query_distance(&query).unwrap_err();
         let plain = SceneQuery { detail: ContactDetail::None, ..query };
         scene.query_intersection(&plain).unwrap();
@@ -379,24 +379,24 @@ fn errors_and_budgets_of_depths_are_kept() {
     assert_eq!(check(&scene, &wide, &said)[0], 3);
     assert!(said.contacts.iter().all(|contact| contact.depth.upper - contact.depth.lower <= 0.05));
     assert!(said.contacts.iter().any(|contact| contact.depth.upper - contact.depth.lower > 1e-6));
-    for (margin, is_good) in [(-1.0, false), (f64::NAN, false), (0.0, true), (f64::INFINITY, true)] {
-        assert_eq!(scene.query_contact(&SceneQuery { margin, ..query }).is_ok(), is_good);
+    for (max_distance, is_good) in [(-1.0, false), (f64::NAN, false), (0.0, true), (f64::INFINITY, true)] {
+        assert_eq!(scene.query_contact(&SceneQuery { max_distance, ..query }).is_ok(), is_good);
     }
 }
 
-/// Points beyond the margin are left out, and pairs beyond it have none.
+/// The distance that lists pairs limits their points: all listed pairs have some, others none.
 #[test]
-fn margins_open_manifolds() {
+fn manifolds_are_those_of_listed_pairs() {
     let cube = cuboid([0.5; 3]);
     let mut scene = Scene::new(&SceneOptions::default()).unwrap();
     for z in [0.0, 1.01, 2.06, 3.06] {
         let options = ObjectOptions { pose: at(0.0, 0.0, z), ..ObjectOptions::default() };
         scene.add_object(vec![cube.clone()], &options).unwrap();
     }
-    let query = SceneQuery { margin: 0.02, ..asking(ContactDetail::Manifold, 0.1) };
+    let query = asking(ContactDetail::Manifold, 0.02);
     let said = copied(scene.query_contact(&query).unwrap());
     let told = said.contacts.iter().map(|contact| (contact.manifold.outcome, contact.manifold.point_count));
-    let expected = [(Outcome::Separated, 4), (Outcome::Beyond, 0), (Outcome::Intersecting, 4)];
+    let expected = [(Outcome::Separated, 4), (Outcome::Intersecting, 4)];
     assert_eq!(told.collect::<Vec<_>>(), expected);
 }
 

@@ -115,7 +115,7 @@ fn a_scene_on_a_ground_is_its_objects_on_it() {
         } else {
             Pose::IDENTITY
         };
-        let config = ManifoldConfig { margin: 0.02, reduces: round % 2 == 1, ..ManifoldConfig::default() };
+        let config = ManifoldConfig { max_distance: 0.02, reduces: round % 2 == 1, ..ManifoldConfig::default() };
         let filter = if round < 2 { GroupFilter::default() } else { GroupFilter { groups: 2, mask: 3 } };
         let (contacts, points) = one_by_one(free(&world), filter, on_ground(&config, ground.at(&place)));
         // With trees and without, with a scratch that has seen other questions and a new one.
@@ -147,7 +147,7 @@ fn a_set_is_asked_where_it_says() {
     let mut random = Random::new(0x5e7);
     let ground = hills(&mut random);
     let world = world(&mut random, 60);
-    let (config, filter) = (ManifoldConfig { margin: 0.1, ..ManifoldConfig::default() }, GroupFilter::default());
+    let (config, filter) = (ManifoldConfig { max_distance: 0.1, ..ManifoldConfig::default() }, GroupFilter::default());
     let chosen: Vec<usize> = (0..60).rev().step_by(2).collect();
     let ids: Vec<ObjectId> = chosen.iter().map(|k| world.objects[*k].id).collect();
     let elsewhere: Vec<Pose> = chosen.iter().map(|_| pose(&mut random)).collect();
@@ -178,7 +178,7 @@ fn a_scene_on_a_half_space_is_its_objects_on_it() {
         let upwards = Vector::z() + random.vector() * 0.01;
         let half_space = HalfSpace { normal: (upwards * size).into(), offset: random.uniform(-0.3, 0.9) * size };
         let reduces = round % 2 == 0;
-        let config = ManifoldConfig { margin: [0.0, 0.05, 0.3][round % 3], reduces, ..ManifoldConfig::default() };
+        let config = ManifoldConfig { max_distance: [0.0, 0.05, 0.3][round % 3], reduces, ..ManifoldConfig::default() };
         let filter = GroupFilter { groups: 1 << (round % 3), mask: [u32::MAX, 3, 4][round % 3] };
         let (contacts, points) = one_by_one(free(&world), filter, |shape, pose, found| {
             found.contacts.clear();
@@ -243,7 +243,7 @@ fn threads_are_told_the_same() {
     let ground = hills(&mut random);
     let mut world = world(&mut random, 300);
     world.scene.prepare().unwrap();
-    let (config, filter) = (ManifoldConfig { margin: 0.05, ..ManifoldConfig::default() }, GroupFilter::default());
+    let (config, filter) = (ManifoldConfig { max_distance: 0.05, ..ManifoldConfig::default() }, GroupFilter::default());
     let (scene, ground) = (&world.scene, &ground);
     let ask = || {
         let mut scratch = SetScratch::default();
@@ -269,7 +269,7 @@ fn what_is_asked_is_checked() {
     let stale = [world.objects[0].id, ObjectId::NULL];
     let named = ObjectSet { ids: &stale, ..ObjectSet::default() };
     let uneven = ObjectSet { ids: &stale[..1], poses: Some(&[]), among: false };
-    let negative = ManifoldConfig { margin: -1.0, ..ManifoldConfig::default() };
+    let negative = ManifoldConfig { max_distance: -1.0, ..ManifoldConfig::default() };
     let (config, here, filter) = (ManifoldConfig::default(), at(0.0, 0.0, 0.0), GroupFilter::default());
     let mut ask = |set: Option<&ObjectSet>, place: &Pose, config: &ManifoldConfig| {
         world

@@ -15,11 +15,11 @@ use testkit::shapes::at;
 
 use EventState::{Began, Ended, Persists};
 
-const TOUCHING: SceneQuery = SceneQuery { distance_tolerance: 0.0, ..NEAR };
+const TOUCHING: SceneQuery = SceneQuery { max_distance: 0.0, ..NEAR };
 
 /// Pairs at most this far apart.
 const NEAR: SceneQuery = SceneQuery {
-    distance_tolerance: 0.25,
+    max_distance: 0.25,
     detail: ContactDetail::Manifold,
     early_exit: false,
     absolute_error: 0.0,
@@ -29,7 +29,6 @@ const NEAR: SceneQuery = SceneQuery {
     levels: swiftprox::pair::Levels::Automatic,
     refinement: swiftprox::pair::Refinement::Adaptive,
     start: swiftprox::pair::Start::Automatic,
-    margin: f64::INFINITY,
 };
 
 /// The same, without contacts.

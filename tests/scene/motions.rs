@@ -88,7 +88,7 @@ fn key(result: &PairResult) -> Key {
 /// All pairs of the pair layer with cold caches: those not farther apart than the tolerance.
 fn all_pairs(scene: &Scene, tolerance: f64) -> Vec<(Key, PairAnswer)> {
     let objects: Vec<_> = scene.objects().collect();
-    let config = PairConfig { distance_tolerance: tolerance, ..PairConfig::default() };
+    let config = PairConfig { max_distance: tolerance, ..PairConfig::default() };
     let mut found = Vec::new();
     for (k, object1) in objects.iter().enumerate() {
         for object2 in objects[k + 1..].iter().filter(|object2| !(object1.fixed() && object2.fixed())) {
@@ -130,19 +130,19 @@ fn check(scene: &mut Scene, without_tolerance: bool, what: &str) -> usize {
         }
     };
     agree(scene.query_intersection(&SceneQuery::default()).unwrap().pairs, &all, intersects, what);
-    for distance_tolerance in TOLERANCES {
-        let query = SceneQuery { distance_tolerance, ..SceneQuery::default() };
-        agree(scene.query_distance(&query).unwrap().pairs, &all, within(distance_tolerance), what);
+    for max_distance in TOLERANCES {
+        let query = SceneQuery { max_distance, ..SceneQuery::default() };
+        agree(scene.query_distance(&query).unwrap().pairs, &all, within(max_distance), what);
         let coarse = SceneQuery { absolute_error: 0.05, ..query };
         let listed = scene.query_approximate(&coarse).unwrap().pairs;
         assert!(listed.iter().all(|result| result.answer.upper - result.answer.lower <= 0.05));
-        agree(listed, &all, within(distance_tolerance), what);
+        agree(listed, &all, within(max_distance), what);
     }
     let first = all.iter().find(|(_, answer)| intersects(answer)).map(|(key, _)| *key);
     let early = SceneQuery { early_exit: true, ..SceneQuery::default() };
     assert_eq!(scene.query_intersection(&early).unwrap().found.map(key), first, "{what}");
     if without_tolerance {
-        let touching = SceneQuery { distance_tolerance: 0.0, ..SceneQuery::default() };
+        let touching = SceneQuery { max_distance: 0.0, ..SceneQuery::default() };
         agree(scene.query_contact(&touching).unwrap().pairs, &all, intersects, what);
         let all = all_pairs(scene, f64::INFINITY);
         agree(scene.query_distance(&SceneQuery::default()).unwrap().pairs, &all, |_| true, what);
@@ -226,7 +226,7 @@ fn answers_given_again_are_those_of_all_pairs() {
                 left_out.iter().for_each(|&id| scene.set_object_active(id, false).unwrap());
                 let mut all = all_pairs(&scene, 0.25);
                 all.retain(|((id1, id2, ..), _)| !left_out.contains(id1) && !left_out.contains(id2));
-                let query = SceneQuery { distance_tolerance: 0.25, ..SceneQuery::default() };
+                let query = SceneQuery { max_distance: 0.25, ..SceneQuery::default() };
                 let what = format!("{name}, verdicts {verdicts}, step {step}");
                 let listed = if verdicts {
                     let listed = scene.query_intersection(&query).unwrap().pairs.to_vec();

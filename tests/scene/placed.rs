@@ -25,7 +25,7 @@ fn all_objects_within_the_tolerance_of_a_placed_shape_are_listed() {
             .add_object(vec![cube.clone()], &ObjectOptions { pose, user_data: k as u64, ..Default::default() })
             .unwrap();
     }
-    let query = SceneQuery { distance_tolerance: 1.0, ..SceneQuery::default() };
+    let query = SceneQuery { max_distance: 1.0, ..SceneQuery::default() };
     for k in 0..60 {
         let answer = scene.query_placed(&cube, &at(100.0 * k as f64, 0.0, 0.0), Query::Distance, &query).unwrap();
         let listed: Vec<u64> = answer.pairs.iter().map(|pair| pair.user_data1).collect();
@@ -57,7 +57,7 @@ fn a_placed_body_of_several_pieces_asks_the_groups_of_its_mask() {
         let mask = round % 8;
         let tolerance = if round % 2 == 0 { 0.25 } else { f64::INFINITY };
         scene.set_kept_pair_limit(if round % 4 == 1 { 0 } else { 1 << 20 });
-        let query = SceneQuery { distance_tolerance: tolerance, ..SceneQuery::default() };
+        let query = SceneQuery { max_distance: tolerance, ..SceneQuery::default() };
         let mut expected = Vec::new();
         for (piece, (shape, pose)) in pieces.iter().enumerate() {
             let answer = scene.query_placed(shape, pose, Query::Distance, &query).unwrap();

@@ -112,7 +112,7 @@ fn session(scene: &mut Scene, rounds: usize) -> usize {
             let some: Vec<ObjectId> = ids.iter().copied().take(3.min(moving)).collect();
             scene.set_poses(&some, &poses[..some.len()]).unwrap();
         }
-        let near = SceneQuery { distance_tolerance: 0.4, early_exit: round % 11 == 0, ..SceneQuery::default() };
+        let near = SceneQuery { max_distance: 0.4, early_exit: round % 11 == 0, ..SceneQuery::default() };
         let shape = &shapes[round % 2];
         match round % 8 {
             0 => drop(scene.query_intersection(&near).unwrap()),
@@ -133,7 +133,7 @@ fn session(scene: &mut Scene, rounds: usize) -> usize {
             scene.shrink().unwrap();
         }
         // Refused: nothing changes, and a replay does not trip over it.
-        assert!(scene.query_distance(&SceneQuery { distance_tolerance: f64::NAN, ..near }).is_err());
+        assert!(scene.query_distance(&SceneQuery { max_distance: f64::NAN, ..near }).is_err());
         assert!(scene.set_pose(ObjectId::NULL, &Pose::IDENTITY).is_err());
     }
     asked
@@ -178,7 +178,7 @@ fn a_scene_recorded_from_the_middle_of_its_life_lists_the_same() {
     scene.set_pair_filter(Some(PairFilter::new(|a, b| !(a.to_bits() + b.to_bits()).is_multiple_of(5))));
     scene.query_events(0.3).unwrap();
     scene.record_to(tape.clone()).unwrap();
-    let queries = [0.0, 0.2, 1.0].map(|distance_tolerance| SceneQuery { distance_tolerance, ..Default::default() });
+    let queries = [0.0, 0.2, 1.0].map(|max_distance| SceneQuery { max_distance, ..Default::default() });
     let ids: Vec<ObjectId> = scene.objects().map(|object| object.id()).collect();
     let mut random = Random::new(5);
     for step in 0..30 {
@@ -296,7 +296,7 @@ fn a_question_that_ends_the_program_is_the_last_record() {
 #[test]
 fn what_another_filter_said_is_not_remembered() {
     let (tape, mut recorded, ids) = two_cubes();
-    let touching = SceneQuery { distance_tolerance: 0.0, ..SceneQuery::default() };
+    let touching = SceneQuery { max_distance: 0.0, ..SceneQuery::default() };
     // The pair is liked while it is near; then it is not, and nobody is asked until it is near again.
     recorded.set_pair_filter(Some(PairFilter::new(|_, _| true)));
     for (x, count) in [(0.5, 1), (50.0, 0), (60.0, 0), (0.5, 0)] {

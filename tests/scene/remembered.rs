@@ -48,7 +48,7 @@ fn error_spent_is_what_distances_leave_open() {
     scene.query_intersection(&SceneQuery::default()).unwrap();
     assert!(scene.statistics().pairs > 0 && scene.statistics().error_spent == 0.0, "{:?}", scene.statistics());
 
-    let near = SceneQuery { distance_tolerance: 0.5, absolute_error: 0.1, ..Default::default() };
+    let near = SceneQuery { max_distance: 0.5, absolute_error: 0.1, ..Default::default() };
     let hurried = SceneQuery { step_budget: 1, start: Start::Cold, ..near };
     let mut undecided = 0;
     for ask in [Scene::query_distance, Scene::query_contact, Scene::query_approximate] {
@@ -270,7 +270,7 @@ fn approximate_distances_and_a_budget_for_all() {
         SceneQuery { relative_error: -1.0, ..Default::default() },
         SceneQuery { error_budget: -1.0, ..Default::default() },
         SceneQuery { step_budget: 0, ..Default::default() },
-        SceneQuery { distance_tolerance: f64::NAN, ..Default::default() },
+        SceneQuery { max_distance: f64::NAN, ..Default::default() },
     ] {
         // By every query, whether it does without the member or not.
         assert!(matches!(scene.query_approximate(&query), Err(Error::Argument(_))));
@@ -329,7 +329,7 @@ fn a_budget_holds_while_objects_move() {
             scene.set_pose(*id, &random_pose(&mut random, 2.0)).unwrap();
         }
         let error_budget = [8.0, 1.0, 0.02][step / 3 % 3];
-        let query = SceneQuery { error_budget, levels: Levels::All, distance_tolerance: 1.5, ..SceneQuery::default() };
+        let query = SceneQuery { error_budget, levels: Levels::All, max_distance: 1.5, ..SceneQuery::default() };
         for is_repeated in [false, true] {
             scene.reset_statistics();
             let answer = scene.query_approximate(&query).unwrap();
@@ -359,7 +359,7 @@ fn a_budget_holds_while_objects_move() {
 #[test]
 fn approximate_distances_within_a_tolerance_cost_no_more_than_exact_ones() {
     let shape = ellipsoid(&mut Random::new(0xa99), 30_100, [1.0, 0.8, 0.6], Vector::zeros());
-    let near = SceneQuery { distance_tolerance: 0.6, ..SceneQuery::default() };
+    let near = SceneQuery { max_distance: 0.6, ..SceneQuery::default() };
     let queries = [
         near,
         SceneQuery { absolute_error: 0.1, ..near },

@@ -25,8 +25,8 @@ pub fn cubes(scene: &mut Scene, places: &[f64]) -> Vec<ObjectId> {
     places.iter().enumerate().map(add).collect()
 }
 
-pub fn up_to(distance_tolerance: f64) -> SceneQuery {
-    SceneQuery { distance_tolerance, ..Default::default() }
+pub fn up_to(max_distance: f64) -> SceneQuery {
+    SceneQuery { max_distance, ..Default::default() }
 }
 
 fn listed(pairs: &[PairResult]) -> Vec<[ObjectId; 2]> {
@@ -153,7 +153,7 @@ fn early_exit_lists_nothing_when_something_intersects() {
     assert_eq!(answer.found.map(|found| (found.user_data1, found.user_data2)), Some((101, 102)));
     // Of several the first in the order of results, however the objects came to where they are.
     scene.set_pose(ids[0], &at(1.5, 0.0, 0.0)).unwrap();
-    for query in [query, SceneQuery { distance_tolerance: 0.0, ..query }] {
+    for query in [query, SceneQuery { max_distance: 0.0, ..query }] {
         let found = scene.query_contact(&query).unwrap().found.copied().unwrap();
         assert_eq!([found.object1, found.object2], [ids[0], ids[1]]);
         assert_eq!(found.answer.outcome, Outcome::Intersecting);
@@ -183,10 +183,10 @@ fn a_senseless_tolerance_is_refused_and_the_scene_stays_usable() {
     let mut scene = scene();
     cubes(&mut scene, &[0.0, 2.0]);
     for tolerance in [-1.0, -f64::MIN_POSITIVE, f64::NEG_INFINITY, f64::NAN] {
-        refused(scene.query_intersection(&up_to(tolerance)), "tolerance");
-        refused(scene.query_distance(&up_to(tolerance)), "tolerance");
-        refused(scene.query_distance(&up_to(tolerance)), "tolerance");
-        refused(scene.query_contact(&up_to(tolerance)), "tolerance");
+        refused(scene.query_intersection(&up_to(tolerance)), "max_distance");
+        refused(scene.query_distance(&up_to(tolerance)), "max_distance");
+        refused(scene.query_distance(&up_to(tolerance)), "max_distance");
+        refused(scene.query_contact(&up_to(tolerance)), "max_distance");
     }
     assert_eq!(distances(&mut scene, &SceneQuery::default()).len(), 1);
 }

@@ -94,9 +94,7 @@ impl World {
             }
             4 => {
                 let tolerance = random.pick(&[0.0, 1.0, f64::INFINITY]);
-                self.scene
-                    .query_distance(&SceneQuery { distance_tolerance: tolerance, ..SceneQuery::default() })
-                    .unwrap();
+                self.scene.query_distance(&SceneQuery { max_distance: tolerance, ..SceneQuery::default() }).unwrap();
             }
             _ => {
                 let gone = random.below(self.objects.len());
@@ -201,7 +199,7 @@ fn the_least_distance_is_that_of_integers() {
             let (chosen, poses) = choose(&mut random, &world, 4);
             let (second, second_poses) = choose(&mut random, &world, 6);
             let (against_set, among) = (random.below(3) == 0, random.below(2) == 0);
-            let cut_off = random.pick(&[f64::INFINITY, f64::INFINITY, 1.0, 0.0]);
+            let max_distance = random.pick(&[f64::INFINITY, f64::INFINITY, 1.0, 0.0]);
             let of_set = placed(&world, &chosen, &poses);
             let against = if against_set { placed(&world, &second, &second_poses) } else { world.others(&chosen) };
             let moved = poses.is_some() || (against_set && second_poses.is_some());
@@ -210,11 +208,11 @@ fn the_least_distance_is_that_of_integers() {
             let set = ObjectSet { ids: &first_ids, poses: poses.as_deref(), among };
             let other = ObjectSet { ids: &second_ids, poses: second_poses.as_deref(), among: false };
             let answer =
-                world.scene.least_distance(&set, against_set.then_some(&other), cut_off, &mut scratch).unwrap();
+                world.scene.least_distance(&set, against_set.then_some(&other), max_distance, &mut scratch).unwrap();
             let least = squares.iter().map(|(.., square)| square).min();
-            let told = format!("{answer:?} {least:?} {cut_off}");
+            let told = format!("{answer:?} {least:?} {max_distance}");
             match least {
-                Some(least) if cut_off == f64::INFINITY || *least <= square(cut_off) => {
+                Some(least) if max_distance == f64::INFINITY || *least <= square(max_distance) => {
                     counts[usize::from(least.is_zero())] += 1;
                     assert!(
                         answer.lower >= 0.0 && square(answer.lower) <= *least && *least <= square(answer.upper),
@@ -229,7 +227,7 @@ fn the_least_distance_is_that_of_integers() {
                 }
                 _ => {
                     counts[2] += 1;
-                    assert_eq!((answer.lower, answer.upper), (cut_off, f64::INFINITY), "{told}");
+                    assert_eq!((answer.lower, answer.upper), (max_distance, f64::INFINITY), "{told}");
                     assert_eq!(answer.nearest.object1, ObjectId::NULL, "{told}");
                 }
             }
@@ -251,22 +249,22 @@ fn the_first_hit_is_that_of_integers() {
             world.stir(&mut random);
             let (chosen, _) = choose(&mut random, &world, 2);
             let (times, among) = (6, random.below(2) == 0);
-            let margin = random.pick(&[0.0, 0.25]);
+            let max_distance = random.pick(&[0.0, 0.25]);
             let poses: Vec<Pose> = (0..times * chosen.len()).map(|_| pose_in(&mut random, world.size)).collect();
             let others = world.others(&chosen);
             let does_hit: Vec<bool> = poses
                 .chunks(chosen.len())
                 .map(|poses| {
                     let squares = world.squares(&placed(&world, &chosen, &Some(poses.to_vec())), &others, among, true);
-                    squares.iter().any(|(.., of_pair)| *of_pair <= square(margin))
+                    squares.iter().any(|(.., of_pair)| *of_pair <= square(max_distance))
                 })
                 .collect();
             let ids = ids(&world, &chosen);
             let set = ObjectSet { ids: &ids, poses: None, among };
             let first = does_hit.iter().position(|hit| *hit).unwrap_or(times);
-            let in_order = world.scene.first_hit(&set, &poses, PoseOrder::InOrder, margin, &mut scratch).unwrap();
+            let in_order = world.scene.first_hit(&set, &poses, PoseOrder::InOrder, max_distance, &mut scratch).unwrap();
             assert_eq!((in_order.time, in_order.tried), (first, times.min(first + 1)), "{in_order:?}");
-            let any = world.scene.first_hit(&set, &poses, PoseOrder::Bisection, margin, &mut scratch).unwrap();
+            let any = world.scene.first_hit(&set, &poses, PoseOrder::Bisection, max_distance, &mut scratch).unwrap();
             assert_eq!(any.time < times, first < times, "{any:?}");
             assert!(any.time == times || does_hit[any.time], "{any:?}");
             hits[usize::from(first < times)] += 1;
@@ -370,7 +368,7 @@ fn casts_end_with_the_earliest_of_all_pairs() {
             let (together, among) = (random.below(2) == 0, random.below(2) == 0);
             let motions: Vec<Motion> =
                 (0..if together { 1 } else { chosen.len() }).map(|_| Motion::Screw(through(&mut random))).collect();
-            let config = CastConfig { margin: random.pick(&[0.0, 0.1]), ..CastConfig::default() };
+            let config = CastConfig { max_distance: random.pick(&[0.0, 0.1]), ..CastConfig::default() };
             let ids = ids(&world, &chosen);
             let set = ObjectSet { ids: &ids, poses: None, among };
             let answer = world.scene.cast(&set, &motions, &config, &mut scratch).unwrap();
@@ -402,28 +400,31 @@ fn casts_end_with_the_earliest_of_all_pairs() {
                 }
             }
             let met = pairs.iter().filter(|(.., said)| said.outcome != CastOutcome::Free);
-            let earliest = met.clone().map(|(.., said)| said.t_lo).fold(1.0, f64::min);
-            let certain = met.map(|(.., said)| said.t_hi).fold(f64::INFINITY, f64::min);
+            let earliest = met.clone().map(|(.., said)| said.time_lower).fold(1.0, f64::min);
+            let certain = met.map(|(.., said)| said.time_upper).fold(f64::INFINITY, f64::min);
             let told = format!("{answer:?} {earliest} {certain}");
             counts[usize::from(certain < f64::INFINITY)] += 1;
             // Two proofs of one time differ by what both are wide.
-            assert!((answer.t_lo - earliest).abs() <= 1e-6, "{told}");
+            assert!((answer.time_lower - earliest).abs() <= 1e-6, "{told}");
             if certain < f64::INFINITY {
                 assert_eq!(answer.outcome, CastOutcome::Hit, "{told}");
-                assert!((answer.t_hi - certain).abs() <= 1e-6 && answer.t_lo <= answer.t_hi, "{told}");
+                assert!(
+                    (answer.time_upper - certain).abs() <= 1e-6 && answer.time_lower <= answer.time_upper,
+                    "{told}"
+                );
                 let of_pair = |(a, b, said): &(ObjectId, ObjectId, CastAnswer)| {
-                    (*a, *b) == (answer.pair.object1, answer.pair.object2) && said.t_hi <= certain + 2e-6
+                    (*a, *b) == (answer.pair.object1, answer.pair.object2) && said.time_upper <= certain + 2e-6
                 };
                 assert!(pairs.iter().any(of_pair), "{told}");
             } else if answer.outcome == CastOutcome::Free {
-                assert_eq!((answer.t_lo, answer.pair.object1), (1.0, ObjectId::NULL), "{told}");
+                assert_eq!((answer.time_lower, answer.pair.object1), (1.0, ObjectId::NULL), "{told}");
             }
             let mut batch = [answer; 2];
             let twice: Vec<Motion> = motions.iter().chain(&motions).copied().collect();
             world.scene.cast_batch(&set, &twice, &config, &mut scratch, &mut batch).unwrap();
             for edge in batch {
                 assert_eq!(edge.outcome, answer.outcome);
-                assert!((edge.t_lo - answer.t_lo).abs() <= 1e-6);
+                assert!((edge.time_lower - answer.time_lower).abs() <= 1e-6);
             }
         }
     }
@@ -454,13 +455,13 @@ fn what_lies_between_the_ends_is_met() {
     let hit = ask(bullet, flight);
     let time = (10.0 - 0.01 - 5e-4) / 20.0;
     assert_eq!((hit.outcome, hit.pair.object1, hit.pair.object2), (CastOutcome::Hit, bullet, plate));
-    assert!(hit.t_lo <= time && time <= hit.t_hi && hit.t_hi - hit.t_lo <= 1.01e-9, "{hit:?}");
+    assert!(hit.time_lower <= time && time <= hit.time_upper && hit.time_upper - hit.time_lower <= 1.01e-9, "{hit:?}");
     let half_turn = Screw { start: at(0.0, 10.0, 0.0), centre: still, velocity: still, rotation: Vector::z() * 3.0 };
     let hit = ask(bar, half_turn);
     assert_eq!((hit.outcome, hit.pair.object2), (CastOutcome::Hit, post));
     let beside = Screw { start: at(-10.0, 0.0, 1.1), ..flight };
     let free = ask(bullet, beside);
-    assert_eq!((free.outcome, free.t_lo, free.pair.object1), (CastOutcome::Free, 1.0, ObjectId::NULL));
+    assert_eq!((free.outcome, free.time_lower, free.pair.object1), (CastOutcome::Free, 1.0, ObjectId::NULL));
 }
 
 /// Threads that ask one scene at once get, bit for bit, what one thread gets.
@@ -523,7 +524,7 @@ fn what_is_refused_says_why() {
             scene.least_distance(&stray, None, 1.0, &mut scratch).unwrap_err(),
             "object 1 of 2 of the set: the object id is null",
         ),
-        (scene.least_distance(&set, None, -1.0, &mut scratch).unwrap_err(), "cut_off"),
+        (scene.least_distance(&set, None, -1.0, &mut scratch).unwrap_err(), "max_distance"),
         (
             scene.least_distance(&ObjectSet { poses: Some(&lost[..1]), ..set }, None, 1.0, &mut scratch).unwrap_err(),
             "1 poses for a set of 2",
@@ -536,7 +537,7 @@ fn what_is_refused_says_why() {
             scene.first_hit(&set, &lost[..1], PoseOrder::InOrder, 0.0, &mut scratch).unwrap_err(),
             "1 poses for a set of 2 objects",
         ),
-        (scene.first_hit(&set, &lost, PoseOrder::InOrder, f64::NAN, &mut scratch).unwrap_err(), "margin"),
+        (scene.first_hit(&set, &lost, PoseOrder::InOrder, f64::NAN, &mut scratch).unwrap_err(), "max_distance"),
         (
             scene.first_hit(&set, &lost, PoseOrder::InOrder, 0.0, &mut scratch).unwrap_err(),
             "time 0 of 1: object 1 of 2",
@@ -544,7 +545,10 @@ fn what_is_refused_says_why() {
         (scene.cast(&set, &still, &config, &mut scratch).unwrap_err(), "3 motions for a set of 2"),
         (scene.cast(&stray, &still[..1], &config, &mut scratch).unwrap_err(), "object 1 of 2 of the set"),
         (scene.cast(&set, &[Motion::Fixed(nowhere)], &config, &mut scratch).unwrap_err(), "object 0 of 2 of the set"),
-        (scene.cast(&set, &still[..1], &CastConfig { margin: -1.0, ..config }, &mut scratch).unwrap_err(), "margin"),
+        (
+            scene.cast(&set, &still[..1], &CastConfig { max_distance: -1.0, ..config }, &mut scratch).unwrap_err(),
+            "max_distance",
+        ),
         (
             scene.cast_batch(&set, &still, &config, &mut scratch, &mut [Default::default(); 2]).unwrap_err(),
             "3 motions for 2 edges",

@@ -127,9 +127,9 @@ impl Model {
 }
 
 /// Without a past.
-fn asked(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose, distance_tolerance: f64) -> PairAnswer {
+fn asked(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose, max_distance: f64) -> PairAnswer {
     let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-    let config = PairConfig { distance_tolerance, ..PairConfig::default() };
+    let config = PairConfig { max_distance, ..PairConfig::default() };
     pair::distance([shape1.at(pose1), shape2.at(pose2)], &mut cache, &config, &mut answer).unwrap();
     answer
 }
@@ -145,13 +145,13 @@ fn agree(listed: &[PairResult], expected: &[(Key, PairAnswer)], what: &str) {
 }
 
 fn query(scene: &mut Scene, model: &mut Model, shapes: &[Arc<Shape>], random: &mut Random, what: &str) {
-    let distance_tolerance = random.pick(&[0.0, 0.05, 0.3, 2.0, 1e3, f64::INFINITY]);
+    let max_distance = random.pick(&[0.0, 0.05, 0.3, 2.0, 1e3, f64::INFINITY]);
     let early_exit = random.below(8) == 0;
-    let query = SceneQuery { distance_tolerance, early_exit, ..SceneQuery::default() };
+    let query = SceneQuery { max_distance, early_exit, ..SceneQuery::default() };
     let kind = random.below(9);
     let what = format!("{what}: {kind} {query:?}");
     let verdict_only = kind < 2 || kind > 5 && random.below(2) == 0;
-    let tolerance = if verdict_only { 0.0 } else { distance_tolerance };
+    let tolerance = if verdict_only { 0.0 } else { max_distance };
     let question = if verdict_only { Query::Intersection } else { Query::Distance };
     let mut expected = model.near(tolerance);
     let answer = match kind {

@@ -38,7 +38,7 @@ fn flight(mut workers: impl FnMut(usize, &mut Scene)) -> Vec<String> {
             *pose = Pose::new(&pose.rotation(), &(pose.translation() + random.vector() * 0.05));
             scene.set_pose(*id, pose).unwrap();
         }
-        let near = SceneQuery { distance_tolerance: 0.2, ..SceneQuery::default() };
+        let near = SceneQuery { max_distance: 0.2, ..SceneQuery::default() };
         let early = SceneQuery { early_exit: true, ..near };
         seen.push(told(scene.query_intersection(&near).unwrap()));
         // Twice: the second time most answers are given again.
@@ -117,7 +117,7 @@ fn crowd(workers: Option<Workers>) -> Vec<String> {
         }
         scene.set_poses(&moving, &poses).unwrap();
         let of = |pair: &PairResult| format!("{} {} {:?}", pair.user_data1, pair.user_data2, pair.answer);
-        let near = SceneQuery { distance_tolerance: 0.1, ..SceneQuery::default() };
+        let near = SceneQuery { max_distance: 0.1, ..SceneQuery::default() };
         seen.extend(scene.query_distance(&near).unwrap().pairs.iter().map(of));
         seen.push(format!("{:?}", scene.statistics()));
         let places = |piece: usize| scene.objects().filter(move |object| object.pieces().len() > piece);
@@ -165,7 +165,7 @@ fn a_panic_while_objects_are_moved_hides_no_pair() {
         scene
     };
     let listed = |scene: &mut Scene| {
-        let near = SceneQuery { distance_tolerance: 0.1, ..SceneQuery::default() };
+        let near = SceneQuery { max_distance: 0.1, ..SceneQuery::default() };
         let of = |pair: &PairResult| (pair.user_data1, pair.user_data2, pair.answer.outcome);
         scene.query_distance(&near).unwrap().pairs.iter().map(of).collect::<Vec<_>>()
     };

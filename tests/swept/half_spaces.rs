@@ -20,11 +20,11 @@ fn manifold(
     body: &Shape,
     pose: &Pose,
     half_space: &HalfSpace,
-    margin: f64,
+    max_distance: f64,
     reduces: bool,
 ) -> (Manifold, Vec<ManifoldPoint>) {
     let mut points = vec![ManifoldPoint::default(); 64];
-    let config = ManifoldConfig { margin, reduces, ..ManifoldConfig::default() };
+    let config = ManifoldConfig { max_distance, reduces, ..ManifoldConfig::default() };
     let found = half_space_manifold(body.at(pose), half_space, &config, &mut points).unwrap();
     points.truncate(found.point_count as usize);
     (found, points)

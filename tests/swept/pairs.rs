@@ -93,7 +93,7 @@ fn intervals_hold_the_distance_less_the_radii() {
             assert!(is_apart || (at_least(-deep.upper) && at_most(-deep.lower)), "{deep:?}");
             // On either side of what it is.
             for tolerance in [0.5 * near.upper, 2.0 * near.upper] {
-                let config = PairConfig { distance_tolerance: tolerance, ..exact };
+                let config = PairConfig { max_distance: tolerance, ..exact };
                 let answer = ask(distance, bodies, &poses, &config);
                 let is_beyond = is_apart && !at_most(tolerance);
                 assert_eq!(answer.outcome, if is_beyond { Outcome::Beyond } else { outcome }, "{answer:?}");
@@ -175,7 +175,7 @@ fn manifolds_are_those_of_the_polyhedra_moved_to_the_surfaces() {
             let height = 0.5 + 0.25 + half + above;
             let poses = [Pose::new(&turned, &Vector::new(0.25, 0.0, height)), Pose::IDENTITY];
             let mut points = [ManifoldPoint::default(); 8];
-            let config = ManifoldConfig { margin: 0.25, ..ManifoldConfig::default() };
+            let config = ManifoldConfig { max_distance: 0.25, ..ManifoldConfig::default() };
             let bodies = [body.at(&poses[0]), table.at(&poses[1])];
             let found = manifold(bodies, &mut ManifoldCache::default(), &config, &mut points).unwrap();
             assert_eq!((found.point_count, found.found_count), (count, count), "{above} {found:?}");
@@ -248,12 +248,15 @@ fn a_cast_hits_with_the_surface() {
     });
     let still = Motion::Fixed(Pose::IDENTITY);
     let pair = || [Moving { shape: &ball, motion: &flight }, Moving { shape: &wall, motion: &still }];
-    let config = CastConfig { t_end: 5.0, ..CastConfig::default() };
+    let config = CastConfig { time_end: 5.0, ..CastConfig::default() };
     let mut answer = CastAnswer::default();
     cast(pair(), &mut PairCache::default(), &config, &mut answer).unwrap();
     let first = (11.0 - 0.5 - 0.75 - 0.25) / 4.0;
     assert_eq!(answer.outcome, CastOutcome::Hit);
-    assert!(answer.t_lo < first && first <= answer.t_hi && answer.t_hi - answer.t_lo < 1e-8, "{answer:?}");
+    assert!(
+        answer.time_lower < first && first <= answer.time_upper && answer.time_upper - answer.time_lower < 1e-8,
+        "{answer:?}"
+    );
     verify_cast(pair(), &config, &answer).unwrap();
 }
 

@@ -42,7 +42,7 @@ fn a_scene_finds_what_all_pairs_are() {
         for a in 0..ids.len() {
             for b in a + 1..ids.len() {
                 let mut answer = PairAnswer::default();
-                let config = PairConfig { distance_tolerance: tolerance, ..PairConfig::default() };
+                let config = PairConfig { max_distance: tolerance, ..PairConfig::default() };
                 let bodies = [shapes[a % 4].at(&poses[a]), shapes[b % 4].at(&poses[b])];
                 distance(bodies, &mut PairCache::default(), &config, &mut answer).unwrap();
                 if answer.outcome != Outcome::Beyond {
@@ -50,7 +50,7 @@ fn a_scene_finds_what_all_pairs_are() {
                 }
             }
         }
-        let query = SceneQuery { distance_tolerance: tolerance, ..SceneQuery::default() };
+        let query = SceneQuery { max_distance: tolerance, ..SceneQuery::default() };
         let answer = scene.query_distance(&query).unwrap();
         assert_eq!(answer.pairs.len(), expected.len());
         for (pair, (a, b, outcome, length)) in answer.pairs.iter().zip(&expected) {

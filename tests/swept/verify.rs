@@ -148,8 +148,8 @@ fn what_queries_say_passes_and_one_double_beyond_the_truth_does_not() {
                 refused[1] += 1;
             }
         }
-        for margin in [0.0, 0.5] {
-            let config = ManifoldConfig { margin, ..ManifoldConfig::default() };
+        for max_distance in [0.0, 0.5] {
+            let config = ManifoldConfig { max_distance, ..ManifoldConfig::default() };
             let (found, points, cache) = ask_manifold(bodies, &config);
             let check = |found: &Manifold| verify_manifold(bodies, &cache, &config, found, &points);
             check(&found).unwrap_or_else(|error| panic!("{error}: {found:?} {points:?} {}", told()));

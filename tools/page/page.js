@@ -339,7 +339,7 @@ function describe(recording, isSolid) {
   const { head } = recording;
   document.title = head.scene + " – swiftprox";
   element("title").textContent = head.scene;
-  const bounds = head.tolerance === undefined ? "" : ", tolerance " + head.tolerance;
+  const bounds = head.maxDistance === undefined ? "" : ", max distance " + head.maxDistance;
   element("about").textContent = `${counted(recording.stepCount, "step")}, ${counted(recording.bodyCount, "convex body").replace("bodys", "bodies")}, ` +
     `${counted(recording.pairCount, "pair")}${bounds}; swiftprox ${head.version}`;
   if (head.cutOff) {

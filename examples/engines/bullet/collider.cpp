@@ -39,7 +39,7 @@ class Algorithm final : public btCollisionAlgorithm
         const btTransform &a_from = a->getWorldTransform(), &b_from = b->getWorldTransform();
         swiftprox::ManifoldConfig config;
         config.reduces = true;
-        config.margin = manifold_->getContactBreakingThreshold();
+        config.max_distance = manifold_->getContactBreakingThreshold();
         swiftprox_manifold_point points[MANIFOLD_CACHE_SIZE];
         const auto found = swiftprox::try_manifold({shape_of(a), pose_of(a_from)}, {shape_of(b), pose_of(b_from)}, cache_,
                                                    {points, MANIFOLD_CACHE_SIZE}, config);

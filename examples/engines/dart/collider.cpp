@@ -224,7 +224,7 @@ double least_distance(const Pairs &pairs, const DistanceOption &option, Distance
             continue;
         }
         swiftprox::PairConfig config;
-        config.distance_tolerance = std::max(least, 0.0);
+        config.max_distance = std::max(least, 0.0);
         swiftprox::ManifoldCache cache;
         const swiftprox::Pose at[2] = {swiftprox::Pose(a->getTransform()), swiftprox::Pose(b->getTransform())};
         const auto found = swiftprox::signed_distance({a->shape, at[0]}, {b->shape, at[1]}, cache, config);
@@ -278,7 +278,7 @@ class Detector final : public CollisionDetector
         Group &group = updated(of);
         Collisions found = begin(option, result);
         swiftprox::SceneQuery query;
-        query.distance_tolerance = margin_for(option, result);
+        query.max_distance = margin_for(option, result);
         query.detail = option.enableContact ? SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD : SWIFTPROX_CONTACT_DETAIL_NONE;
         const swiftprox_scene_answer answer = group.scene().query_contact(query);
         const swiftprox_scene_contacts contacts = group.scene().get_contacts();
@@ -303,7 +303,7 @@ class Detector final : public CollisionDetector
         Collisions found = begin(option, result);
         swiftprox::ManifoldConfig config;
         config.reduces = true;
-        config.margin = margin_for(option, result);
+        config.max_distance = margin_for(option, result);
         for (const auto &[a, b] : pairs_between(updated(first), updated(second))) {
             if (found.is_enough()) {
                 break;

@@ -66,7 +66,7 @@ static int collide(const mjModel *model, mjData *data, mjPreContact *contacts, i
         mju_error("no memory for a pair's cache");
     }
     swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
-    config.margin = margin;
+    config.max_distance = margin;
     config.reduces = 1;
     double pose1[12], pose2[12];
     pose_of(data, geom1, pose1);

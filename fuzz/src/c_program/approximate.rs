@@ -30,7 +30,7 @@ fn any_config(u: &mut Unstructured) -> Result<Option<Block>> {
     let mut last = 1.0;
     let mut config: CPairConfig = CPairConfig::DEFAULT;
     let mut tuning: CPairTuning = CPairTuning::DEFAULT;
-    config.distance_tolerance = if u.arbitrary()? { f64::INFINITY } else { any_number(u, &mut last)?.abs() };
+    config.max_distance = if u.arbitrary()? { f64::INFINITY } else { any_number(u, &mut last)?.abs() };
     tuning.start = *u.choose(&STARTS)? as i32;
     config.absolute_error = *u.choose(&ERRORS)?;
     config.relative_error = *u.choose(&ERRORS)?;

@@ -138,7 +138,7 @@ pub fn pair_config(u: &mut Unstructured) -> Result<Option<Block>> {
     let start = u.int_in_range(-1..=2_i32)?;
     let tuning = Block::of(&[CPairTuning { start, ..CPairTuning::DEFAULT }]);
     let changes = [
-        (std::mem::offset_of!(CPairConfig, distance_tolerance), &tolerance[..]),
+        (std::mem::offset_of!(CPairConfig, max_distance), &tolerance[..]),
         (std::mem::offset_of!(CPairConfig, rotation_limit), &limit[..]),
     ];
     let config = options(u, &CPairConfig { tuning: tuning.at(), ..CPairConfig::DEFAULT }, &changes)?;

@@ -149,7 +149,7 @@ impl Program {
 fn manifold_config(u: &mut Unstructured) -> Result<Option<Block>> {
     let mut last = 1.0;
     let mut config: CManifoldConfig = CManifoldConfig::DEFAULT;
-    config.margin = any_number(u, &mut last)?.abs();
+    config.max_distance = any_number(u, &mut last)?.abs();
     config.reduces = u.arbitrary()?;
     let limit = any_number(u, &mut last)?.to_ne_bytes();
     options(u, &config, &[(std::mem::offset_of!(CManifoldConfig, rotation_limit), &limit[..])])

@@ -5,7 +5,7 @@ use std::ptr::{null, null_mut};
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use swiftprox::ffi::StatusCode;
-use swiftprox::ffi::query::{CSceneAnswer, DEFAULT_TOLERANCE};
+use swiftprox::ffi::query::{CSceneAnswer, DEFAULT_MAX_DISTANCE};
 use swiftprox::ffi::record::*;
 use swiftprox::object::ObjectId;
 
@@ -78,7 +78,7 @@ unsafe fn play(u: &mut Unstructured, path: &CString) -> Result<StatusCode> {
             }
             assert_eq!(swiftprox_replay_change(replay), StatusCode::Ok, "{}", last_message());
             let mut answer = std::mem::zeroed::<CSceneAnswer>();
-            let asked = swiftprox_replay_ask(replay, DEFAULT_TOLERANCE, &mut answer, null_mut());
+            let asked = swiftprox_replay_ask(replay, DEFAULT_MAX_DISTANCE, &mut answer, null_mut());
             let is_right = asked == if step.has_query == 1 { StatusCode::Ok } else { StatusCode::ErrorInvalidArgument };
             assert!(is_right, "{}", last_message());
             let mut number = 7;

@@ -304,7 +304,7 @@ impl Program {
         if levels != 0 {
             value.tuning = &tuning;
         }
-        let changes = [(std::mem::offset_of!(CSceneQuery, distance_tolerance), &tolerance[..])];
+        let changes = [(std::mem::offset_of!(CSceneQuery, max_distance), &tolerance[..])];
         let is_plain: bool = u.arbitrary()?;
         let given = if is_plain { None } else { options(u, &value, &changes)? };
         let query = u.int_in_range(0..=2)?;
@@ -436,7 +436,7 @@ impl Program {
         let scene = &self.scenes[place];
         let mut value: CSceneQuery = CSceneQuery::DEFAULT;
         let mut last = 1.0;
-        value.distance_tolerance = any_number(u, &mut last)?;
+        value.max_distance = any_number(u, &mut last)?;
         let given = options(u, &value, &[])?;
         let kind = u.int_in_range(-1..=4_i32)?;
         let pose = any_pose(u)?;
@@ -455,7 +455,7 @@ impl Program {
                 ),
                 _ => {
                     let mut events = std::mem::zeroed::<CSceneEvents>();
-                    let status = swiftprox_scene_query_events(scene.handle, value.distance_tolerance, &mut events);
+                    let status = swiftprox_scene_query_events(scene.handle, value.max_distance, &mut events);
                     assert_eq!(events.began.is_null(), events.began_count == 0);
                     assert_eq!(events.ended.is_null(), events.ended_count == 0);
                     return Ok(status);

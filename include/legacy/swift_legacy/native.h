@@ -224,8 +224,8 @@ struct Question {
     double absolute_error;
     double relative_error;
 
-    Question(NativeQuery query, bool exits_early, double distance_tolerance)
-        : ask(query), early_exit(exits_early), tolerance(distance_tolerance), absolute_error(0), relative_error(0)
+    Question(NativeQuery query, bool exits_early, double max_distance)
+        : ask(query), early_exit(exits_early), tolerance(max_distance), absolute_error(0), relative_error(0)
     {
     }
 };

@@ -60,7 +60,7 @@ inline const swift_legacy::Part& SWIFT_Scene::part(uint64_t id, uint32_t piece) 
 inline bool SWIFT_Scene::ask(const swift_legacy::Question& question, int& num_pairs, int** oids)
 {
     query_.early_exit = question.early_exit ? 1 : 0;
-    query_.distance_tolerance = question.tolerance;
+    query_.max_distance = question.tolerance;
     query_.absolute_error = question.absolute_error;
     query_.relative_error = question.relative_error;
 #ifdef SWIFT_LEGACY_ALL_PAIRS
@@ -132,11 +132,11 @@ inline bool SWIFT_Scene::Query_Exact_Distance(bool early_exit, SWIFT_Real tolera
 }
 
 #if SWIFT_LEGACY_VERSION != 2
-inline bool SWIFT_Scene::Query_Approximate_Distance(bool early_exit, SWIFT_Real distance_tolerance, SWIFT_Real error_tolerance,
+inline bool SWIFT_Scene::Query_Approximate_Distance(bool early_exit, SWIFT_Real max_distance, SWIFT_Real error_tolerance,
                                                     int& num_pairs, int** oids, SWIFT_Real** distances, SWIFT_Real** errors)
 {
     swift_legacy::Question question(swiftprox_scene_query_approximate, early_exit,
-                                    swift_legacy::native_tolerance(distance_tolerance, swift_legacy::BOUND_INCLUDED));
+                                    swift_legacy::native_tolerance(max_distance, swift_legacy::BOUND_INCLUDED));
     question.absolute_error = swift_legacy::native_error(error_tolerance);
     const bool intersects = ask(question, num_pairs, oids);
     results_.keep_nearest();

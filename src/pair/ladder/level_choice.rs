@@ -198,7 +198,7 @@ impl<'a> PairQuery<'a> {
 
     /// The accuracy that the query needs.
     fn accuracy_of_levels(&self) -> Accuracy {
-        let beyond = self.config.distance_tolerance;
+        let beyond = self.config.max_distance;
         match self.query {
             // A tolerance must be on one side of the interval.
             Query::Intersection if beyond < f64::INFINITY => Accuracy { absolute: 0.0, relative: 0.0, beyond },
@@ -218,12 +218,12 @@ impl<'a> PairQuery<'a> {
     /// How far levels may stand off from their bodies and still answer a query about bodies `gap` apart.
     pub(super) fn near_enough(&self, gap: f64) -> f64 {
         // A query for all levels begins at the coarsest where there is a tolerance, as Ehmann & Lin do.
-        let asks_coarsest = (self.config.levels == Levels::All) & (self.config.distance_tolerance < f64::INFINITY);
+        let asks_coarsest = (self.config.levels == Levels::All) & (self.config.max_distance < f64::INFINITY);
         if asks_coarsest | (self.query != Query::Approximate) {
             return f64::INFINITY;
         }
         // The whole interval must be on the bodies' own side of the tolerance.
-        let tolerance = self.config.distance_tolerance;
+        let tolerance = self.config.max_distance;
         if gap > tolerance { gap - tolerance } else { self.most_error(gap).min(tolerance - gap) }
     }
 

@@ -60,13 +60,13 @@ impl<'a> PairQuery<'a> {
     #[inline(always)]
     pub fn accuracy(&self) -> Accuracy {
         let config = self.config;
-        Accuracy { absolute: config.absolute_error, relative: config.relative_error, beyond: config.distance_tolerance }
+        Accuracy { absolute: config.absolute_error, relative: config.relative_error, beyond: config.max_distance }
     }
 
     /// Beyond what distance of the bounding spheres nothing more is asked. Distances without a tolerance have an infinite one.
     #[inline(always)]
     pub fn enough(&self) -> f64 {
-        let tolerance = self.config.distance_tolerance;
+        let tolerance = self.config.max_distance;
         let is_verdict = (self.query == Query::Intersection) & (tolerance == f64::INFINITY);
         if is_verdict { 0.0 } else { tolerance }
     }
@@ -122,9 +122,9 @@ impl<'a> PairQuery<'a> {
 
     /// The result that the integers and the fallback must deliver. Cheap bounds or not, nearest points must be nearest.
     pub fn wanted(&self) -> Wanted {
-        let distance_tolerance = self.config.distance_tolerance;
-        let tight = self.query != Query::Intersection || distance_tolerance < f64::INFINITY;
-        Wanted { tight, distance_tolerance }
+        let max_distance = self.config.max_distance;
+        let tight = self.query != Query::Intersection || max_distance < f64::INFINITY;
+        Wanted { tight, max_distance }
     }
 
     // --- Answers -----------------------------------------------------------------------------------------------------------------
@@ -147,20 +147,20 @@ impl<'a> PairQuery<'a> {
     /// Whether an interval tells on which side of the tolerance the distance is.
     #[inline(always)]
     pub fn is_settled_by(&self, interval: &Interval) -> bool {
-        interval.settles(self.config.distance_tolerance)
+        interval.settles(self.config.max_distance)
     }
 
     /// Outcome, interval and best estimate (`distance`, put into the interval) of a separated pair. The interval settles the
     /// tolerance: its upper end is beyond it just where the true distance is.
     #[inline(always)]
     pub fn set_interval(&mut self, interval: &Interval, distance: f64) {
-        set_interval(self.answer, interval, distance, self.config.distance_tolerance);
+        set_interval(self.answer, interval, distance, self.config.max_distance);
     }
 
     /// The same for an interval that need not settle the tolerance: a case that a budget leaves open is not beyond.
     #[inline(always)]
     pub fn set_open_interval(&mut self, interval: &Interval, distance: f64) {
-        let tolerance = if self.is_settled_by(interval) { self.config.distance_tolerance } else { f64::INFINITY };
+        let tolerance = if self.is_settled_by(interval) { self.config.max_distance } else { f64::INFINITY };
         set_interval(self.answer, interval, distance, tolerance);
     }
 }
@@ -189,10 +189,10 @@ pub(super) struct Open {
 }
 
 #[inline(always)]
-fn set_interval(answer: &mut PairAnswer, interval: &Interval, distance: f64, distance_tolerance: f64) {
+fn set_interval(answer: &mut PairAnswer, interval: &Interval, distance: f64, max_distance: f64) {
     answer.lower = interval.lower;
     answer.proof_count = 0;
-    if interval.upper > distance_tolerance {
+    if interval.upper > max_distance {
         answer.outcome = Outcome::Beyond;
         answer.upper = f64::INFINITY;
         answer.distance = interval.lower;

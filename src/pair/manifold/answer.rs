@@ -13,7 +13,7 @@ pub struct ManifoldConfig {
     pub rotation_limit: f64,
     /// Objects up to this far apart have a manifold, and points with a gap of at most this belong to it; 0 is the default, infinity
     /// admits all.
-    pub margin: f64,
+    pub max_distance: f64,
     /// Whether of more than four points four are kept: the deepest, the farthest from it and the extremes on either side of the
     /// line between. None is moved. By default all are.
     pub reduces: bool,
@@ -21,7 +21,7 @@ pub struct ManifoldConfig {
 
 impl Default for ManifoldConfig {
     fn default() -> Self {
-        ManifoldConfig { rotation_limit: ROTATION_LIMIT, margin: 0.0, reduces: false }
+        ManifoldConfig { rotation_limit: ROTATION_LIMIT, max_distance: 0.0, reduces: false }
     }
 }
 
@@ -32,7 +32,7 @@ impl ManifoldConfig {
     /// [`Error::Argument`](crate::base::error::Error::Argument), naming the first such member.
     pub(crate) fn check(&self) -> Result<()> {
         check_range("rotation_limit", self.rotation_limit, 0.0..=ROTATION_LIMIT)?;
-        check_range("margin", self.margin, 0.0..=f64::INFINITY)
+        check_range("max_distance", self.max_distance, 0.0..=f64::INFINITY)
     }
 }
 
@@ -134,7 +134,7 @@ impl Default for ManifoldPoint {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct Manifold {
-    /// [`Outcome::Intersecting`], [`Outcome::Separated`] within the margin, or [`Outcome::Beyond`] it.
+    /// [`Outcome::Intersecting`], [`Outcome::Separated`] within `max_distance`, or [`Outcome::Beyond`] it.
     pub outcome: Outcome,
     /// 1 or 2: the object whose face is the reference; 0 where no face is, and the manifold has but one point.
     pub reference: u32,

@@ -24,9 +24,9 @@ use crate::solve::exact::OverPlane;
 use crate::solve::state::FeatureId;
 use std::ops::RangeInclusive;
 
-/// The contact points of a body, which is object 1, that meets a half-space or is up to the margin apart. They are the corners of
-/// the body's face that looks most at the plane, with a gap of at most the margin. The deepest point of the body is among them.
-/// Points on the half-space are on its plane, in the world; their features are of no kind.
+/// The contact points of a body, which is object 1, that meets a half-space or is up to `max_distance` apart. They are the corners
+/// of the body's face that looks most at the plane, with a gap of at most `max_distance`. The deepest point of the body is among
+/// them. Points on the half-space are on its plane, in the world; their features are of no kind.
 ///
 /// For a reduced manifold, four points are chosen anew each time: there is no cache.
 ///
@@ -60,7 +60,7 @@ fn make(body: Placed, half_space: &HalfSpace, config: &ManifoldConfig, points: &
     let contact = in_integers(|| of_lowest(body, half_space))?;
     let SignedDistance { outcome, lower, upper, normal, .. } = contact;
     let mut answer = Manifold { outcome, reference: 0, lower, upper, normal, point_count: 0, found_count: 0 };
-    if lower > config.margin {
+    if lower > config.max_distance {
         answer.outcome = Outcome::Beyond;
         return Ok(answer);
     }
@@ -74,7 +74,7 @@ fn make(body: Placed, half_space: &HalfSpace, config: &ManifoldConfig, points: &
     let (mut found, mut is_deep) = (0, false);
     for corner in 0..outline.count {
         let [least, most] = plane.gap(&outline, corner);
-        if !(least <= config.margin) {
+        if !(least <= config.max_distance) {
             continue;
         }
         is_deep |= least <= upper;

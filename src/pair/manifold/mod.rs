@@ -43,12 +43,12 @@ use patch::{COINCIDENT, Facing, facing};
 use places::{CommonPoint, Origin, View};
 use reduction::{Thinned, four_of};
 
-/// The manifold of two objects, written to `points` as far as there is room. For objects farther apart than the margin there is
+/// The manifold of two objects, written to `points` as far as there is room. For objects farther apart than `max_distance` there is
 /// none.
 ///
 /// The normal and the interval are as certain as those of [`crate::pair::distance`] and [`crate::pair::depth`]. Points are those
-/// that the two faces have in common along the normal, with a gap of at most the margin; at least one. Equal shapes, poses, normals
-/// and caches give equal points in equal order.
+/// that the two faces have in common along the normal, with a gap of at most `max_distance`; at least one. Equal shapes, poses,
+/// normals and caches give equal points in equal order.
 ///
 /// # Errors
 /// As of [`crate::pair::depth`]; then nothing is changed.
@@ -147,7 +147,7 @@ pub(crate) fn manifold_into(
     with_default(|| {
         config.check()?;
         let within = PairConfig {
-            distance_tolerance: config.margin,
+            max_distance: config.max_distance,
             rotation_limit: config.rotation_limit,
             ..PairConfig::default()
         };
@@ -164,7 +164,7 @@ pub(crate) enum Known<'a> {
     Deep(&'a DepthAnswer),
 }
 
-/// As [`manifold_into`], in the default floating-point environment and with a margin that has been checked.
+/// As [`manifold_into`], in the default floating-point environment and with a config that has been checked.
 pub(crate) fn manifold_of(
     bodies: [Placed; 2],
     known: Known,
@@ -173,7 +173,7 @@ pub(crate) fn manifold_of(
     points: &mut Sink,
 ) -> Manifold {
     let contact = match known {
-        Known::Apart(answer) if answer.lower > config.margin => {
+        Known::Apart(answer) if answer.lower > config.max_distance => {
             SignedDistance { outcome: Outcome::Beyond, ..answer.into() }
         }
         Known::Apart(answer) => answer.into(),
@@ -204,7 +204,7 @@ fn of_bodies(
     let Some(radii) = Radii::of(&bodies) else { return make(bodies, before, config, contact, points) };
     let poses = bodies.map(|body| body.pose);
     let of_polyhedra = swept::contact_of_polyhedra(&radii, poses, contact);
-    let config = ManifoldConfig { margin: radii.with(config.margin), ..*config };
+    let config = ManifoldConfig { max_distance: radii.with(config.max_distance), ..*config };
     let mut write = |place: usize, fill: Fill| {
         (points.write)(place, &mut |point| {
             fill(point);
@@ -336,7 +336,8 @@ fn clip(
     }
     let origin = poses[1].transform(&polyhedra[1].centre);
     let witness_spots = [contact.world1, contact.world2].map(|p| axes.spot(&(Vector::from(p) - origin)));
-    let view = View { outlines: &outlines, poses, precision, margin: config.margin, contact, witness_spots };
+    let view =
+        View { outlines: &outlines, poses, precision, max_distance: config.max_distance, contact, witness_spots };
 
     let numbers = [0, 1].map(|i| patch(i).map_or(0, |patch| patch.number(polyhedra[i])));
     *now = Reference { body: patches.reference as u32 + 1, patches: numbers, kept: [0; FOUR] };

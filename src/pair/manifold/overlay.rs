@@ -19,7 +19,8 @@ const MOST_CORNERS: usize = 2 * FEW;
 /// Within this many times [`coincident`](Precision::coincident), the sweep takes two corners for one.
 const DOUBT: f64 = 4.0;
 
-/// The points of the common part whose gap is at most the margin; and the witness points, if others are there and none is as deep.
+/// The points of the common part whose gap is at most `max_distance`; and the witness points, if others are there and none is as
+/// deep.
 pub struct Overlay {
     places: [CommonPoint; MOST_CORNERS + 1],
     count: usize,
@@ -293,7 +294,7 @@ mod tests {
                 outlines: &outlines,
                 poses: [&poses[0], &poses[1]],
                 precision,
-                margin: f64::INFINITY,
+                max_distance: f64::INFINITY,
                 contact: &contact,
                 witness_spots: [Vector::zeros(); 2],
             };

@@ -15,7 +15,7 @@ pub struct View<'a> {
     pub outlines: &'a [Outline<'a>; 2],
     pub poses: [&'a Pose; 2],
     pub precision: Precision,
-    pub margin: f64,
+    pub max_distance: f64,
     /// The pair of witness points, and where they are.
     pub contact: &'a SignedDistance,
     pub witness_spots: [Vector; 2],
@@ -66,8 +66,8 @@ impl CommonPoint {
 }
 
 impl View<'_> {
-    /// Calls `visit` with each point whose gap is at most the margin, and last, if others are there and none is as deep, with the
-    /// witness points: patches most parallel to the normal need not hold them. How many it were.
+    /// Calls `visit` with each point whose gap is at most `max_distance`, and last, if others are there and none is as deep, with
+    /// the witness points: patches most parallel to the normal need not hold them. How many it were.
     pub fn sweep(&self, mut visit: impl FnMut(&CommonPoint)) -> usize {
         let (mut count, mut is_deep) = (0, false);
         common_part(self.outlines, &self.precision, |spot: &Spot| {
@@ -85,10 +85,10 @@ impl View<'_> {
         count
     }
 
-    /// Whether a place may have a gap of at most the margin, which is then known to within something.
+    /// Whether a place may have a gap of at most `max_distance`, which is then known to within something.
     #[inline(always)]
     pub fn is_near(&self, place: &CommonPoint) -> bool {
-        place.error.is_finite() && place.gap() - place.error <= self.margin
+        place.error.is_finite() && place.gap() - place.error <= self.max_distance
     }
 
     /// Whether a place may be as deep as the witness points.

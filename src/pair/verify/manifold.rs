@@ -36,10 +36,10 @@ const AWAY: f64 = -0.1;
 /// |---|---|
 /// | verdict, `lower`, `upper` | proved without tolerance, as by [`super::verify`] and [`super::verify_depth`] |
 /// | `normal` | a unit vector; bodies apart are at least `lower` apart along it, others overlap by at most −`lower` |
-/// | the counts, `reference` | no more points are written than found, and one at most without a reference; none beyond the margin |
+/// | the counts, `reference` | no more points are written than found, and one at most without a reference; none beyond `max_distance` |
 /// | points on the bodies | no farther than c out of them, or than b and the gap's width behind a face that looks at the other body; one point in both frames |
 /// | their features | they are there; a point is no farther than b from its vertex or edge |
-/// | a gap | that of the two points along the normal is in it, up to the allowance a, and so far from its ends as both are out of the bodies; at most the margin |
+/// | a gap | that of the two points along the normal is in it, up to the allowance a, and so far from its ends as both are out of the bodies; at most `max_distance` |
 /// | … | no interval is below, or above, the gaps of all pairs of points of the bodies; without tolerance |
 /// | both points | in line along the normal up to b |
 /// | all points | one is as deep as the bodies are, up to b, if none was left out |
@@ -106,9 +106,12 @@ fn check_contact(
         Outcome::Intersecting if lower == f64::NEG_INFINITY => return Err(too_large()),
         Outcome::Intersecting => lower <= upper && upper <= 0.0,
         Outcome::Separated => {
-            0.0 <= lower && lower <= config.margin && lower <= upper && (upper < f64::INFINITY || lower == f64::MAX)
+            0.0 <= lower
+                && lower <= config.max_distance
+                && lower <= upper
+                && (upper < f64::INFINITY || lower == f64::MAX)
         }
-        Outcome::Beyond => config.margin <= lower && lower <= upper && lower < f64::INFINITY,
+        Outcome::Beyond => config.max_distance <= lower && lower <= upper && lower < f64::INFINITY,
         Outcome::None | Outcome::Undecided => return Err(Error::Argument("the manifold holds no outcome".into())),
     };
     if !is_sound {
@@ -193,7 +196,7 @@ impl<'a> Check<'a> {
         let gap = along - self.radii.upper;
         let has_end = gap_upper < f64::INFINITY || gap_lower == f64::MAX;
         let is_enclosed = gap_lower - self.allowed <= gap && gap <= gap_upper + self.allowed;
-        if !(has_end && is_enclosed && gap_lower <= gap_upper && gap_lower <= self.config.margin) {
+        if !(has_end && is_enclosed && gap_lower <= gap_upper && gap_lower <= self.config.max_distance) {
             return Err(unverified(format!("a gap of {gap:e} is not in [{gap_lower:e}, {gap_upper:e}]")));
         }
         self.check_attained(&witnesses, gap, [gap_lower, gap_upper])?;

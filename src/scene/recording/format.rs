@@ -19,7 +19,7 @@ use crate::shape::file::{from_bytes, to_bytes};
 pub(crate) const MAGIC: [u8; 8] = *b"SWFTREC\x1a";
 
 /// The version that is written, and the only one that is read.
-pub(crate) const VERSION: u32 = 1;
+pub(crate) const VERSION: u32 = 2;
 
 /// Numbers of kinds of records, never used again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -357,7 +357,7 @@ impl Writer {
     fn query(&mut self, query: &SceneQuery) -> Result<()> {
         let SceneQuery {
             early_exit,
-            distance_tolerance,
+            max_distance,
             absolute_error,
             relative_error,
             error_budget,
@@ -366,10 +366,9 @@ impl Writer {
             refinement,
             start,
             detail,
-            margin,
         } = *query;
         self.flag(early_exit)?;
-        for real in [distance_tolerance, absolute_error, relative_error, error_budget, margin] {
+        for real in [max_distance, absolute_error, relative_error, error_budget] {
             self.real(real)?;
         }
         let choices = [step_budget, levels as u32, refinement as u32, start as u32, detail as u32];
@@ -427,11 +426,10 @@ impl Reader<'_> {
     fn query(&mut self) -> Result<SceneQuery> {
         Ok(SceneQuery {
             early_exit: self.flag()?,
-            distance_tolerance: self.real()?,
+            max_distance: self.real()?,
             absolute_error: self.real()?,
             relative_error: self.real()?,
             error_budget: self.real()?,
-            margin: self.real()?,
             step_budget: self.number()?,
             levels: self.choice()?,
             refinement: self.choice()?,

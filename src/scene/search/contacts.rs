@@ -1,6 +1,6 @@
 //! How deep listed pairs are in each other and where they meet: the details of a query of contacts beside its answers.
 
-use crate::base::error::{Error, Result, check_range};
+use crate::base::error::{Error, Result};
 use crate::base::memory::with_capacity;
 use crate::pair::{
     self, DepthCache, DepthConfig, DepthEnding, Fill, Known, Manifold, ManifoldConfig, ManifoldPoint, Outcome,
@@ -20,8 +20,7 @@ impl Details {
     /// The details that a query of contacts asks beside the answers.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a margin that is out of range, and for details that another query cannot give. The other members
-    /// have been checked.
+    /// [`Error::Argument`] for details that another query cannot give. The other members have been checked.
     pub fn new(kind: Query, query: &SceneQuery) -> Result<Option<Details>> {
         if kind != Query::Contact {
             return match query.detail {
@@ -33,7 +32,6 @@ impl Details {
                 )),
             };
         }
-        check_range("margin", query.margin, 0.0..=f64::INFINITY)?;
         let reduces = match query.detail {
             ContactDetail::None => return Ok(None),
             ContactDetail::Depth => None,
@@ -42,8 +40,8 @@ impl Details {
         };
         let SceneQuery { absolute_error, relative_error, step_budget, .. } = *query;
         let depth = DepthConfig { absolute_error, relative_error, step_budget, ..DepthConfig::default() };
-        let margin = query.margin.min(query.distance_tolerance).min(f64::MAX);
-        let manifold = reduces.map(|reduces| ManifoldConfig { margin, reduces, ..ManifoldConfig::default() });
+        let max_distance = query.max_distance.min(f64::MAX);
+        let manifold = reduces.map(|reduces| ManifoldConfig { max_distance, reduces, ..ManifoldConfig::default() });
         Ok(Some(Details { depth, manifold }))
     }
 

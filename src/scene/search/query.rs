@@ -17,7 +17,7 @@ pub struct SceneQuery {
     /// List pairs whose true distance is at most this, intersecting ones always, and those that a step budget leaves open; from 0
     /// to +∞ (the default: all pairs, which takes time in proportion to their number).
     /// [`query_intersection`](crate::scene::Scene::query_intersection) needs none, but refuses one out of range.
-    pub distance_tolerance: f64,
+    pub max_distance: f64,
     /// [Approximate queries](crate::scene::Scene::query_approximate): `upper − lower` of a pair may be as large as this …
     pub absolute_error: f64,
     /// … or as this times `lower`. Both 0 (the default): as narrow as exact answers.
@@ -38,11 +38,8 @@ pub struct SceneQuery {
     /// The start of marching in each pair.
     pub start: Start,
     /// [Contacts](crate::scene::Scene::query_contact): the details of each pair beside its answer. `absolute_error`,
-    /// `relative_error` and `step_budget` are then those of the depths.
+    /// `relative_error` and `step_budget` are then those of the depths, and points with a gap above `max_distance` are left out.
     pub detail: ContactDetail,
-    /// [Contacts](crate::scene::Scene::query_contact): pairs farther apart have no manifold, and points with a larger gap do not
-    /// belong to one; from 0 to +∞. It is the distance tolerance if that is less. Default: +∞.
-    pub margin: f64,
 }
 
 /// The subject of a query.
@@ -100,7 +97,7 @@ impl Default for SceneQuery {
     fn default() -> Self {
         SceneQuery {
             early_exit: false,
-            distance_tolerance: f64::INFINITY,
+            max_distance: f64::INFINITY,
             absolute_error: 0.0,
             relative_error: 0.0,
             error_budget: f64::INFINITY,
@@ -109,7 +106,6 @@ impl Default for SceneQuery {
             refinement: Refinement::Adaptive,
             start: Start::Automatic,
             detail: ContactDetail::None,
-            margin: f64::INFINITY,
         }
     }
 }

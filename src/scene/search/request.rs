@@ -13,7 +13,7 @@ pub(crate) type Solver = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairA
 /// Refuses a query of which a member is out of range.
 #[cold]
 fn check(query: &SceneQuery) -> Result<()> {
-    check_range("distance_tolerance", query.distance_tolerance, 0.0..=f64::INFINITY)?;
+    check_range("max_distance", query.max_distance, 0.0..=f64::INFINITY)?;
     pair::check_accuracy(query.absolute_error, query.relative_error, query.step_budget)?;
     check_range("error_budget", query.error_budget, 0.0..=f64::INFINITY)
 }
@@ -42,7 +42,7 @@ impl Request {
     #[inline]
     pub fn new(kind: Query, query: &SceneQuery) -> Result<Request> {
         // NaNs pass no comparison.
-        let is_sound = (query.distance_tolerance >= 0.0)
+        let is_sound = (query.max_distance >= 0.0)
             & (query.absolute_error >= 0.0)
             & (query.relative_error >= 0.0)
             & (query.step_budget > 0)
@@ -53,12 +53,10 @@ impl Request {
         // A verdict is asked for at any distance, and lists what intersects.
         let (reach, tolerance) = match kind {
             Query::Intersection => (f64::INFINITY, 0.0),
-            Query::Distance | Query::Contact | Query::Approximate => {
-                (query.distance_tolerance, query.distance_tolerance)
-            }
+            Query::Distance | Query::Contact | Query::Approximate => (query.max_distance, query.max_distance),
         };
         let config = PairConfig {
-            distance_tolerance: reach,
+            max_distance: reach,
             absolute_error: query.absolute_error,
             relative_error: query.relative_error,
             step_budget: query.step_budget,

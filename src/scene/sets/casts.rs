@@ -21,11 +21,11 @@ pub struct SceneCastAnswer {
     pub outcome: CastOutcome,
     /// Certified queries made.
     pub queries: u32,
-    /// All pairs are farther apart than the margin from the beginning up to here: the last valid time.
-    pub t_lo: f64,
-    /// Of a hit a time at which its pair is no farther apart than the margin, the earliest that is known.
-    pub t_hi: f64,
-    /// Of a hit the distance of its pair at `t_hi` is at most this, of a near miss that at its own `t_lo`.
+    /// All pairs are farther apart than `max_distance` from the beginning up to here: the last valid time.
+    pub time_lower: f64,
+    /// Of a hit a time at which its pair is no farther apart than `max_distance`, the earliest that is known.
+    pub time_upper: f64,
+    /// Of a hit the distance of its pair at `time_upper` is at most this, of a near miss that at its own `time_lower`.
     pub upper: f64,
     /// The pair that ends it, object 1 moving, with what [`CastAnswer::contact`] says; null ids if all are free.
     pub pair: PairResult,
@@ -36,8 +36,8 @@ impl Default for SceneCastAnswer {
         SceneCastAnswer {
             outcome: CastOutcome::None,
             queries: 0,
-            t_lo: f64::NAN,
-            t_hi: f64::NAN,
+            time_lower: f64::NAN,
+            time_upper: f64::NAN,
             upper: f64::NAN,
             pair: PairResult::default(),
         }
@@ -75,14 +75,14 @@ pub(crate) struct Mover {
     boxes: [u32; 2],
 }
 
-/// A box that a piece does not leave from one time to the next, grown by the margin.
+/// A box that a piece does not leave from one time to the next, grown by `max_distance`.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct SweptBox {
     from: f64,
     bounds: Aabb,
 }
 
-/// A pair that may be no farther apart than the margin, but not before a time.
+/// A pair that may be no farther apart than `max_distance`, but not before a time.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Approach {
     from: f64,
@@ -98,7 +98,7 @@ enum Target {
     Mover(u32),
 }
 
-/// The earliest time at which a moving object is no farther from another one than the margin.
+/// The earliest time at which a moving object is no farther from another one than `max_distance`.
 ///
 /// # Errors
 /// [`Error::Handle`] for an id that names no object of the scene; [`Error::Argument`] unless there is one motion or one for each
@@ -153,14 +153,14 @@ fn list_movers(question: &Question, room: &mut Room) -> Result<()> {
     Ok(())
 }
 
-/// Boxes around the region that one piece sweeps over, grown by the margin.
+/// Boxes around the region that one piece sweeps over, grown by `max_distance`.
 fn list_boxes(body: Carried, config: &CastConfig, boxes: &mut Vec<SweptBox>) -> Result<()> {
     let swept = Swept::new(body, config.range())?;
     let mut before = None;
     for place in swept.places() {
         let Place { time, pose, off } = place?;
         let (spheres, _) = placed(body.shape, &pose, pose.rotation_defect());
-        let here = grown_box(body.shape, &pose, &spheres, (off + config.margin).next_up());
+        let here = grown_box(body.shape, &pose, &spheres, (off + config.max_distance).next_up());
         if let Some((from, there)) = before.replace((time, here)) {
             push(boxes, SweptBox { from, bounds: here.union(&there) })?;
         }
@@ -185,7 +185,7 @@ fn list_approaches(question: &Question, room: &mut Room) -> Result<()> {
             let beside = boxes_of(&movers[second as usize]);
             let overlapping = boxes_of(mover).iter().find(|a| beside.iter().any(|b| b.bounds.overlaps(&a.bounds)));
             if overlapping.is_some() {
-                let from = question.config.t_begin;
+                let from = question.config.time_begin;
                 push(approaches, Approach { from, mover: k, target: Target::Mover(second) })?;
             }
         }
@@ -202,11 +202,12 @@ fn cast_all(question: &Question, room: &mut Room) -> Result<SceneCastAnswer> {
     let Question { others, config, .. } = question;
     let Room { movers, approaches, caches, .. } = room;
     let world = others.world;
-    let mut earliest = SceneCastAnswer { outcome: CastOutcome::Free, t_lo: config.t_end, ..SceneCastAnswer::default() };
-    let mut until = config.t_end;
+    let mut earliest =
+        SceneCastAnswer { outcome: CastOutcome::Free, time_lower: config.time_end, ..SceneCastAnswer::default() };
+    let mut until = config.time_end;
     for approach in &**approaches {
         // Before that time the pair is free; and nothing is earlier than the beginning.
-        if earliest.outcome != CastOutcome::Free && (approach.from > until || until <= config.t_begin) {
+        if earliest.outcome != CastOutcome::Free && (approach.from > until || until <= config.time_begin) {
             break;
         }
         let mover = &movers[approach.mover as usize];
@@ -225,24 +226,24 @@ fn cast_all(question: &Question, room: &mut Room) -> Result<SceneCastAnswer> {
         }
         let bodies = [question.carried(mover), second];
         let mut answer = CastAnswer::default();
-        let config = CastConfig { t_end: until, ..**config };
+        let config = CastConfig { time_end: until, ..**config };
         motion::cast_carried(bodies, caches.of(pair), &config, &mut answer)?;
         earliest.queries = earliest.queries.saturating_add(answer.queries);
         if answer.outcome == CastOutcome::Free {
             continue;
         }
         let is_earlier = match answer.outcome {
-            CastOutcome::Hit => !(earliest.t_hi <= answer.t_hi),
-            _ => answer.t_lo < earliest.t_lo,
+            CastOutcome::Hit => !(earliest.time_upper <= answer.time_upper),
+            _ => answer.time_lower < earliest.time_lower,
         };
         if is_earlier {
-            let CastAnswer { outcome, t_hi, upper, contact, .. } = answer;
-            let t_lo = earliest.t_lo.min(answer.t_lo);
-            until = if outcome == CastOutcome::Hit { t_hi } else { answer.t_lo };
+            let CastAnswer { outcome, time_upper, upper, contact, .. } = answer;
+            let time_lower = earliest.time_lower.min(answer.time_lower);
+            until = if outcome == CastOutcome::Hit { time_upper } else { answer.time_lower };
             let pair = signed(world, pair, contact);
-            earliest = SceneCastAnswer { outcome, queries: earliest.queries, t_lo, t_hi, upper, pair };
+            earliest = SceneCastAnswer { outcome, queries: earliest.queries, time_lower, time_upper, upper, pair };
         } else {
-            earliest.t_lo = earliest.t_lo.min(answer.t_lo);
+            earliest.time_lower = earliest.time_lower.min(answer.time_lower);
         }
     }
     Ok(earliest)

@@ -30,8 +30,8 @@ pub struct FirstHit {
     pub time: usize,
     /// How many times were tried.
     pub tried: usize,
-    /// A pair that is no farther apart than the margin, object 1 of the set: of an answer the verdict and its proof, or an interval
-    /// of the distance. Null ids if nothing hits.
+    /// A pair that is no farther apart than `max_distance`, object 1 of the set: of an answer the verdict and its proof, or an
+    /// interval of the distance. Null ids if nothing hits.
     pub pair: PairResult,
 }
 
@@ -43,7 +43,7 @@ pub(crate) struct Question<'a> {
     pub poses: &'a [Pose],
     pub order: PoseOrder,
     /// Pieces no farther apart than this hit.
-    pub margin: f64,
+    pub max_distance: f64,
 }
 
 /// The room that the question is worked in.
@@ -57,10 +57,11 @@ pub(crate) struct Room<'a> {
 /// The first time in the order that hits. Poses of times that are not tried are not looked at.
 ///
 /// # Errors
-/// [`Error::Argument`] for a margin that is negative or NaN, and for poses that do not come out even, those of [`members::list`].
+/// [`Error::Argument`] for a `max_distance` that is negative or NaN, and for poses that do not come out even, those of
+/// [`members::list`].
 pub(crate) fn first_hit(question: Question, room: &mut Room) -> Result<FirstHit> {
-    let Question { others, poses, order, margin } = question;
-    check_range("margin", margin, 0.0..=f64::MAX)?;
+    let Question { others, poses, order, max_distance } = question;
+    check_range("max_distance", max_distance, 0.0..=f64::MAX)?;
     let objects = others.set.ids.len();
     if objects == 0 || !poses.len().is_multiple_of(objects) {
         let are = format!("{} poses for a set of {objects} objects", poses.len());
@@ -74,7 +75,7 @@ pub(crate) fn first_hit(question: Question, room: &mut Room) -> Result<FirstHit>
         let set = ObjectSet { poses: Some(&poses[time * objects..][..objects]), ..*others.set };
         let named = |error: Error| error.about(&format!("time {time} of {count}"));
         members::list(others.world, &set, Boxes::Made, room.members).map_err(named)?;
-        if let Some(pair) = hit(&others, room, margin)? {
+        if let Some(pair) = hit(&others, room, max_distance)? {
             return Ok(FirstHit { time, tried, pair });
         }
     }
@@ -93,20 +94,24 @@ fn in_order(order: PoseOrder, count: usize) -> impl Iterator<Item = usize> {
     (0..all).map(at).filter(move |&time| time < count)
 }
 
-/// A pair of the set where it is that is no farther apart than the margin.
-fn hit(others: &Others, room: &mut Room, margin: f64) -> Result<Option<PairResult>> {
+/// A pair of the set where it is that is no farther apart than `max_distance`.
+fn hit(others: &Others, room: &mut Room, max_distance: f64) -> Result<Option<PairResult>> {
     let Room { members, open, found, caches } = room;
     let (world, proxies) = (others.world, &others.world.proxies);
     let mut look = |members: [u32; 2], spheres: [&Spheres; 2], bodies: [Placed; 2]| {
         let [one, other] = spheres;
-        if are_far_apart(one, other, margin) || !world.is_tested(members.map(|proxy| proxy as usize), true) {
+        if are_far_apart(one, other, max_distance) || !world.is_tested(members.map(|proxy| proxy as usize), true) {
             return Ok(None);
         }
-        Ok(answer_if_hit(bodies, margin, caches.of(members))?.map(|answer| signed(world, members, answer)))
+        Ok(answer_if_hit(bodies, max_distance, caches.of(members))?.map(|answer| signed(world, members, answer)))
     };
     for (k, member) in members.iter().enumerate() {
         let shape = &proxies.shapes[member.proxy as usize];
-        let grown = if margin > 0.0 { grown_box(shape, &member.pose, &member.spheres, margin) } else { member.bounds };
+        let grown = if max_distance > 0.0 {
+            grown_box(shape, &member.pose, &member.spheres, max_distance)
+        } else {
+            member.bounds
+        };
         others.list(open, found, |bounds| bounds.overlaps(&grown))?;
         for &other in &**found {
             let at = other as usize;
@@ -125,15 +130,15 @@ fn hit(others: &Others, room: &mut Room, margin: f64) -> Result<Option<PairResul
     Ok(None)
 }
 
-/// The answer for two bodies if they are no farther apart than the margin; otherwise none.
-fn answer_if_hit(bodies: [Placed; 2], margin: f64, cache: &mut PairCache) -> Result<Option<PairAnswer>> {
+/// The answer for two bodies if they are no farther apart than `max_distance`; otherwise none.
+fn answer_if_hit(bodies: [Placed; 2], max_distance: f64, cache: &mut PairCache) -> Result<Option<PairAnswer>> {
     let mut answer = PairAnswer::default();
-    let distance_tolerance = if margin > 0.0 { margin } else { f64::INFINITY };
-    let config = PairConfig { distance_tolerance, ..PairConfig::default() };
+    let max_distance = if max_distance > 0.0 { max_distance } else { f64::INFINITY };
+    let config = PairConfig { max_distance, ..PairConfig::default() };
     pair::intersection(bodies, cache, &config, &mut answer)?;
     let hits = match answer.outcome {
         Outcome::Intersecting => true,
-        Outcome::Separated => margin > 0.0,
+        Outcome::Separated => max_distance > 0.0,
         _ => false,
     };
     Ok(hits.then_some(answer))

@@ -115,31 +115,31 @@ pub(crate) fn find(question: Question, room: &mut Room) -> Result<()> {
     Ok(())
 }
 
-/// A test for pieces that are provably not within the margin of a ground or a half-space.
+/// A test for pieces that are provably not within `max_distance` of a ground or a half-space.
 enum Within<'a> {
-    /// The ground is in this box, grown by the margin.
+    /// The ground is in this box, grown by `max_distance`.
     Box(Aabb),
     HalfSpace {
         half_space: &'a HalfSpace,
-        margin: f64,
+        max_distance: f64,
     },
 }
 
 impl<'a> Within<'a> {
     /// # Errors
-    /// The test for the floor and margin that are asked for.
+    /// The test for the floor and the `max_distance` that are asked for.
     fn new(floor: Floor<'a>, config: &ManifoldConfig) -> Result<Within<'a>> {
         config.check()?;
         Ok(match floor {
             Floor::Ground(ground) => {
                 ground.pose.check(config.rotation_limit)?;
                 let [lower, upper] = ground.world_box();
-                let (lower, upper) = (lower.add_scalar(-config.margin), upper.add_scalar(config.margin));
+                let (lower, upper) = (lower.add_scalar(-config.max_distance), upper.add_scalar(config.max_distance));
                 Within::Box(Aabb { lower: lower.map(below).into(), upper: upper.map(above).into() })
             }
             Floor::HalfSpace(half_space) => {
                 half_space.check()?;
-                Within::HalfSpace { half_space, margin: config.margin }
+                Within::HalfSpace { half_space, max_distance: config.max_distance }
             }
         })
     }
@@ -147,9 +147,9 @@ impl<'a> Within<'a> {
     fn may_reach(&self, bounds: &Aabb) -> bool {
         match self {
             Within::Box(grown) => bounds.overlaps(grown),
-            Within::HalfSpace { half_space, margin } => {
+            Within::HalfSpace { half_space, max_distance } => {
                 // A NaN proves nothing.
-                !(half_space.gap_of_box(bounds.lower.map(f64::from), bounds.upper.map(f64::from)) > *margin)
+                !(half_space.gap_of_box(bounds.lower.map(f64::from), bounds.upper.map(f64::from)) > *max_distance)
             }
         }
     }
@@ -158,8 +158,8 @@ impl<'a> Within<'a> {
     fn may_reach_ball(&self, spheres: &Spheres) -> bool {
         match self {
             Within::Box(_) => true,
-            Within::HalfSpace { half_space, margin } => {
-                !(half_space.gap_of_box(spheres.centre, spheres.centre) - f64::from(spheres.outer) > *margin)
+            Within::HalfSpace { half_space, max_distance } => {
+                !(half_space.gap_of_box(spheres.centre, spheres.centre) - f64::from(spheres.outer) > *max_distance)
             }
         }
     }

@@ -102,7 +102,7 @@ pub(crate) struct Question<'a> {
     /// Objects of one of the sets are elsewhere for the question.
     pub moved: bool,
     /// Pairs farther apart need not be known.
-    pub cut_off: f64,
+    pub max_distance: f64,
 }
 
 /// So many of a piece's pairs with the least bounds may turn out not to be tested before all are put in order.
@@ -127,10 +127,10 @@ pub(crate) fn least_distance(
     candidates: &mut Candidates,
     caches: &mut Caches,
 ) -> Result<LeastDistance> {
-    check_range("cut_off", question.cut_off, 0.0..=f64::INFINITY)?;
+    check_range("max_distance", question.max_distance, 0.0..=f64::INFINITY)?;
     caches.make_room()?;
     candidates.heap.clear();
-    let enough = question.cut_off;
+    let enough = question.max_distance;
     let best = LeastDistance { lower: enough, upper: f64::INFINITY, nearest: PairResult::default() };
     let mut search = Search { question, candidates, caches, best, enough };
     search.begin()?;
@@ -268,7 +268,7 @@ impl<'a> Search<'a> {
     /// The distance of a pair, if it is less than the known distance.
     fn learn(&mut self, pair: [u32; 2], bodies: [Placed; 2]) -> Result<()> {
         let mut answer = PairAnswer::default();
-        let config = PairConfig { distance_tolerance: self.enough, ..PairConfig::default() };
+        let config = PairConfig { max_distance: self.enough, ..PairConfig::default() };
         pair::distance(bodies, self.caches.of(pair), &config, &mut answer)?;
         if answer.outcome == Outcome::Beyond {
             return Ok(());

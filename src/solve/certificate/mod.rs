@@ -40,8 +40,8 @@ impl Interval {
 
     /// Whether it is wholly on one side of a distance tolerance: then no other start would change the answer.
     #[inline(always)]
-    pub fn settles(&self, distance_tolerance: f64) -> bool {
-        (self.lower > distance_tolerance) | (self.upper <= distance_tolerance)
+    pub fn settles(&self, max_distance: f64) -> bool {
+        (self.lower > max_distance) | (self.upper <= max_distance)
     }
 }
 

@@ -104,11 +104,11 @@ fn edges(random: &mut Random) -> Case {
         }
         Motion::Screw(motion_between(&first, &second, &Vector::zeros(), 2.0).unwrap().0)
     });
-    let margin = random.pick(&[0.0, 0.0, 0.05]);
+    let max_distance = random.pick(&[0.0, 0.0, 0.05]);
     Case {
         shapes: shapes.map(Arc::new),
         motions,
-        config: CastConfig { margin, ..CastConfig::default() },
+        config: CastConfig { max_distance, ..CastConfig::default() },
         is_exact: false,
     }
 }

@@ -18,87 +18,92 @@ const DEPTH_LIMIT: usize = 40;
 
 /// Looks at the pair at so many times, each verdict proved, and refutes an answer by one of them.
 pub fn by_samples(case: &Case, answer: &CastAnswer, samples: u32) -> Result<(), String> {
-    let until = answer.t_lo;
+    let until = answer.time_lower;
     let least = least_before(case, answer);
     // A start in contact is a hit there, and nothing is said of what was before.
-    if until > case.config.t_begin {
+    if until > case.config.time_begin {
         let mut cache = PairCache::default();
         for k in 0..=samples {
             let share = (f64::from(k) / f64::from(samples) * 1024.0).floor() / 1024.0;
-            let (begin, end) = (case.config.t_begin, case.config.t_end);
+            let (begin, end) = (case.config.time_begin, case.config.time_end);
             let time = if k == samples { until } else { begin + share * (end - begin) };
             if time > until {
                 continue;
             }
             let [_, upper] = signed_distance(case, time, &mut cache);
             let allowed = allowance_at(case, k == samples);
-            let touches = case.is_exact && case.config.margin == 0.0 && k < samples && upper <= 0.0;
+            let touches = case.is_exact && case.config.max_distance == 0.0 && k < samples && upper <= 0.0;
             if upper < least - allowed || touches {
                 return Err(format!("at {time} they are {upper:e} apart, not {least:e}"));
             }
         }
     }
     let cache = &mut PairCache::default();
-    let margin = case.config.margin;
+    let max_distance = case.config.max_distance;
     match answer.outcome {
         CastOutcome::Hit => {
-            let [lower, _] = signed_distance(case, answer.t_hi, cache);
-            refute(lower > margin + allowance_at(case, true), || format!("at t_hi they are {lower:e} apart"))
+            let [lower, _] = signed_distance(case, answer.time_upper, cache);
+            refute(lower > max_distance + allowance_at(case, true), || {
+                format!("at time_upper they are {lower:e} apart")
+            })
         }
         CastOutcome::Near => {
-            let [lower, _] = signed_distance(case, answer.t_lo, cache);
+            let [lower, _] = signed_distance(case, answer.time_lower, cache);
             let off = lower > answer.upper + allowance_at(case, true);
-            refute(off, || format!("at t_lo they are {lower:e} apart, not {:e}", answer.upper))
+            refute(off, || format!("at time_lower they are {lower:e} apart, not {:e}", answer.upper))
         }
         CastOutcome::Free | CastOutcome::Budget => Ok(()),
         CastOutcome::None => Err("no outcome".into()),
     }
 }
 
-/// In integers and rationals, with nothing of the library: of a hit the pair is in contact at `t_hi`, and no time at which
-/// bisection from the beginning finds contact lies before `t_lo`; of anything else it is apart at `t_lo`, and where it is nearest.
+/// In integers and rationals, with nothing of the library: of a hit the pair is in contact at `time_upper`, and no time at which
+/// bisection from the beginning finds contact lies before `time_lower`; of anything else it is apart at `time_lower`, and where it
+/// is nearest.
 pub fn by_bisection(case: &Case, answer: &CastAnswer) -> Result<(), String> {
     let points = [0, 1].map(|i| {
         let polyhedron = case.shapes[i].polyhedron();
         (0..polyhedron.vertices.len() as u32).map(|v| polyhedron.local_position(v).into()).collect()
     });
     let exactly = Exactly { case, points };
-    let begin = case.config.t_begin;
+    let begin = case.config.time_begin;
     if answer.outcome != CastOutcome::Hit {
         let least = least_before(case, answer) - allowance_at(case, true);
-        let time = nearest_time(case, begin, answer.t_lo);
-        let late = [time, answer.t_lo].into_iter().filter(|_| answer.t_lo > begin);
+        let time = nearest_time(case, begin, answer.time_lower);
+        let late = [time, answer.time_lower].into_iter().filter(|_| answer.time_lower > begin);
         return match late.into_iter().find(|&time| exactly.is_closer(time, least)) {
             Some(time) => Err(format!("at {time} they are less than {least:e} apart, in integers")),
             None => Ok(()),
         };
     }
-    let margin = case.config.margin;
-    if !exactly.is_within(answer.t_hi, margin + allowance_at(case, true)) {
-        return Err("at t_hi they are apart, in integers".into());
+    let max_distance = case.config.max_distance;
+    if !exactly.is_within(answer.time_upper, max_distance + allowance_at(case, true)) {
+        return Err("at time_upper they are apart, in integers".into());
     }
-    if answer.t_hi == begin || exactly.is_within(begin, margin) {
+    if answer.time_upper == begin || exactly.is_within(begin, max_distance) {
         return Ok(());
     }
     // Distances guide it; what integers say of the time that it comes to holds whatever they said.
-    let (mut apart, mut within) = (begin, answer.t_hi);
+    let (mut apart, mut within) = (begin, answer.time_upper);
     let mut cache = PairCache::default();
     for _ in 0..HALVINGS {
         let middle = 0.5 * (apart + within);
-        let is_within = signed_distance(case, middle, &mut cache)[0] <= margin;
+        let is_within = signed_distance(case, middle, &mut cache)[0] <= max_distance;
         *(if is_within { &mut within } else { &mut apart }) = middle;
     }
-    let is_early = within < answer.t_lo && exactly.is_closer(within, margin - allowance_at(case, true));
-    refute(is_early, || format!("at {within}, before t_lo, they are no farther apart than {margin:e}, in integers"))
+    let is_early = within < answer.time_lower && exactly.is_closer(within, max_distance - allowance_at(case, true));
+    refute(is_early, || {
+        format!("at {within}, before time_lower, they are no farther apart than {max_distance:e}, in integers")
+    })
 }
 
 fn refute(is_refuted: bool, why: impl FnOnce() -> String) -> Result<(), String> {
     if is_refuted { Err(why()) } else { Ok(()) }
 }
 
-/// What an answer says of all times before `t_lo`.
+/// What an answer says of all times before `time_lower`.
 fn least_before(case: &Case, answer: &CastAnswer) -> f64 {
-    if answer.outcome == CastOutcome::Free { answer.clearance } else { case.config.margin }
+    if answer.outcome == CastOutcome::Free { answer.clearance } else { case.config.max_distance }
 }
 
 /// Distance if apart, else minus the depth: an interval each.

@@ -115,7 +115,7 @@ impl Scene {
 pub fn answers(scene: &Scene) -> Vec<(&'static str, PairAnswer)> {
     let all = PairConfig { levels: Levels::All, ..PairConfig::default() };
     let exact = scene.ask(pair::distance, &PairConfig::default());
-    let beyond = PairConfig { distance_tolerance: 0.5 * exact.lower, ..PairConfig::default() };
+    let beyond = PairConfig { max_distance: 0.5 * exact.lower, ..PairConfig::default() };
     let (exact_query, exact) = if exact.outcome == Outcome::Intersecting {
         ("contact", scene.ask(pair::contact, &PairConfig::default()))
     } else {

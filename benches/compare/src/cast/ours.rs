@@ -35,7 +35,7 @@ impl Caster for Cast<'_> {
         let case = &self.cases[motion];
         match cast(case.bodies(), &mut self.cache, &case.config, &mut self.answer) {
             Ok(()) if self.answer.outcome == CastOutcome::Free => Said::Free,
-            Ok(()) if self.answer.outcome == CastOutcome::Hit => Said::Hit(self.answer.t_hi),
+            Ok(()) if self.answer.outcome == CastOutcome::Hit => Said::Hit(self.answer.time_upper),
             _ => Said::Unknown,
         }
     }

@@ -107,8 +107,8 @@ impl Scene {
             by_samples(case, &answer, SAMPLES).map_err(|why| format!("{}: {why}", self.name))?;
             match answer.outcome {
                 CastOutcome::Free => Ok(Truth::Free),
-                CastOutcome::Hit => Ok(Truth::Hit([answer.t_lo, answer.t_hi])),
-                CastOutcome::Near => Ok(Truth::Near(answer.t_lo)),
+                CastOutcome::Hit => Ok(Truth::Hit([answer.time_lower, answer.time_upper])),
+                CastOutcome::Near => Ok(Truth::Near(answer.time_lower)),
                 outcome => Err(format!("{}: {outcome:?}", self.name)),
             }
         };

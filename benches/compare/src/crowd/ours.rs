@@ -53,8 +53,8 @@ impl Crowd for Ours {
     fn step(&mut self, k: usize) -> Found {
         let (ids, poses) = &self.steps[k];
         self.scene.set_poses(ids, poses).expect("rigid poses");
-        let near = SceneQuery { distance_tolerance: TOLERANCE, ..SceneQuery::default() };
-        let touching = SceneQuery { distance_tolerance: 0.0, detail: ContactDetail::Manifold, ..SceneQuery::default() };
+        let near = SceneQuery { max_distance: TOLERANCE, ..SceneQuery::default() };
+        let touching = SceneQuery { max_distance: 0.0, detail: ContactDetail::Manifold, ..SceneQuery::default() };
         let answer = match self.question {
             Question::Intersection => self.scene.query_intersection(&near),
             Question::Distance => self.scene.query_distance(&near),

@@ -148,7 +148,7 @@ impl Crowd for Sweep {
         } else {
             self.sort();
         }
-        let config = PairConfig { distance_tolerance: TOLERANCE, ..PairConfig::default() };
+        let config = PairConfig { max_distance: TOLERANCE, ..PairConfig::default() };
         let (mut found, mut answer) = (Found::default(), PairAnswer::default());
         for (&(a, b), cache) in &mut self.pairs {
             let [first, second] =

@@ -21,7 +21,7 @@ pub struct Ours<'a> {
 
 impl<'a> Ours<'a> {
     pub fn new(ground: Ground, shape: &'a Shape, poses: &'a [Pose]) -> Ours<'a> {
-        let config = ManifoldConfig { margin: MARGIN, ..ManifoldConfig::default() };
+        let config = ManifoldConfig { max_distance: MARGIN, ..ManifoldConfig::default() };
         Ours { ground, shape, poses, config, found: GroundContacts::default() }
     }
 }
