@@ -366,7 +366,7 @@ fn files_are_recordings_or_refused() {
     assert!(matches!(scene().record(&folder), Err(Error::File(_))));
     for (bytes, tells) in [
         (&b"# swiftprox scene 1\nshape a b\n"[..], "no recording"),
-        (b"SWFTREC\x1a\x02\0\0\0", "version 2"),
+        (b"SWFTREC\x1a\x01\0\0\0", "version 1"),
         (b"SWFTREC\x1a", "before its first record"),
         (b"", "no recording"),
     ] {

@@ -133,8 +133,8 @@ fn hit(others: &Others, room: &mut Room, max_distance: f64) -> Result<Option<Pai
 /// The answer for two bodies if they are no farther apart than `max_distance`; otherwise none.
 fn answer_if_hit(bodies: [Placed; 2], max_distance: f64, cache: &mut PairCache) -> Result<Option<PairAnswer>> {
     let mut answer = PairAnswer::default();
-    let max_distance = if max_distance > 0.0 { max_distance } else { f64::INFINITY };
-    let config = PairConfig { max_distance, ..PairConfig::default() };
+    let limit = if max_distance > 0.0 { max_distance } else { f64::INFINITY };
+    let config = PairConfig { max_distance: limit, ..PairConfig::default() };
     pair::intersection(bodies, cache, &config, &mut answer)?;
     let hits = match answer.outcome {
         Outcome::Intersecting => true,
