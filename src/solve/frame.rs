@@ -89,16 +89,29 @@ impl<L: Lanes> Body<'_, L> {
         self.columns
     }
 
-    /// A world direction U with RᵀU = n up to rounding: R·n, corrected where R is skewed; each correction squares the defect.
+    /// A world direction U with RᵀU = n up to rounding: R·n, or where R is skewed R⁻ᵀ·n.
     #[inline(always)]
     pub fn lift(&self, n: L) -> L {
-        let mut lifted = self.rotate_lanes(n);
         if self.skewed {
-            for _ in 0..3 {
-                lifted = lifted.add(self.rotate_lanes(n.sub(self.rotate_back(lifted))));
-            }
+            let ([x, y, z], inverse) = self.cofactors();
+            return z.mul_add(n.splat_z(), y.mul_add(n.splat_y(), x.mul(n.splat_x()))).mul(L::splat(inverse));
         }
-        lifted
+        self.rotate_lanes(n)
+    }
+
+    /// R⁻¹·d.
+    #[inline(always)]
+    pub fn invert(&self, d: L) -> L {
+        let ([x, y, z], inverse) = self.cofactors();
+        L::from_vector(&(Vector::new(x.dot(d), y.dot(d), z.dot(d)) * inverse))
+    }
+
+    /// The columns of det(R)·R⁻ᵀ, and 1/det(R).
+    #[inline(always)]
+    fn cofactors(&self) -> ([L; 3], f64) {
+        let [x, y, z] = self.columns;
+        let columns = [y.cross(z), z.cross(x), x.cross(y)];
+        (columns, 1.0 / x.dot(columns[0]))
     }
 }
 

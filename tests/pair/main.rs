@@ -12,6 +12,7 @@ mod overlap;
 mod pair_truth;
 mod refused;
 mod separating_axis;
+mod skewed;
 mod stretched;
 mod support_maps;
 mod verify;

@@ -157,8 +157,7 @@ pub struct CloserLook<L, const BETWEEN_PLANES: bool> {
 impl<L: Lanes, const BETWEEN_PLANES: bool> Certify<L> for CloserLook<L, BETWEEN_PLANES> {
     #[inline(always)]
     fn certify(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>) {
-        let put_right = if frame.rigid { None } else { minimum.unskewed(frame, state) };
-        let minimum = put_right.unwrap_or(*minimum);
+        let minimum = if frame.rigid { *minimum } else { minimum.unskewed(frame, state) };
         let minimum = if BETWEEN_PLANES { minimum.between_planes(frame, state) } else { Some(minimum) };
         self.found = minimum.map(|minimum| (minimum, minimum.gap_closely(frame, state)));
     }

@@ -132,8 +132,9 @@ pub(super) fn vertex_edge<L: Lanes, C: Certify<L>, const NEAR: usize>(
     let (along_world, tail_world) = (far.rotate(&along), far.rotate(tail));
     let from_far = rotated.add(body.offset);
     let from_tail = from_far.sub(tail_world);
-    // One step of Newton's iteration for the reciprocal of |Rê|², which is 1 up to the defect of R.
-    let correction = correction(along_world.dot(along_world));
+    // The reciprocal of |Rê|², which a rigid R leaves at 1 up to rounding: there one step of Newton's iteration makes it.
+    let stretched = along_world.dot(along_world);
+    let correction = if frame.rigid { correction(stretched) } else { 1.0 / stretched };
     let free = projected(from_tail.dot(along_world), correction);
     let t = clamp(free, 0.0, record.length);
     let difference = from_foot(from_tail, along_world, t);
@@ -290,15 +291,18 @@ pub(super) fn edge_edge<L: Lanes, C: Certify<L>>(frame: &Frame<L>, indices: [u32
     let sine_squared = normal.dot(normal);
     let cosine = world1.dot(world2);
     let (c, f) = (world1.dot(between), world2.dot(between));
+    // |Rê|²: 1 up to rounding, except where R stretches.
+    let squares = if frame.rigid { [1.0; 2] } else { [world1.dot(world1), world2.dot(world2)] };
+    let inverses = if frame.rigid { [1.0; 2] } else { squares.map(f64::recip) };
     // Nearest points of two segments (Ericson 2005, §5.1.9). Parallel ones, whose cross product is rounding, start at a tail.
     let (length1, length2) = (record1.length, record2.length);
     let parallel = sine_squared <= PARALLEL;
-    let free = if parallel { 0.0 } else { (cosine * f - c) / sine_squared };
+    let free = if parallel { 0.0 } else { (cosine * f - c * squares[1]) / sine_squared };
     let mut s = clamp(free, 0.0, length1);
-    let t_free = cosine * s + f;
+    let t_free = (cosine * s + f) * inverses[1];
     let t = clamp(t_free, 0.0, length2);
     if t != t_free {
-        s = clamp(cosine * t - c, 0.0, length1);
+        s = clamp((cosine * t - c) * inverses[0], 0.0, length1);
     }
     let end1 = end_of(s, length1, record1.tail(), record1.head());
     let end2 = end_of(t, length2, record2.tail(), record2.head());
