@@ -11,7 +11,7 @@ use crate::base::error::{Error, Result};
 use crate::base::math::{ROTATION_LIMIT, UNIT_ROUNDOFF, Vector, clamp};
 use crate::base::memory::in_integers;
 use crate::base::simd::environment::with_default;
-use crate::solve::exact;
+use crate::solve::exact::{self, Height};
 use crate::solve::state::FeatureId;
 use crate::tables;
 
@@ -89,11 +89,7 @@ pub(super) fn of_lowest(body: Placed, half_space: &HalfSpace) -> SignedDistance 
     let lowest = over.lowest(start);
     let height = over.height(lowest);
     let radii = Radii::of_one(body.shape.swept_radius());
-    let mut interval = radii.off(height.bounds());
-    let mut is_apart = interval[0] > 0.0;
-    if !height.is_below && !is_apart && interval[1] >= 0.0 {
-        (is_apart, interval) = sign(&height.distance, &radii, interval);
-    }
+    let (is_apart, interval) = above_plane(&height, &radii);
     let [lower, upper] = interval;
     let distance = middle(interval);
     let point = polyhedron.vertices[lowest as usize].position;
@@ -113,6 +109,18 @@ pub(super) fn of_lowest(body: Placed, half_space: &HalfSpace) -> SignedDistance 
         feature1: label(polyhedron, FeatureId::Vertex(lowest), &point),
         feature2: Feature::default(),
     }
+}
+
+/// Whether a vertex with a ball about it is above a plane, and an interval of its height less the radius.
+pub(super) fn above_plane(height: &Height, radii: &Radii) -> (bool, [f64; 2]) {
+    let interval = radii.off(height.bounds());
+    let [lower, upper] = interval;
+    // A height beyond the doubles may be one of them less the radius.
+    let is_open = (lower <= 0.0 && upper >= 0.0) || upper == f64::INFINITY;
+    if height.is_below || !is_open {
+        return (lower > 0.0, interval);
+    }
+    sign(&height.distance, radii, interval)
 }
 
 /// A finite number of an interval that holds one, its middle where that is finite.

@@ -94,14 +94,20 @@ fn inverted(pose: &Pose, normal: &Vector) -> Vector {
     pose.rotation().try_inverse().map_or_else(|| pose.rotate_back(normal), |back| back * normal)
 }
 
-/// a + b, rounded down; of what is infinite or none that.
+/// a + b, rounded down: at most the largest double where both are finite; infinite or NaN only if a or b is.
 pub fn sum_below(a: f64, b: f64) -> f64 {
     let sum = two_sum(a, b);
+    if sum.hi == f64::INFINITY && a < f64::INFINITY && b < f64::INFINITY {
+        return f64::MAX;
+    }
     if sum.hi.is_finite() && sum.lo < 0.0 { sum.hi.next_down() } else { sum.hi }
 }
 
-/// a + b, rounded up.
+/// a + b, rounded up: the same of the other side.
 pub fn sum_above(a: f64, b: f64) -> f64 {
     let sum = two_sum(a, b);
+    if sum.hi == f64::NEG_INFINITY && a > f64::NEG_INFINITY && b > f64::NEG_INFINITY {
+        return f64::MIN;
+    }
     if sum.hi.is_finite() && sum.lo > 0.0 { sum.hi.next_up() } else { sum.hi }
 }

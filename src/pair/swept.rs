@@ -297,7 +297,8 @@ fn judge(
     if upper < 0.0 {
         return Ok((Side::Within, interval));
     }
-    if (lower > 0.0) & !is_beyond & (upper <= tolerance) {
+    // A distance beyond the doubles may be one of them less the radii.
+    if (lower > 0.0) & !is_beyond & (upper <= tolerance) & (upper < f64::INFINITY) {
         return Ok((Side::Apart, interval));
     }
     if (lower > 0.0) & (is_beyond | (lower > tolerance)) {
@@ -318,7 +319,8 @@ fn judge_exactly(
 ) -> (Side, [f64; 2]) {
     let mut truth = Truth { bodies: *bodies, of_polyhedra: None };
     let mut is_apart = interval[0] > 0.0;
-    if !is_apart && interval[1] >= 0.0 {
+    let is_unbounded = interval[1] == f64::INFINITY && !is_beyond;
+    if (!is_apart && interval[1] >= 0.0) || is_unbounded {
         (is_apart, interval) = sign(truth.get(), radii, interval);
     }
     if !is_apart {

@@ -2,6 +2,7 @@
 //! rational numbers, less their radii.
 
 mod half_spaces;
+mod magnitudes;
 mod pairs;
 mod round;
 mod scenes;

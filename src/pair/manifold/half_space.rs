@@ -16,7 +16,7 @@ use crate::base::memory::{in_integers, with_capacity};
 use crate::base::simd::environment::with_default;
 use crate::pair::answer::{Feature, Outcome};
 use crate::pair::contact::{PlacedPoints, label, placed_points};
-use crate::pair::half_space::{HalfSpace, middle, of_lowest};
+use crate::pair::half_space::{HalfSpace, above_plane, middle, of_lowest};
 use crate::pair::placed::Placed;
 use crate::pair::radii::{Radii, moved};
 use crate::pair::signed_distance::SignedDistance;
@@ -113,10 +113,10 @@ struct Plane<'a> {
     heights: Heights,
 }
 
-/// How far vertices are over a plane.
+/// How far vertices are over a plane: rounded, of the polyhedron.
 enum Heights {
     Rounded(RoundedPlane),
-    /// The coordinates of all corners of the outline, by integers: doubles are too small or too large to tell.
+    /// Of all corners of the outline, less the swept radius, by integers: doubles are too small or too large to tell.
     Exact(Vec<[f64; 2]>),
 }
 
@@ -182,7 +182,8 @@ impl<'a> Plane<'a> {
                 let mut heights = with_capacity(outline.count)?;
                 in_integers(|| {
                     let over = OverPlane::new(body.shape.polyhedron(), body.pose, normal, offset);
-                    heights.extend((0..outline.count).map(|corner| over.height(outline.vertex(corner)).bounds()));
+                    let height = |corner| over.height(outline.vertex(corner));
+                    heights.extend((0..outline.count).map(|corner| above_plane(&height(corner), &radii).1));
                 })?;
                 Heights::Exact(heights)
             }
@@ -192,10 +193,10 @@ impl<'a> Plane<'a> {
 
     /// How far a corner is over the plane, less the swept radius.
     fn gap(&self, outline: &Outline, corner: usize) -> [f64; 2] {
-        self.radii.off(match &self.heights {
-            Heights::Rounded(plane) => plane.height(self.body, outline.vertex(corner)),
+        match &self.heights {
+            Heights::Rounded(plane) => self.radii.off(plane.height(self.body, outline.vertex(corner))),
             Heights::Exact(heights) => heights[corner],
-        })
+        }
     }
 
     fn point(&self, outline: &Outline, corner: usize, normal: &[f64; 3]) -> ManifoldPoint {

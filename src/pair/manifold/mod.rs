@@ -208,7 +208,7 @@ fn of_bodies(
     let mut write = |place: usize, fill: Fill| {
         (points.write)(place, &mut |point| {
             fill(point);
-            *point = swept::point_of_bodies(&radii, poses, &contact.normal, point);
+            *point = swept::point_of_bodies(&radii, poses, contact, point);
         });
     };
     let mut sink = Sink { capacity: points.capacity, written: points.written, write: &mut write };

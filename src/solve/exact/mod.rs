@@ -26,7 +26,7 @@ pub use answer::{ExactAnswer, ExactDistance};
 pub(crate) use beside_line::{BesideLine, Place};
 pub use boundary::{Position, Supports, locate, overlap_along_axes};
 pub use differences::{Differences, Normal, PairEdge};
-pub use half_space::OverPlane;
+pub use half_space::{Height, OverPlane};
 use minkowski::MinkowskiDifference;
 pub use point_depth::{WayOut, way_out};
 pub use simplex::VertexPair;

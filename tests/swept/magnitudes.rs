@@ -1,0 +1,94 @@
+//! Distances beyond the doubles, less radii that make doubles of them again.
+
+use crate::swept;
+use swiftprox::error::Error;
+use swiftprox::math::{Pose, Vector};
+use swiftprox::pair::{
+    HalfSpace, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome, PairAnswer, PairCache, PairConfig,
+    SignedDistance, SignedDistanceCache, approximate, contact, distance, half_space_distance, half_space_manifold,
+    manifold, signed_distance,
+};
+use swiftprox::verify::{verify, verify_manifold};
+use testkit::cases::coordinates;
+use testkit::shapes::{at, lattice_box};
+use testkit::swept::Length;
+
+/// Whether an interval is the truth, or the two doubles around it: beyond the doubles the largest of them and infinity.
+fn is_told(truth: &Length, [lower, upper]: [f64; 2]) -> bool {
+    truth.lies_between(lower, upper) && (lower == upper || lower.next_up() == upper)
+}
+
+fn accepts(checked: Result<(), Error>) -> bool {
+    // Beyond the doubles.
+    matches!(checked, Ok(()) | Err(Error::Argument(_)))
+}
+
+/// Poses at the largest double and a little on the other side of the origin. Cause: an upper end that was infinite for the
+/// polyhedra stayed so less the radii, beside a lower end that was no longer the largest double; `verify_manifold` refused it. A
+/// manifold's sum of the largest double and the radii was infinite as a lower end. The largest double's unit is 2⁹⁷¹; the radii go
+/// from 1 to 2¹⁰⁰⁰.
+#[test]
+fn distances_beyond_the_doubles_less_the_radii() {
+    let power = |exponent: i32| 2f64.powi(exponent);
+    let clouds = [vec![Vector::zeros()], vec![-Vector::x(), Vector::x()], lattice_box([1.0; 3], 2)];
+    let mut seen = [0; 2];
+    for (round, further) in [power(971), power(980), power(990), power(999)].into_iter().enumerate() {
+        for radii in [[power(970), 0.0], [power(1000); 2], [power(971), power(990)], [further, 0.0], [1.0, 1.0]] {
+            for kinds in [[0, 0], [0, 1], [1, 2], [2, 2]] {
+                let points = kinds.map(|kind: usize| &clouds[kind]);
+                let bodies = [swept(points[0], radii[0]), swept(points[1], radii[1])];
+                let poses: [Pose; 2] = [at(f64::MAX, 0.0, 0.0), at(-further, 0.0, 0.0)];
+                let placed = [bodies[0].at(&poses[0]), bodies[1].at(&poses[1])];
+                let (first, second) = (coordinates(points[0]), coordinates(points[1]));
+                let (truth, is_exact) = Length::signed([&first, &second], &poses, radii, 0);
+                assert!(is_exact);
+                seen[usize::from(truth.compared_with(f64::MAX).is_gt())] += 1;
+                let told = || format!("{round} {radii:?} {kinds:?}");
+                for query in [distance, contact, approximate] {
+                    let mut answer = PairAnswer::default();
+                    query(placed, &mut PairCache::default(), &PairConfig::default(), &mut answer).unwrap();
+                    assert_eq!(answer.outcome, Outcome::Separated, "{}", told());
+                    assert!(is_told(&truth, [answer.lower, answer.upper]), "{answer:?} {}", told());
+                    assert!(accepts(verify(placed, &answer)), "{answer:?} {}", told());
+                }
+                let mut signed = SignedDistance::default();
+                let cache = &mut SignedDistanceCache::default();
+                signed_distance(placed, cache, &PairConfig::default(), &mut signed).unwrap();
+                assert!(is_told(&truth, [signed.lower, signed.upper]), "{signed:?} {}", told());
+                let config = ManifoldConfig { margin: f64::INFINITY, ..ManifoldConfig::default() };
+                let (mut cache, mut found) = (ManifoldCache::default(), [ManifoldPoint::default(); 4]);
+                let answer = manifold(placed, &mut cache, &config, &mut found).unwrap();
+                assert_eq!((answer.outcome, answer.point_count), (Outcome::Separated, 1), "{}", told());
+                for interval in [[answer.lower, answer.upper], [found[0].gap_lower, found[0].gap_upper]] {
+                    assert!(is_told(&truth, interval), "{answer:?} {found:?} {}", told());
+                }
+                let checked = verify_manifold(placed, &cache, &config, &answer, &found);
+                assert!(accepts(checked.clone()), "{checked:?} {answer:?} {}", told());
+            }
+        }
+    }
+    assert!(seen.iter().all(|&count| count > 10), "{seen:?}");
+}
+
+/// The same over a half-space, of the lowest vertex and of each corner of the manifold.
+#[test]
+fn heights_beyond_the_doubles_less_the_radius() {
+    let points = lattice_box([1.0; 3], 2);
+    for (further, radius) in [(980, 990), (999, 1000), (990, 971), (971, 0)].map(|(a, b)| (2f64.powi(a), 2f64.powi(b)))
+    {
+        let (body, pose) = (swept(&points, radius), at(f64::MAX, 0.0, 0.0));
+        let half_space = HalfSpace { normal: [1.0, 0.0, 0.0], offset: -further };
+        let heights: Vec<Length> =
+            points.iter().map(|point| Length::above(&half_space, &pose, point, radius)).collect();
+        let answer = half_space_distance(body.at(&pose), &half_space).unwrap();
+        assert!(heights.iter().any(|height| is_told(height, [answer.lower, answer.upper])), "{answer:?} {radius:e}");
+        let config = ManifoldConfig { margin: f64::INFINITY, ..ManifoldConfig::default() };
+        let mut found = [ManifoldPoint::default(); 8];
+        let manifold = half_space_manifold(body.at(&pose), &half_space, &config, &mut found).unwrap();
+        assert!(manifold.point_count > 0);
+        for point in &found[..manifold.point_count as usize] {
+            let height = &heights[point.feature1.ids[0] as usize];
+            assert!(is_told(height, [point.gap_lower, point.gap_upper]), "{point:?} {radius:e}");
+        }
+    }
+}
