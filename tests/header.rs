@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
-const SOURCES: [&str; 28] = [
+const SOURCES: [&str; 29] = [
     "src/tables/options.rs",
     "src/levels/hierarchy/mod.rs",
     "src/shape/mod.rs",
@@ -18,6 +18,7 @@ const SOURCES: [&str; 28] = [
     "src/pair/signed_distance.rs",
     "src/pair/manifold/answer.rs",
     "src/pair/half_space.rs",
+    "src/pair/gradient.rs",
     "src/ground/surface.rs",
     "src/ground/distance.rs",
     "src/ground/answer.rs",

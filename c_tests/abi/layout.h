@@ -452,6 +452,11 @@ MEMBER(swiftprox_support_vertex, local, 8, 24)
 MEMBER(swiftprox_support_vertex, world, 32, 24)
 MEMBER(swiftprox_support_vertex, height, 56, 16)
 
+STRUCT(swiftprox_gradient, 104, 8)
+MEMBER(swiftprox_gradient, object1, 0, 48)
+MEMBER(swiftprox_gradient, object2, 48, 48)
+MEMBER(swiftprox_gradient, is_unique, 96, 4)
+
 STRUCT(swiftprox_replay_step_info, 32, 8)
 MEMBER(swiftprox_replay_step_info, struct_size, 0, 8)
 MEMBER(swiftprox_replay_step_info, has_step, 8, 4)

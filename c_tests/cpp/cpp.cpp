@@ -284,6 +284,32 @@ static void points()
     CHECK(std::strlen(swiftprox::to_string(beside.value.location)) > 0);
 }
 
+/* How distances change, from each kind of answer. */
+static void gradients()
+{
+    const auto made = cube();
+    const Shape &box = made.value;
+    const swiftprox::Placed here{box, Pose::at(1.25, 0, 0)}, there{box, Pose::at(0, 0, 0)};
+    swiftprox::ManifoldCache cache;
+    swiftprox::PairCache distances;
+    const auto signed_distance = swiftprox::try_signed_distance(here, there, cache);
+    const double about[3] = {0, 0, 3};
+    const auto gradient = swiftprox::try_gradient(here, there, signed_distance.value, {about, about});
+    CHECK(gradient && gradient.value.is_unique == 0 && gradient.value.object1[0] == 1 && gradient.value.object2[0] == -1);
+    const auto distance = swiftprox::try_distance(here, there, distances);
+    const auto again = swiftprox::try_gradient(here, there, distance.value);
+    CHECK(again && again.value.object1[0] == 1);
+    const swiftprox::Placed into{box, Pose::at(0.75, 0, 0)};
+    swiftprox::DepthCache depths;
+    const auto depth = swiftprox::try_depth(into, there, depths);
+    const auto out = swiftprox::try_gradient(into, there, depth.value);
+    CHECK(out && out.value.object1[0] == 1 && out.value.is_unique == 0);
+#if SWIFTPROX_HAS_EXCEPTIONS
+    CHECK(swiftprox::gradient(into, there, depth.value).object1[0] == 1);
+#endif
+    CHECK(!swiftprox::try_gradient(here, there, swiftprox_signed_distance{}));
+}
+
 /* Questions about sets, and many pairs at once. */
 static void sets()
 {
@@ -613,6 +639,7 @@ int main(int argc, char **argv)
     motions();
     rays();
     points();
+    gradients();
     scenes(folder);
     sets();
     mesh_readers(folder);

@@ -1,6 +1,6 @@
 /*
- * swiftprox. Geometry: what a shape is made of, convex pieces of a mesh, rays, points and support vertices. The conventions are
- * those of swiftprox.h.
+ * swiftprox. Geometry: what a shape is made of, convex pieces of a mesh, rays, points, support vertices and gradients. The
+ * conventions are those of swiftprox.h.
  */
 
 /* Generated from the Rust source by `BLESS=1 cargo test --test header`; do not edit. */
@@ -438,6 +438,53 @@ swiftprox_status swiftprox_shape_support(const struct swiftprox_shape *shape,
  * Experimental.
  */
 const char *swiftprox_library_point_location_string(swiftprox_point_location location);
+
+/** @} */
+
+/**
+ * @defgroup swiftprox_gradient How distances change as objects move
+ * @{
+ */
+
+/**
+ * The derivative of a signed distance by the motions of both objects. Each has six numbers: by the linear velocity along the
+ * world's axes, then by the angular velocity about these axes, in lengths per radian. The object turns about its reference point
+ * and moves with it.
+ */
+typedef struct swiftprox_gradient {
+  /** By the motion of object 1. */
+  double object1[6];
+  /** By the motion of object 2. */
+  double object2[6];
+  /**
+   * 1: no other points of the objects are as near along the normal, and this is the derivative. 0: a face or an edge is parallel
+   * to one of the other object, up to rounding and the interval's width. Then the numbers are for the answer's own witness
+   * points, and the signed distance grows along no motion faster than they say. Of overlapping objects both are meant along the
+   * answer's normal: whether another direction is as deep is not looked for.
+   */
+  int32_t is_unique;
+} swiftprox_gradient;
+
+/**
+ * Computes how the signed distance changes as the objects move, from an answer of swiftprox_pair_signed_distance for the same
+ * objects, without a further search. A distance's or depth's members serve as well, the depth's with their signs reversed.
+ *
+ * Reference points have 3 numbers, in the world; null: the translation of the pose. An object moves with its reference point and
+ * turns about it. docs/gradients.md says where the derivative does not exist; swiftprox_gradient.is_unique is 0 there.
+ *
+ * Time is linear in the number of vertices; nothing is allocated. On failure numbers are NaN. SWIFTPROX_ERROR_INVALID_ARGUMENT:
+ * the answer has no normal and witness points (outcomes other than separated and intersecting), or a reference point is not
+ * finite.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pair_gradient(struct swiftprox_placed object1,
+                                         struct swiftprox_placed object2,
+                                         const struct swiftprox_signed_distance *answer,
+                                         const double *reference1,
+                                         const double *reference2,
+                                         struct swiftprox_gradient *gradient);
 
 /** @} */
 

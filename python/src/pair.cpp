@@ -1,5 +1,7 @@
 #include "shape.hpp"
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <limits>
 #include <mutex>
@@ -217,6 +219,41 @@ void verify(Pair &pair, nb::handle first, nb::handle second, nb::handle answer)
     refuse("answer must be a Distance, a Manifold or a Cast");
 }
 
+swiftprox_gradient gradient(Pair &pair, nb::handle pose1, nb::handle pose2, nb::handle answer, nb::handle reference1,
+                            nb::handle reference2)
+{
+    const Pose a = read_pose(pose1, "pose1"), b = read_pose(pose2, "pose2");
+    std::array<double, 3> about[2];
+    const double *references[2] = {nullptr, nullptr};
+    if (!reference1.is_none()) {
+        about[0] = read_vector(reference1, "reference1");
+        references[0] = about[0].data();
+    }
+    if (!reference2.is_none()) {
+        about[1] = read_vector(reference2, "reference2");
+        references[1] = about[1].data();
+    }
+    swiftprox_signed_distance said{}, *own;
+    swiftprox_pair_answer *distance;
+    if (nb::try_cast(answer, own, false) && own) {
+        said = *own;
+    } else if (nb::try_cast(answer, distance, false) && distance) {
+        said.outcome = distance->outcome;
+        said.lower = distance->lower;
+        said.upper = distance->upper;
+        std::copy_n(distance->normal, 3, said.normal);
+        std::copy_n(distance->world1, 3, said.world1);
+        std::copy_n(distance->world2, 3, said.world2);
+    } else {
+        refuse("answer must be a SignedDistance or a Distance");
+    }
+    swiftprox_gradient made;
+    run([&] {
+        return swiftprox_pair_gradient({pair.shape1.get(), a.m}, {pair.shape2.get(), b.m}, &said, references[0], references[1], &made);
+    });
+    return made;
+}
+
 swiftprox_outcome outcome_of(int32_t outcome)
 {
     return swiftprox_outcome(outcome);
@@ -289,6 +326,18 @@ void bind_pair(nb::module_ &m)
     bind_answer<swiftprox_pair_answer>(m, "Distance", "The distance of two bodies: 0 where they intersect.");
     bind_answer<swiftprox_signed_distance>(m, "SignedDistance", "The distance of two bodies, or minus their depth in each other.");
 
+    nb::class_<swiftprox_gradient>(m, "Gradient", "How a signed distance changes as both bodies move.")
+        .def_prop_ro("body1", [](const swiftprox_gradient &self) { return make_array(self.object1, 6); },
+                     nb::sig("def body1(self) -> numpy.typing.NDArray[numpy.float64]"),
+                     "By the linear and the angular velocity of body 1, world axes, shape (6,).")
+        .def_prop_ro("body2", [](const swiftprox_gradient &self) { return make_array(self.object2, 6); },
+                     nb::sig("def body2(self) -> numpy.typing.NDArray[numpy.float64]"), "The same of body 2.")
+        .def_prop_ro("is_unique", [](const swiftprox_gradient &self) { return self.is_unique != 0; },
+                     "False where faces or edges are parallel: there the distance has no derivative.")
+        .def("__repr__", [](const swiftprox_gradient &self) {
+            return nb::str("Gradient(is_unique={})").format(self.is_unique != 0);
+        });
+
     nb::class_<Manifold>(m, "Manifold", "Where two bodies meet, or nearly do.")
         .def_prop_ro("outcome", [](const Manifold &self) { return outcome_of(self.manifold.outcome); }, "Whether the bodies are apart.")
         .def_prop_ro("lower", [](const Manifold &self) { return self.manifold.lower; }, "The signed distance is at least this.")
@@ -344,6 +393,13 @@ void bind_pair(nb::module_ &m)
                      "numpy.typing.ArrayLike, max_distance: float = 0.0, *, time_begin: float = 0.0, time_end: float = 1.0, "
                      "time_tolerance: float = 1e-9) -> Cast"),
              "Whether two moving bodies stay farther apart than max_distance, or when they first do not.")
+        .def("gradient", &gradient, nb::arg("pose1"), nb::arg("pose2"), nb::arg("answer"), nb::arg("reference1") = nb::none(),
+             nb::arg("reference2") = nb::none(),
+             nb::sig("def gradient(self, " TWO_POSES ", answer: SignedDistance | Distance, "
+                     "reference1: numpy.typing.ArrayLike | None = None, reference2: numpy.typing.ArrayLike | None = None) -> Gradient"),
+             "How an answer of the same poses changes as the bodies move and turn about their reference points.\n\n"
+             "Reference points have the shape (3,), in the world; None: the translation of the pose. The velocities are along the\n"
+             "world's axes, the angular one in radians. No further search.")
         .def("verify", &verify, nb::arg("pose1"), nb::arg("pose2"), nb::arg("answer"),
              nb::sig("def verify(self, pose1: Motion | Pose | numpy.typing.ArrayLike, pose2: Motion | Pose | numpy.typing.ArrayLike, "
                      "answer: Distance | Manifold | Cast) -> None"),

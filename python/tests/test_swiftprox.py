@@ -113,6 +113,32 @@ def test_answers_verify_and_forged_ones_do_not():
     assert signed.lower <= -0.5 <= signed.upper < 0
 
 
+def test_gradients_are_what_differences_say():
+    bodies = sp.Pair(sp.Shape(POINTS1), sp.Shape(POINTS2))
+
+    def turned(pose, axis, angle, about):
+        k = np.cross(np.eye(3), axis)
+        turn = np.eye(3) + np.sin(angle) * k + (1 - np.cos(angle)) * k @ k
+        return np.column_stack([turn @ pose[:, :3], about + turn @ (pose[:, 3] - about)])
+
+    seen = 0
+    for pose1, pose2 in zip(X1[:40], X2[:40]):
+        answer, about, h = bodies.signed(pose1, pose2), np.array([0.3, -0.2, 0.5]), 1e-5
+        gradient = bodies.gradient(pose1, pose2, answer, about)
+        assert gradient.body1.shape == gradient.body2.shape == (6,) and np.array_equal(gradient.body1[:3], answer.normal)
+        for k in range(3):
+            axis = np.eye(3)[k]
+            one, other = (bodies.signed(turned(pose1, axis, sign * h, about), pose2).distance for sign in (1, -1))
+            seen += abs((one - other) / (2 * h) - gradient.body1[3 + k]) < 1e-5
+            moved = [pose2 + sign * h * np.column_stack([np.zeros((3, 3)), axis]) for sign in (1, -1)]
+            one, other = (bodies.signed(pose1, pose).distance for pose in moved)
+            seen += abs((one - other) / (2 * h) - gradient.body2[k]) < 1e-5
+    assert seen > 225
+    boxes = sp.Pair(sp.Shape.box(1, 1, 1), sp.Shape.box(1, 1, 1))
+    flat = boxes.gradient(EYE, at(0, 0, 4), boxes.distance(EYE, at(0, 0, 4)))
+    assert not flat.is_unique and np.array_equal(flat.body2[:3], [0, 0, 1])
+
+
 def test_poses_come_in_many_forms():
     bodies = sp.Pair(sp.Shape.box(1, 1, 1), sp.Shape.sphere(0.5))
     four = np.vstack([at(4), [0, 0, 0, 1]])
@@ -145,6 +171,9 @@ def refusals():
         (lambda: bodies.distances(X1[:3], X2[:3], threads=0), "threads"),
         (lambda: bodies.distances(np.concatenate([X1[:2000], nan[None]]), EYE), ""),
         (lambda: bodies.verify(EYE, EYE, 3), "answer"),
+        (lambda: bodies.gradient(EYE, at(4), 3), "answer"),
+        (lambda: bodies.gradient(EYE, at(4), bodies.distance(EYE, at(4), 1)), "normal"),
+        (lambda: bodies.gradient(EYE, at(4), bodies.distance(EYE, at(4)), [1, 2]), "reference1"),
         (lambda: bodies.cast(EYE, EYE, -1), ""),
         (lambda: sp.Shape(np.zeros((4, 2))), "(4, 2)"),
         (lambda: sp.Shape(np.zeros((4, 3))), ""),

@@ -29,6 +29,7 @@ pub mod ground;
 pub mod motion;
 pub mod ray;
 pub mod point;
+pub mod gradient;
 mod task_loan;
 pub mod workers;
 pub mod scene;

@@ -20,6 +20,7 @@ mod queries;
 mod batch;
 mod half_space;
 mod manifold;
+mod gradient;
 pub mod verify;
 
 pub use answer::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, Statistics};
@@ -29,6 +30,7 @@ pub(crate) use config::check_accuracy;
 pub use config::{Levels, PairConfig, Query, Refinement, Start};
 pub(crate) use contact::{feature_of_vertices, label, normalised, placed_points};
 pub use depth::{DepthAnswer, DepthCache, DepthConfig, DepthEnding, DepthStatistics};
+pub use gradient::{Gradient, gradient};
 pub use half_space::{HalfSpace, half_space_distance};
 pub(crate) use ladder::least_error;
 pub(crate) use manifold::{

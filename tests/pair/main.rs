@@ -4,6 +4,7 @@ mod batch;
 mod exact_truth;
 mod flat_edges;
 mod forgery;
+mod gradient;
 mod high_valence;
 mod invariance;
 mod lookup;

@@ -30,7 +30,8 @@ use swiftprox::ground::{GroundContact, GroundDistance};
 use swiftprox::motion::{CastAnswer, Clearance};
 use swiftprox::object::ObjectId;
 use swiftprox::pair::{
-    DepthAnswer, DepthStatistics, Feature, HalfSpace, Manifold, ManifoldPoint, PairAnswer, SignedDistance, Statistics,
+    DepthAnswer, DepthStatistics, Feature, Gradient, HalfSpace, Manifold, ManifoldPoint, PairAnswer, SignedDistance,
+    Statistics,
 };
 use swiftprox::point::{PointAnswer, SupportVertex};
 use swiftprox::ray::{Ray, RayAnswer};
@@ -183,6 +184,7 @@ fn layouts() -> Vec<Layout> {
         swiftprox_scene_ray_answer = CSceneRayAnswer { hits, count },
         swiftprox_point_answer = PointAnswer { location, feature, distance, lower, upper, local, world, normal },
         swiftprox_support_vertex = SupportVertex { vertex, exact, local, world, height },
+        swiftprox_gradient = Gradient { object1, object2, is_unique },
         swiftprox_replay_step_info = CReplayStep {
             struct_size, has_step, has_query, kind, cut_off, fraction
         },
