@@ -50,7 +50,7 @@ pub fn gradient(bodies: [Placed; 2], answer: &SignedDistance, references: [Optio
     let are_there = [normal, world1, world2].as_flattened().iter().all(|x| x.is_finite());
     if !(matches!(outcome, Outcome::Separated | Outcome::Intersecting) && are_there) {
         return Err(Error::Argument(
-            "the answer has no normal and witness points: ask for the signed distance, within its tolerance".into(),
+            "the answer has no normal and witness points: ask for the signed distance, within max_distance".into(),
         ));
     }
     let (normal, worlds) = (Vector::from(normal), [world1, world2].map(Vector::from));

@@ -191,7 +191,7 @@ fn what_has_no_gradient_is_refused() {
         error => panic!("{error}"),
     };
     let mut near = PairAnswer::default();
-    let config = PairConfig { distance_tolerance: 1.0, ..PairConfig::default() };
+    let config = PairConfig { max_distance: 1.0, ..PairConfig::default() };
     distance(bodies, &mut PairCache::default(), &config, &mut near).unwrap();
     assert_eq!(near.outcome, Outcome::Beyond);
     assert!(refused(&SignedDistance::from(&near), [None; 2]).contains("normal"));

@@ -55,7 +55,7 @@ fn distances_beyond_the_doubles_less_the_radii() {
                 let cache = &mut SignedDistanceCache::default();
                 signed_distance(placed, cache, &PairConfig::default(), &mut signed).unwrap();
                 assert!(is_told(&truth, [signed.lower, signed.upper]), "{signed:?} {}", told());
-                let config = ManifoldConfig { margin: f64::INFINITY, ..ManifoldConfig::default() };
+                let config = ManifoldConfig { max_distance: f64::INFINITY, ..ManifoldConfig::default() };
                 let (mut cache, mut found) = (ManifoldCache::default(), [ManifoldPoint::default(); 4]);
                 let answer = manifold(placed, &mut cache, &config, &mut found).unwrap();
                 assert_eq!((answer.outcome, answer.point_count), (Outcome::Separated, 1), "{}", told());
@@ -82,7 +82,7 @@ fn heights_beyond_the_doubles_less_the_radius() {
             points.iter().map(|point| Length::above(&half_space, &pose, point, radius)).collect();
         let answer = half_space_distance(body.at(&pose), &half_space).unwrap();
         assert!(heights.iter().any(|height| is_told(height, [answer.lower, answer.upper])), "{answer:?} {radius:e}");
-        let config = ManifoldConfig { margin: f64::INFINITY, ..ManifoldConfig::default() };
+        let config = ManifoldConfig { max_distance: f64::INFINITY, ..ManifoldConfig::default() };
         let mut found = [ManifoldPoint::default(); 8];
         let manifold = half_space_manifold(body.at(&pose), &half_space, &config, &mut found).unwrap();
         assert!(manifold.point_count > 0);

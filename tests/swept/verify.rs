@@ -288,7 +288,7 @@ fn manifolds_of_crossing_edges_pass_at_poses_that_stretch() {
         let frame = random.rotation();
         let poses = [Pose::new(&(frame * turns[0]), &(frame * away)), Pose::new(&(frame * turns[1]), &Vector::zeros())];
         let placed = [bodies[0].at(&poses[0]), bodies[1].at(&poses[1])];
-        let config = ManifoldConfig { margin: f64::INFINITY, ..ManifoldConfig::default() };
+        let config = ManifoldConfig { max_distance: f64::INFINITY, ..ManifoldConfig::default() };
         let (found, points, cache) = ask_manifold(placed, &config);
         assert_eq!(verify_manifold(placed, &cache, &config, &found, &points), Ok(()), "{round} {found:?} {points:?}");
         let [world1, world2, normal] = [points[0].world1, points[0].world2, found.normal].map(Vector::from);
