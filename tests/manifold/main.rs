@@ -361,3 +361,44 @@ fn any_magnitude_has_a_manifold() {
         }
     }
 }
+
+/// Bars down to 1e-300 thick, on a box and across each other, asked three times after a question at another pose. Where normal and
+/// reference stay the same, the points keep their ids.
+#[test]
+fn the_same_question_has_the_same_ids() {
+    let mut random = Random::new(0x1d5);
+    let (mut asked, mut changed) = (0, Vec::new());
+    for exponent in (0..=300).chain([271; 40]) {
+        for round in 0..24 {
+            let thin = 10f64.powi(-exponent);
+            let half = [[1.0, thin, thin], [1.0, 0.5, thin], [1.0, thin, 0.5]][round % 3];
+            let bar = cuboid(half);
+            let other = match round % 4 {
+                0 | 1 => cuboid([2.0, 2.0, 0.5]),
+                2 => cuboid([thin, 1.0, thin]),
+                _ => cuboid([0.5, 1.0, thin]),
+            };
+            let turn = if round % 8 < 4 { random.rotation() } else { rotation(&Vector::z(), 0.3 * random.signed()) };
+            let away = Vector::new(0.3 * random.signed(), 0.3 * random.signed(), 0.5 + thin * random.signed());
+            let away = if round < 12 { away } else { away.component_mul(&Vector::new(1.0, 1.0, thin)) };
+            let before = Pose::new(&(rotation(&random.direction(), random.signed()) * turn), &away);
+            let pose = Pose::new(&turn, &away);
+            for config in [ALL, FOUR] {
+                let config = ManifoldConfig { max_distance: random.pick(&[0.0, 0.1, 2.0]), ..config };
+                let mut cache = ManifoldCache::default();
+                let mut ask = |pose: &Pose| query([&bar, &other], [pose, &Pose::IDENTITY], &mut cache, &config);
+                ask(&before);
+                ask(&pose);
+                let ((second, points2), (third, points3)) = (ask(&pose), ask(&pose));
+                asked += usize::from(second.point_count > 0);
+                if (second.normal, second.reference) == (third.normal, third.reference)
+                    && ids(&points2) != ids(&points3)
+                {
+                    changed.push(format!("1e-{exponent} {round}: {second:?} {points2:?} {third:?} {points3:?}"));
+                }
+            }
+        }
+    }
+    assert!(changed.is_empty(), "{} of {asked}: {}", changed.len(), changed[..changed.len().min(4)].join("\n"));
+    assert!(asked > 5_000, "{asked}");
+}

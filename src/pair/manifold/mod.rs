@@ -14,6 +14,7 @@ mod places;
 mod overlay;
 mod reduction;
 mod swept;
+mod steady;
 mod half_space;
 mod four;
 
@@ -42,6 +43,7 @@ use overlay::Overlay;
 use patch::{COINCIDENT, Facing, facing};
 use places::{CommonPoint, Origin, View};
 use reduction::{Thinned, four_of};
+use steady::steady;
 
 /// The manifold of two objects, written to `points` as far as there is room. For objects farther apart than `max_distance` there is
 /// none.
@@ -262,7 +264,13 @@ fn make(
             return answer;
         }
     }
-    points.push(|point| *point = witness(contact));
+    points.push(|point| {
+        *point = witness(contact);
+        let polyhedra = bodies.map(|body| body.shape.polyhedron());
+        point.feature1 = steady(polyhedra[0], point.feature1);
+        point.feature2 = steady(polyhedra[1], point.feature2);
+        point.id = id_of(&point.feature1, &point.feature2);
+    });
     (answer.point_count, answer.found_count) = (points.written as u32, 1);
     answer
 }
