@@ -4,8 +4,10 @@
 
 use super::PlacedGround;
 use super::lowest::{is_inside, local_point};
+use super::normals::TILT;
 use super::reach::Reach;
-use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector, is_unit};
+use super::vertices::Vertices;
+use crate::base::math::{Matrix, UNIT_ROUNDOFF, Vector};
 use crate::pair::{Feature, FeatureKind, Outcome, Placed, SignedDistance, feature_of_vertices, label};
 use crate::polyhedron::Face;
 use crate::shape::Triangle;
@@ -52,6 +54,7 @@ struct Low {
 /// A search for the best normal of a triangle.
 pub(super) struct Search<'a> {
     body: Placed<'a>,
+    vertices: Vertices<'a>,
     ground: PlacedGround<'a>,
     reach: &'a Reach,
     own: &'a Triangle,
@@ -61,9 +64,9 @@ pub(super) struct Search<'a> {
 }
 
 impl<'a> Search<'a> {
-    pub fn new(body: Placed<'a>, ground: PlacedGround<'a>, reach: &'a Reach, own: &'a Triangle) -> Search<'a> {
+    pub fn new(vertices: Vertices<'a>, ground: PlacedGround<'a>, reach: &'a Reach, own: &'a Triangle) -> Search<'a> {
         let corners = own.corners.map(|corner| ground.pose.transform(&corner));
-        Search { body, ground, reach, own, up: reach.world_normal(&own.normal), corners }
+        Search { body: vertices.body, vertices, ground, reach, own, up: reach.world_normal(&own.normal), corners }
     }
 
     /// The best normal. Rounding may hide which of two that are about as good is better.
@@ -77,21 +80,21 @@ impl<'a> Search<'a> {
                 self.across(k as usize, low, &self.reach.world_normal(&far), &mut best);
             }
         }
-        if best.gap < 0.0 {
-            (0..3).for_each(|k| self.at_peak(k, &mut best));
+        if best.gap < 0.0
+            && let Some(inverse) = self.body.pose.rotation().try_inverse()
+        {
+            (0..3).for_each(|k| self.at_peak(k, &inverse, &mut best));
         }
         best
     }
 
     fn lowest(&self, normal: &Vector, start: u32) -> Low {
-        debug_assert!(is_unit(normal));
-        let polyhedron = self.body.shape.polyhedron();
-        let (vertex, _) = polyhedron.support(&self.body.pose.rotate_back(&-normal), start);
+        let vertex = self.vertices.lowest(normal, start);
         Low { normal: *normal, vertex, point: self.point(vertex) }
     }
 
     fn point(&self, vertex: u32) -> Vector {
-        self.body.pose.transform(&self.body.shape.polyhedron().local_position(vertex))
+        self.vertices.point(vertex)
     }
 
     /// Looks for better normals across a side, from the triangle's own to the one at the other end. Along each the body is as far
@@ -141,24 +144,34 @@ impl<'a> Search<'a> {
     }
 
     /// Looks for a better normal at a corner, among those of the body's faces: where overlaps are least inside a peak's cone, three
-    /// vertices are lowest.
-    fn at_peak(&self, k: u32, best: &mut Best) {
+    /// vertices are lowest. `inverse` is that of the body's rotation.
+    fn at_peak(&self, k: u32, inverse: &Matrix, best: &mut Best) {
         let (polyhedron, pose) = (self.body.shape.polyhedron(), self.body.pose);
         if polyhedron.dimension < 3 {
             return;
         }
         let corner = self.corners[k as usize];
-        let local = local_point(pose, &corner) - polyhedron.centre;
+        let local = inverse * (corner - pose.translation()) - polyhedron.centre;
+        // No normal at the corner leads out along a side of it.
+        let sides = [1, 2].map(|by| self.corners[(k as usize + by) % 3] - corner);
+        let most = sides.map(|side| 4.0 * TILT * side.norm());
         for (face, plane) in (0..).zip(&polyhedron.faces) {
             // In the body's frame, where lengths are a little others if its rotation is not quite rigid.
             let gap = plane.planes.value(0, &local);
             if !(gap > 1.05 * best.gap && gap <= 0.0) {
                 continue;
             }
-            let normal = normal_of_face(pose, &plane.normal);
-            let gap = normal.dot(&(self.lowest(&normal, 0).point - corner));
-            let in_ground = self.reach.local_normal(&normal);
-            if gap > best.gap && self.ground.ground.is_normal_at_vertex(3 * self.own.label + k, &in_ground) {
+            // The face's inward normal in the world, also of a pose that is not quite rigid.
+            let normal = -inverse.tr_mul(&plane.normal);
+            if normal.dot(&sides[0]) > most[0] || normal.dot(&sides[1]) > most[1] {
+                continue;
+            }
+            let normal = normal.normalize();
+            if !self.ground.ground.is_normal_at_vertex(3 * self.own.label + k, &self.reach.local_normal(&normal)) {
+                continue;
+            }
+            let gap = normal.dot(&(self.lowest(&normal, plane.vertex).point - corner));
+            if gap > best.gap {
                 *best = Best { normal, gap, place: Place::Corner(k as usize, face) };
             }
         }
@@ -280,12 +293,6 @@ impl<'a> Search<'a> {
         let farthest = self.own.corners.iter().map(|corner| corner.lp_norm(1)).fold(0.0, f64::max);
         is_inside(self.own, point, -64.0 * UNIT_ROUNDOFF * (point.lp_norm(1) + farthest))
     }
-}
-
-/// The inward normal of a body's face in the world, also of a pose that is not quite rigid.
-fn normal_of_face(pose: &Pose, local: &Vector) -> Vector {
-    let inverse = pose.rotation().try_inverse();
-    -inverse.map_or_else(|| pose.rotate(local), |inverse| inverse.tr_mul(local)).normalize()
 }
 
 /// The normal between two, across a side from `tail`, along which the lower of their lowest vertices is highest; how high that is,

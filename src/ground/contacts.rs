@@ -11,6 +11,7 @@ use super::normals::TILT;
 use super::reach::Reach;
 use super::room::{Room, Touch};
 use super::tree::{Bounds, Visit};
+use super::vertices::Vertices;
 use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::push;
@@ -73,17 +74,29 @@ pub(crate) fn add_contacts(
             rotation_limit: config.rotation_limit,
             ..PairConfig::default()
         };
-        let Room { triangle, touches, points, .. } = &mut found.room;
+        let Room { triangle, touches, points, vertices, .. } = &mut found.room;
+        let vertices = Vertices::place(body, vertices)?;
         touches.clear();
         points.clear();
         let shape = match triangle {
             Some(shape) => shape,
-            None => triangle.insert(TriangleShape::new()?),
+            None => triangle.insert(ground.ground.triangle_shape().copy()?),
         };
         // Four points are chosen of all triangles' together.
         let all = ManifoldConfig { reduces: false, ..*config };
-        let mut meeting =
-            Meeting { body, ground, reach: &reach, within, all, shape, touches, points, lowest: 0, missed: None };
+        let mut meeting = Meeting {
+            body,
+            vertices,
+            ground,
+            reach: &reach,
+            within,
+            all,
+            shape,
+            touches,
+            points,
+            lowest: 0,
+            missed: None,
+        };
         ground.ground.tree().walk(&bounds, &mut meeting)?;
         meeting.keep_missed()?;
         meeting.push_out()?;
@@ -95,6 +108,7 @@ pub(crate) fn add_contacts(
 /// The findings of a walk over the triangles near a body.
 struct Meeting<'a> {
     body: Placed<'a>,
+    vertices: Vertices<'a>,
     ground: PlacedGround<'a>,
     reach: &'a Reach,
     within: PairConfig,
@@ -133,7 +147,7 @@ impl Visit for Meeting<'_> {
             self.touch(triangle, &nearest, true, None)?;
             return Ok(true);
         }
-        let search = Search::new(self.body, self.ground, self.reach, &own);
+        let search = Search::new(self.vertices, self.ground, self.reach, &own);
         let best = search.best(self.lowest);
         let gap = best.gap - self.body.shape.swept_radius();
         let found = nearest.unwrap_or(SignedDistance { outcome: Outcome::Intersecting, ..SignedDistance::default() });
@@ -143,15 +157,23 @@ impl Visit for Meeting<'_> {
         if !(is_met || gap > -rounding) || gap > self.all.max_distance {
             return Ok(true);
         }
-        let (mut contact, mut is_over) = search.contact(&best, &found);
+        let (contact, is_over) = search.contact(&best, &found);
         let beside = (is_met && !is_over).then(|| witness(&contact));
-        if !is_over && best.is_along_own_normal() {
+        if self.touch(triangle, &contact, is_over, beside)? {
+            return Ok(true);
+        }
+        // The lowest vertex is beside the triangle, and no faces meet over it: another point of the body may be below it.
+        if best.is_along_own_normal() {
             let nearest = if nearest.is_some() { found } else { self.signed_distance()? };
             if let Some(inner) = search.inner(&best, &nearest) {
-                (contact, is_over) = (inner, true);
+                self.touch(triangle, &inner, true, beside)?;
+                return Ok(true);
             }
         }
-        self.touch(triangle, &contact, is_over, beside)?;
+        let is_less = self.missed.is_none_or(|(_, missed)| contact.upper > missed.upper);
+        if is_met && is_less {
+            self.missed = Some((triangle, contact));
+        }
         Ok(true)
     }
 }
@@ -173,7 +195,7 @@ impl Meeting<'_> {
     /// How near the body is to a triangle, which is shown unless that is beyond `max_distance`.
     fn nearest(&mut self, own: &Triangle) -> Result<Found> {
         let up = self.reach.world_normal(&own.normal);
-        let lowest = Lowest::new(self.body, self.ground, own, &up, self.lowest);
+        let lowest = Lowest::new(&self.vertices, self.ground, own, &up, self.lowest);
         self.lowest = lowest.vertex;
         let limit = Limit { radius: self.body.shape.swept_radius(), max_distance: self.all.max_distance };
         if limit.is_beyond(lowest.lower) {
@@ -185,6 +207,10 @@ impl Meeting<'_> {
             contact = match behind_face(self.body, self.ground, own, &lowest, limit) {
                 Behind::Beyond => return Ok(Found::Beyond),
                 Behind::Nearest(contact) => Some(contact),
+                Behind::Meets => {
+                    self.shape.show(own);
+                    return Ok(Found::Meeting);
+                }
                 Behind::Open if self.is_aside(own, limit) => return Ok(Found::Beyond),
                 Behind::Open => None,
             };
@@ -222,7 +248,7 @@ impl Meeting<'_> {
             if !(length > f64::MIN_POSITIVE.sqrt()) {
                 return false;
             }
-            let lowest = Lowest::new(self.body, self.ground, own, &(up / length), vertex);
+            let lowest = Lowest::new(&self.vertices, self.ground, own, &(up / length), vertex);
             (point, vertex) = (self.reach.point(&lowest.world), lowest.vertex);
             limit.is_beyond(lowest.lower)
         })
@@ -239,13 +265,14 @@ impl Meeting<'_> {
 
 impl Meeting<'_> {
     /// Notes where faces meet along a contact's normal; where they do not, the contact's own points if they are over the triangle.
+    /// Whether there are any.
     fn touch(
         &mut self,
         triangle: u32,
         contact: &SignedDistance,
         is_over: bool,
         beside: Option<ManifoldPoint>,
-    ) -> Result<()> {
+    ) -> Result<bool> {
         let bodies = [self.body, self.shape.shown().at(self.ground.pose)];
         let first_point = self.points.len();
         // A point that is not over the triangle is none of the points that faces have in common, however deep it is.
@@ -255,14 +282,11 @@ impl Meeting<'_> {
         // Without a reference it is the contact's own pair of points.
         if manifold.reference == 0 && !is_over {
             self.points.truncate(first_point);
-            let is_less = self.missed.is_none_or(|(_, missed)| contact.upper > missed.upper);
-            if contact.outcome == Outcome::Intersecting && is_less {
-                self.missed = Some((triangle, *contact));
-            }
-            return Ok(());
+            return Ok(false);
         }
         (manifold.lower, manifold.upper) = least_gap(&self.points[first_point..]);
-        push(self.touches, Touch { triangle, manifold, first_point, beside })
+        push(self.touches, Touch { triangle, manifold, first_point, beside })?;
+        Ok(true)
     }
 
     fn is_met(&self) -> bool {
@@ -287,13 +311,14 @@ impl Meeting<'_> {
         }
         let Some(triangle) = triangle_over(self.ground.ground, &self.reach.centre)? else { return Ok(()) };
         let own = self.ground.ground.triangle(triangle);
-        let contact = Search::new(self.body, self.ground, self.reach, &own).push_from_behind();
+        let contact = Search::new(self.vertices, self.ground, self.reach, &own).push_from_behind();
         // Its centre may be inside where the body is not, as that of an open surface.
         if contact.upper >= 0.0 {
             return Ok(());
         }
         self.shape.show(&own);
-        self.touch(triangle, &contact, true, None)
+        self.touch(triangle, &contact, true, None)?;
+        Ok(())
     }
 
     /// Leaves out contacts whose triangles a body no longer meets once another contact has pushed it out, if they are certainly
@@ -321,13 +346,12 @@ impl Meeting<'_> {
     /// Whether a body that a contact has pushed out is clear of a triangle along the contact's normal.
     fn frees(&self, contact: &Touch, triangle: u32) -> bool {
         let normal = Vector::from(contact.manifold.normal);
-        let (polyhedron, pose) = (self.body.shape.polyhedron(), self.body.pose);
-        let (vertex, _) = polyhedron.support(&pose.rotate_back(&-normal), 0);
-        let low = normal.dot(&pose.transform(&polyhedron.local_position(vertex))) - self.body.shape.swept_radius();
+        let vertex = self.vertices.lowest(&normal, 0);
+        let low = normal.dot(&self.vertices.point(vertex)) - self.body.shape.swept_radius();
         let corners = self.ground.ground.triangle(triangle).corners;
         let heights = corners.map(|corner| normal.dot(&self.ground.pose.transform(&corner)));
         let high = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);
-        low - contact.least_gap()[0] >= high - TILT * polyhedron.radius
+        low - contact.least_gap()[0] >= high - TILT * self.body.shape.polyhedron().radius
     }
 }
 

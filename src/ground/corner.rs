@@ -18,6 +18,8 @@ pub(super) enum Behind {
     /// The triangle is farther from the body than `max_distance`.
     Beyond,
     Nearest(SignedDistance),
+    /// They have points in common.
+    Meets,
     Open,
 }
 
@@ -49,8 +51,9 @@ pub(super) fn behind_face(
     if polyhedron.dimension < 3 || body.shape.extent().inner_radius <= 0.0 {
         return Behind::Open;
     }
+    let meets_if_pierced = || if pierces(polyhedron, &corners, error) { Behind::Meets } else { Behind::Open };
     let Some(face) = most_parallel(polyhedron, lowest.vertex, &pose.rotate_back(&-lowest.up)) else {
-        return Behind::Open;
+        return meets_if_pierced();
     };
     let plane = &polyhedron.faces[face as usize];
     let heights = corners.map(|corner| plane.planes.value(0, &corner));
@@ -64,11 +67,11 @@ pub(super) fn behind_face(
     let inner = if is_deep { 0.0 } else { 2.0 * (plane.slack + error) };
     let way = if is_deep { 0.0 } else { heights[least] + inner };
     let point = corners[least] - plane.normal * way;
-    let Some(depth) = depth_of(polyhedron, &point, error) else { return Behind::Open };
+    let Some(depth) = depth_of(polyhedron, &point, error) else { return meets_if_pierced() };
     let upper = if is_deep { -depth } else { way + error };
-    // Another face is nearer.
+    // The corner is inside, but another face is nearer.
     if is_deep && upper > heights[least] + plane.slack + error {
-        return Behind::Open;
+        return Behind::Meets;
     }
     // The sum with +0 turns −0 into 0.
     let normal = (-pose.rotate(&plane.normal)).add_scalar(0.0);
@@ -83,6 +86,27 @@ pub(super) fn behind_face(
         feature1: label(polyhedron, FeatureId::Face(face), &point),
         feature2: Feature { kind: FeatureKind::Vertex, ids: [triangle.labels[least], 0] },
         ..distance
+    })
+}
+
+/// Whether a side of a triangle certainly has a point in a solid body: the middle of what the faces leave of it.
+///
+/// Corners and points are in the body's centred frame. That of the middle is off by less than 8u of the corners, which `error`
+/// covers many times.
+fn pierces(polyhedron: &Polyhedron, corners: &[Vector; 3], error: f64) -> bool {
+    (0..3).any(|k| {
+        let [tail, head] = [corners[k], corners[(k + 1) % 3]];
+        let (mut from, mut to) = (0.0_f64, 1.0_f64);
+        for face in &polyhedron.faces {
+            let [before, after] = [tail, head].map(|point| face.planes.value(0, &point));
+            match (before < 0.0, after < 0.0) {
+                (true, true) => {}
+                (true, false) => to = to.min(before / (before - after)),
+                (false, true) => from = from.max(before / (before - after)),
+                (false, false) => return false,
+            }
+        }
+        from < to && depth_of(polyhedron, &(tail + (head - tail) * (0.5 * (from + to))), error).is_some()
     })
 }
 

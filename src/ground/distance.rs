@@ -52,7 +52,7 @@ pub fn ground_distance(
             body,
             ground,
             config: *config,
-            scratch: TriangleShape::new()?,
+            scratch: ground.ground.triangle_shape().copy()?,
             nearest: GroundDistance { answer: unsaid, triangle: count },
             lower: f64::INFINITY,
             enough: if is_verdict { 0.0 } else { config.max_distance },

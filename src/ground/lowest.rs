@@ -3,10 +3,10 @@
 
 use super::PlacedGround;
 use super::reach::Reach;
+use super::vertices::Vertices;
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::pair::{Feature, FeatureKind, Outcome, Placed, Radii, SignedDistance};
 use crate::shape::Triangle;
-use crate::solve::certificate::of_vertex;
 
 /// The vertex of the polyhedron that is lowest, up to an excess that counts in `lower`.
 pub(super) struct Lowest {
@@ -27,13 +27,12 @@ impl Lowest {
     ///
     /// Whichever direction is taken for the normal, the difference of heights along it is a lower bound. A point that is placed is
     /// right to 6u of its translation and of twice its local length, the difference of two to u of both, the product with the
-    /// direction to 4u of it, the length of the direction to 4u, and the direction inside the body to 7u of twice its radius: all
-    /// in all less than 64u of those lengths.
-    pub fn new(body: Placed, ground: PlacedGround, triangle: &Triangle, up: &Vector, start: u32) -> Lowest {
-        let (polyhedron, pose, up) = (body.shape.polyhedron(), body.pose, *up);
-        let downwards = pose.rotate_back(&-up);
-        let (vertex, _) = polyhedron.support(&downwards, start);
-        let world = pose.transform(&polyhedron.local_position(vertex));
+    /// direction to 4u of it, the length of the direction to 4u, the order of two heights to 8u, and the direction inside the body to
+    /// 7u of twice its radius: all in all less than 64u of those lengths.
+    pub fn new(body: &Vertices, ground: PlacedGround, triangle: &Triangle, up: &Vector, start: u32) -> Lowest {
+        let (polyhedron, pose, up) = (body.polyhedron(), body.pose(), *up);
+        let vertex = body.lowest(&up, start);
+        let world = body.point(vertex);
         let corners = triangle.corners.map(|corner| ground.pose.transform(&corner));
         let above_first = |point: &Vector| up.dot(&(point - corners[0]));
         let highest = above_first(&corners[1]).max(above_first(&corners[2])).max(0.0);
@@ -42,7 +41,7 @@ impl Lowest {
             + ground.pose.translation().lp_norm(1)
             + 2.0 * (polyhedron.centre.lp_norm(1) + 2.0 * polyhedron.radius + lengths);
         let (height, error) = (above_first(&world), 64.0 * U * size);
-        let lower = height - highest - of_vertex(polyhedron, vertex, &downwards) - error;
+        let lower = height - highest - body.excess(vertex, &up) - error;
         Lowest { vertex, world, up, height, lower, error }
     }
 

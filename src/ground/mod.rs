@@ -14,6 +14,7 @@ mod distance;
 mod room;
 mod answer;
 mod grouping;
+mod vertices;
 mod lowest;
 mod corner;
 mod allowed;

@@ -1,6 +1,7 @@
 //! Room to find contacts in, kept from query to query. No answer depends on its contents.
 
 use crate::pair::{Manifold, ManifoldPoint};
+use crate::polyhedron::fan::PointBlock;
 use crate::shape::TriangleShape;
 
 /// The room.
@@ -8,6 +9,8 @@ use crate::shape::TriangleShape;
 pub(super) struct Room {
     /// Made on first need.
     pub triangle: Option<TriangleShape>,
+    /// The body's vertices.
+    pub vertices: Vec<PointBlock>,
     /// The touches that a walk has found, triangle by triangle …
     pub touches: Vec<Touch>,
     /// … and the points of it.

@@ -1,5 +1,7 @@
 //! The triangles of a ground: their corners, normals and neighbours, and the tree that finds those near a body.
 
+use std::sync::Arc;
+
 use super::PlacedGround;
 use super::covers::Covers;
 use super::tree::{Bounds, Tree};
@@ -10,7 +12,7 @@ use crate::base::memory::{collected, in_integers, with_capacity};
 use crate::base::normal::{area_vector, normal_of};
 use crate::base::simd::environment::with_default;
 use crate::polyhedron::{LARGEST, SMALLEST};
-use crate::shape::Triangle;
+use crate::shape::{Triangle, TriangleShape};
 
 /// Half-edges are numbers of 32 bits, three of each triangle.
 const MOST_TRIANGLES: usize = 1 << 30;
@@ -23,6 +25,8 @@ pub struct Ground {
     tree: Tree,
     covers: Covers,
     thickness: f64,
+    /// The triangle that queries move to where theirs are: a copy for each query, or for each room that is kept.
+    shape: Arc<TriangleShape>,
 }
 
 /// Heights over a grid in the plane of x and y.
@@ -130,7 +134,8 @@ impl Ground {
         };
         let triangles = Triangles { vertices, records };
         let covers = Covers::new(&triangles, &tree)?;
-        Ok(Ground { triangles, tree, covers, thickness: 0.0 })
+        let shape = Arc::new(TriangleShape::new()?);
+        Ok(Ground { triangles, tree, covers, thickness: 0.0, shape })
     }
 
     /// From grounds that are placed beside each other or overlap, in the order given: their vertices and triangles behind each
@@ -179,7 +184,8 @@ impl Ground {
     /// [`Error::Memory`].
     pub fn try_clone(&self) -> Result<Ground> {
         let (triangles, tree, covers) = (self.triangles.try_clone()?, self.tree.try_clone()?, self.covers.try_clone()?);
-        Ok(Ground { triangles, tree, covers, thickness: self.thickness })
+        let shape = self.shape.clone();
+        Ok(Ground { triangles, tree, covers, thickness: self.thickness, shape })
     }
 
     /// How far it pushes out what is behind its triangles.
@@ -199,8 +205,8 @@ impl Ground {
 
     /// Memory held, in bytes: less than 200 for each triangle where there are no more vertices than triangles.
     pub fn bytes(&self) -> usize {
-        let Ground { triangles, tree, covers, .. } = self;
-        size_of::<Ground>() + triangles.heap_bytes() + tree.heap_bytes() + covers.heap_bytes()
+        let Ground { triangles, tree, covers, shape, .. } = self;
+        size_of::<Ground>() + shape.shown().bytes() + triangles.heap_bytes() + tree.heap_bytes() + covers.heap_bytes()
     }
 
     pub(super) fn tree(&self) -> &Tree {
@@ -221,6 +227,11 @@ impl Ground {
     /// The unit normal of a triangle, out of its front.
     pub(super) fn normal(&self, triangle: u32) -> Vector {
         self.triangles.normal(triangle)
+    }
+
+    /// A triangle to be copied and shown.
+    pub(super) fn triangle_shape(&self) -> &TriangleShape {
+        &self.shape
     }
 
     /// Start of a half-edge.

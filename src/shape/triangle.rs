@@ -4,11 +4,11 @@ use super::{InputPolicy, LookupKind, LookupOptions, Shape, ShapeOptions};
 use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::build::assembly::{move_inner, move_outline};
-use crate::levels::hierarchy::{HierarchyKind, HierarchyOptions};
+use crate::levels::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 use crate::polyhedron::Polyhedron;
 
 /// A triangle as a shape, to be moved to others' places.
-#[derive(Debug)]
+#[derive(Debug, PartialEq)]
 pub(crate) struct TriangleShape {
     shape: Shape,
     /// The corner that each vertex is.
@@ -45,6 +45,16 @@ impl TriangleShape {
         let corner_of = [0, 1, 2].map(|v| vertex_labels[v] as usize);
         let front = usize::from(faces[0].normal.z < 0.0);
         Ok(TriangleShape { shape, corner_of, front })
+    }
+
+    /// One for another query.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn copy(&self) -> Result<TriangleShape> {
+        let levels = Hierarchy { kind: HierarchyKind::None, levels: Vec::new() };
+        let shape = Shape::from_parts(self.shape.polyhedron.copy()?, levels, 0.0)?;
+        Ok(TriangleShape { shape, ..*self })
     }
 
     /// The shape of a triangle that is not on a line, whose coordinates are within the range that
