@@ -145,3 +145,42 @@ fn depth_of(polyhedron: &Polyhedron, point: &Vector, error: f64) -> Option<f64> 
     }
     Some(least)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::math::Pose;
+    use crate::pair::{Outcome, PairAnswer, PairCache, PairConfig, intersection};
+    use crate::random::Random;
+    use crate::shape::{InputPolicy, Shape, ShapeOptions};
+
+    /// Only triangles that meet a body pierce it, also by little; and of random ones that meet it most do.
+    #[test]
+    fn what_pierces_a_body_meets_it() {
+        let mut random = Random::new(0x91e);
+        let (mut pierced, mut met) = (0, 0);
+        for _ in 0..if cfg!(miri) { 5 } else { 2_000 } {
+            let points: Vec<Vector> = (0..8).map(|_| random.direction()).collect();
+            let body = Shape::from_points(&points, &ShapeOptions::default()).unwrap();
+            let polyhedron = body.polyhedron();
+            // One corner about as far out as the face that the way from the centre leaves through.
+            let way = random.direction();
+            let out =
+                polyhedron.faces.iter().map(|face| -face.planes.value(0, &Vector::zeros()) / face.normal.dot(&way));
+            let on = way * out.filter(|t| *t > 0.0).fold(f64::INFINITY, f64::min);
+            let nearly = on * (1.0 + random.vector().x * random.power(-50, 0));
+            let corners = [nearly, way * 3.0 + random.vector(), way * 3.0 + random.vector()];
+            let corners_of_shape = corners.map(|corner| corner + polyhedron.centre);
+            let flat = ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
+            let triangle = Shape::from_points(&corners_of_shape, &flat).unwrap();
+            let mut answer = PairAnswer::default();
+            let bodies = [body.at(&Pose::IDENTITY), triangle.at(&Pose::IDENTITY)];
+            intersection(bodies, &mut PairCache::default(), &PairConfig::default(), &mut answer).unwrap();
+            let is_meeting = answer.outcome == Outcome::Intersecting;
+            let is_piercing = pierces(polyhedron, &corners, 1e-14);
+            assert!(is_meeting || !is_piercing);
+            (met, pierced) = (met + usize::from(is_meeting), pierced + usize::from(is_piercing));
+        }
+        assert!(cfg!(miri) || pierced * 10 > met * 9, "{pierced} of {met}");
+    }
+}

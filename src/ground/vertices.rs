@@ -87,3 +87,29 @@ impl<'a> Vertices<'a> {
 fn point(body: Placed, vertex: u32) -> Vector {
     body.pose.transform(&body.shape.polyhedron().local_position(vertex))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Random;
+    use crate::shape::{Shape, ShapeOptions};
+
+    /// No vertex is lower than the lowest by more than rounding, of bodies that are scanned and of those that are climbed; a scan
+    /// and its excess bound what exact vertices reach.
+    #[test]
+    fn no_vertex_is_lower_than_the_lowest() {
+        let mut random = Random::new(0x10e);
+        for round in 0..if cfg!(miri) { 3 } else { 200 } {
+            let points: Vec<Vector> = (0..4 + round % 90).map(|_| random.direction()).collect();
+            let Ok(shape) = Shape::from_points(&points, &ShapeOptions::default()) else { continue };
+            let pose = Pose::new(&random.rotation(), &(random.vector() * 10.0));
+            let (body, mut room) = (shape.at(&pose), Vec::new());
+            let vertices = Vertices::place(body, &mut room).unwrap();
+            let (up, count) = (random.direction(), shape.polyhedron().vertices.len() as u32);
+            let lowest = vertices.lowest(&up, 0);
+            assert!(lowest < count);
+            let low = up.dot(&vertices.point(lowest)) - vertices.excess(lowest, &up);
+            assert!((0..count).all(|vertex| up.dot(&vertices.point(vertex)) >= low - 1e-14), "{round}");
+        }
+    }
+}
