@@ -15,8 +15,8 @@ from rows import in_order, machine, read, with_numbers
 PAGE = os.path.join(charts.FOLDER, "..", "motions.md")
 METHODS = {  # in the order of the columns
     "swiftprox": ("swiftprox", ""), "samples-100": ("100", "samples"), "samples-1000": ("1,000", "samples"),
-    "parry-nonlinear": ("parry", "nonlinear"), "parry-linear": ("parry", "linear"), "fcl": ("FCL", "advancement"),
-    "bullet": ("Bullet", "convex cast"),
+    "parry-nonlinear": ("parry", "nonlinear"), "parry-linear": ("parry", "linear"), "parry-sweep": ("parry", "sweep_toi"),
+    "fcl": ("FCL", "advancement"), "bullet": ("Bullet", "convex cast"),
 }
 SHARES = tuple(zip((0.01, 0.03, 0.1, 0.3, 1), charts.BAD))  # of the motions answered wrongly: up to how much which colour
 

@@ -125,8 +125,9 @@ fn methods(scene: &Scene) -> Result<Vec<Box<dyn Caster + '_>>, String> {
     if scene.turn == 0.0 {
         methods.push(Box::new(parry::Linear::new(scene)?));
     }
-    // Both are given the poses at the ends, and turn by the shorter way between them.
+    // These are given the poses at the ends, and turn by the shorter way between them.
     if scene.turn < std::f64::consts::PI {
+        methods.push(Box::new(parry::TimeOfImpact::new(scene)));
         methods.extend(peers::casters(scene)?.into_iter().map(|caster| caster as Box<dyn Caster + '_>));
     }
     methods.push(Box::new(ours::Samples::new(scene, 1000)));

@@ -1,6 +1,7 @@
-//! parry's linear and nonlinear shape casts of its own convex polyhedra.
+//! parry's linear and nonlinear shape casts of its own convex polyhedra, and its time of impact of hulls of points.
 
 use parry3d_f64::math::{Pose, Vector};
+use parry3d_f64::query::sweep_toi::{Sweep, SweepToiStatus, ToiProxy, sweep_time_of_impact};
 use parry3d_f64::query::{NonlinearRigidMotion, ShapeCastOptions, cast_shapes, cast_shapes_nonlinear};
 use parry3d_f64::shape::ConvexPolyhedron;
 use swiftprox::mesh::PolygonMesh;
@@ -61,6 +62,44 @@ impl Caster for Nonlinear {
             Ok(Some(hit)) => Said::Hit(hit.time_of_impact),
             Ok(None) => Said::Free,
             Err(_) => Said::Unknown,
+        }
+    }
+}
+
+/// `sweep_time_of_impact`, of motions between the poses at both ends by the shorter turn.
+pub struct TimeOfImpact {
+    points: [Vec<Vector>; 2],
+    sweeps: Vec<[Sweep; 2]>,
+}
+
+/// How far apart bodies are in contact for it: its root finder stops within a quarter of it.
+const SLOP: f64 = 1e-6;
+
+impl TimeOfImpact {
+    pub fn new(scene: &Scene) -> TimeOfImpact {
+        let points = |k: usize| scene.meshes[k].vertices.iter().map(|v| Vector::new(v.x, v.y, v.z)).collect();
+        let sweeps = scene.cases.iter().map(|case| {
+            let [start, end] =
+                [case.poses(0.0), case.poses(1.0)].map(|poses| poses.map(|p| pose_of(p.rows.as_flattened())));
+            [0, 1].map(|i| Sweep::from_poses(&start[i], &end[i], Vector::ZERO))
+        });
+        TimeOfImpact { points: [points(0), points(1)], sweeps: sweeps.collect() }
+    }
+}
+
+impl Caster for TimeOfImpact {
+    fn name(&self) -> &str {
+        "parry-sweep"
+    }
+
+    fn cast(&mut self, motion: usize) -> Said {
+        let ([points1, points2], [sweep1, sweep2]) = (&self.points, &self.sweeps[motion]);
+        let proxies = [ToiProxy::from_points(points1, 0.0), ToiProxy::from_points(points2, 0.0)];
+        let said = sweep_time_of_impact(&proxies[0], sweep1, &proxies[1], sweep2, 1.0, SLOP);
+        match said.status {
+            SweepToiStatus::Hit | SweepToiStatus::Overlapped => Said::Hit(said.fraction),
+            SweepToiStatus::Separated => Said::Free,
+            SweepToiStatus::Failed => Said::Unknown,
         }
     }
 }
