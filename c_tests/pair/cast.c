@@ -46,6 +46,8 @@ static void known_casts(const swiftprox_shape *cube)
     CHECK_OK(swiftprox_pair_cast(cube, &falling, cube, &still, &cache, NULL, &answer));
     CHECK(answer.outcome == SWIFTPROX_CAST_OUTCOME_HIT && answer.time_lower < 0.5 && 0.5 <= answer.time_upper);
     CHECK(answer.time_upper - answer.time_lower <= 1e-9 && answer.upper == 0 && isnan(answer.clearance));
+    /* Told where they are still apart, shown where they meet. */
+    CHECK(answer.contact.outcome == SWIFTPROX_OUTCOME_SEPARATED && answer.contact.distance < 5e-9 && answer.proof_count > 0);
     CHECK(fabs(answer.contact.normal[2] - 1) < 1e-12 && answer.queries > 0);
     CHECK_OK(swiftprox_cast_verify(cube, &falling, cube, &still, NULL, &answer));
     answer.time_lower = answer.time_upper;
@@ -66,6 +68,29 @@ static void known_casts(const swiftprox_shape *cube)
     CHECK_OK(swiftprox_pair_cast(cube, &falling, cube, &still, &cache, &config, &answer));
     CHECK(answer.outcome == SWIFTPROX_CAST_OUTCOME_HIT && answer.time_lower < 0.125 && answer.time_upper >= 0.125);
     CHECK(answer.upper <= 1.5);
+}
+
+/* Cubes that touch, from which one rises: a hit, or with the option free from where they have parted. */
+static void parting(const swiftprox_shape *cube)
+{
+    swiftprox_motion still, rising;
+    swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
+    swiftprox_cast_answer answer;
+    swiftprox_pair_cache cache = {{0}};
+    double start[12], end[12];
+    fixed(&still, 0, 0, 0);
+    place(start, 0.25, 0, 1);
+    place(end, 0.25, 0, 3);
+    CHECK_OK(swiftprox_motion_between(start, end, NULL, 1, &rising, NULL));
+    CHECK(config.ignores_parting == 0);
+    CHECK_OK(swiftprox_pair_cast(cube, &rising, cube, &still, &cache, &config, &answer));
+    CHECK(answer.outcome == SWIFTPROX_CAST_OUTCOME_HIT && answer.time_upper == 0 && isnan(answer.time_parted));
+    CHECK(answer.proof_count > 0);
+    config.ignores_parting = 1;
+    CHECK_OK(swiftprox_pair_cast(cube, &rising, cube, &still, &cache, &config, &answer));
+    CHECK(answer.outcome == SWIFTPROX_CAST_OUTCOME_FREE && answer.proof_count == 0);
+    CHECK(answer.time_parted > 0 && answer.time_parted <= 1024 * config.time_tolerance);
+    CHECK_OK(swiftprox_cast_verify(cube, &rising, cube, &still, &config, &answer));
 }
 
 static void known_clearances(const swiftprox_shape *cube)
@@ -160,6 +185,7 @@ int main(void)
 {
     const swiftprox_shape *cube = box(0.5, 0.5, 0.5);
     known_casts(cube);
+    parting(cube);
     known_clearances(cube);
     callbacks(cube);
     mistakes(cube);

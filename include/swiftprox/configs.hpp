@@ -176,6 +176,7 @@ struct CastConfig {
     double time_tolerance = 1e-9;
     double max_distance = 0;
     std::uint32_t step_budget = 100000;
+    bool ignores_parting = false;
 
     swiftprox_cast_config to_c() const noexcept
     {
@@ -186,6 +187,7 @@ struct CastConfig {
         c.time_tolerance = time_tolerance;
         c.max_distance = max_distance;
         c.step_budget = step_budget;
+        c.ignores_parting = ignores_parting;
         return c;
     }
 };

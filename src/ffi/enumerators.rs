@@ -16,7 +16,7 @@ pub(super) fn read_enumerator<T: Enumerator>(number: i32, member: &str, kind: &s
 }
 
 #[cold]
-fn unknown(number: i32, member: &str, kind: &str) -> Failure {
+pub(super) fn unknown(number: i32, member: &str, kind: &str) -> Failure {
     Failure::new(StatusCode::ErrorInvalidArgument, format!("{member} is {number}, which is no {kind}"))
 }
 

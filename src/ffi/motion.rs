@@ -1,14 +1,15 @@
 //! Motions: casts and clearances of pairs.
 
 use std::ffi::{c_char, c_void};
+use std::fmt::Display;
 
-use super::enumerators::{CastOutcomeNumber, read_enumerator};
+use super::enumerators::{CastOutcomeNumber, read_enumerator, unknown};
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::{call_out, guard};
 use super::pair::CPairCache;
 use super::pointers::{exclusive, input, output};
 use super::structs::{Versioned, read_struct};
-use crate::base::enumerator::enumerator;
+use crate::base::enumerator::{Enumerator, enumerator};
 use crate::base::math::{Pose, Vector};
 use crate::base::memory::{collected, with_capacity};
 use crate::motion::{
@@ -88,6 +89,9 @@ pub struct CCastConfig {
     pub max_distance: f64,
     /// The largest number of queries, 1 or more. Then the cast stops with the bounds so far. Default: 100,000.
     pub step_budget: u32,
+    /// Not 0: objects that are in contact at the beginning, and part within 1,024 time tolerances, are cast from there on; see
+    /// swiftprox_cast_answer.time_parted. Default: 0, such a start is a hit.
+    pub ignores_parting: i32,
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.
@@ -98,15 +102,10 @@ unsafe impl Versioned for CCastConfig {
 impl CCastConfig {
     /// What the header calls its default.
     pub fn defaults() -> CCastConfig {
-        let CastConfig { time_begin, time_end, time_tolerance, max_distance, step_budget } = CastConfig::default();
-        CCastConfig {
-            struct_size: size_of::<CCastConfig>(),
-            time_begin,
-            time_end,
-            time_tolerance,
-            max_distance,
-            step_budget,
-        }
+        let CastConfig { time_begin, time_end, time_tolerance, max_distance, step_budget, ignores_parting } =
+            CastConfig::default();
+        let (struct_size, ignores_parting) = (size_of::<CCastConfig>(), i32::from(ignores_parting));
+        CCastConfig { struct_size, time_begin, time_end, time_tolerance, max_distance, step_budget, ignores_parting }
     }
 }
 
@@ -251,8 +250,8 @@ pub unsafe extern "C" fn swiftprox_pair_clearance(
 ///
 /// It proves without tolerance, at every time: free pairs stay farther apart than max_distance, and at least clearance. Other pairs
 /// stay farther apart than max_distance up to time_lower, unless that is the beginning. Hits are at most max_distance and upper
-/// apart at time_upper. Near misses are at most upper apart at time_lower. swiftprox_pair_verify checks `contact`. `queries` is not
-/// checked.
+/// apart at time_upper, as `proof` shows. Near misses are at most upper apart at time_lower. swiftprox_pair_verify checks `contact`,
+/// of the poses at time_lower. `queries` is not checked.
 ///
 /// Time grows with the number of vertices times the number of steps.
 ///
@@ -279,7 +278,6 @@ pub unsafe extern "C" fn swiftprox_cast_verify(
 /// Returns the text for a cast outcome. Never null, valid forever, also for unknown numbers.
 #[unsafe(no_mangle)]
 pub extern "C" fn swiftprox_library_cast_outcome_string(outcome: CastOutcomeNumber) -> *const c_char {
-    use crate::base::enumerator::Enumerator;
     let string = match CastOutcome::from_number(outcome) {
         Some(CastOutcome::None) => c"nothing was asked",
         Some(CastOutcome::Free) => c"free",
@@ -349,7 +347,7 @@ pub(super) fn with_motions<T>(motions: &[CMotion], run: impl FnOnce(&[Motion]) -
     let poses = collected(motions.iter().map(called))?;
     let mut read = with_capacity(motions.len())?;
     for (k, (motion, pose)) in motions.iter().zip(&poses).enumerate() {
-        read.push(read_motion(motion, pose, &format!("motions[{k}]"))?);
+        read.push(read_motion(motion, pose, format_args!("motions[{k}]"))?);
     }
     run(&read)
 }
@@ -367,9 +365,12 @@ fn called(motion: &CMotion) -> impl Fn(f64) -> Pose + use<> {
     }
 }
 
-fn read_motion<'a>(motion: &CMotion, pose: &'a dyn Fn(f64) -> Pose, name: &str) -> Checked<Motion<'a>> {
+/// The name is put together for a refusal only.
+fn read_motion<'a>(motion: &CMotion, pose: &'a dyn Fn(f64) -> Pose, name: impl Display) -> Checked<Motion<'a>> {
     let start = Pose::from_row_major(&motion.start);
-    let kind = read_enumerator::<MotionKind>(motion.kind, &format!("{name}->kind"), "swiftprox_motion_kind")?;
+    let Some(kind) = MotionKind::from_number(motion.kind) else {
+        return Err(unknown(motion.kind, &format!("{name}->kind"), "swiftprox_motion_kind"));
+    };
     Ok(match kind {
         MotionKind::Fixed => Motion::Fixed(start),
         MotionKind::Screw => Motion::Screw(Screw {
@@ -389,8 +390,9 @@ fn read_motion<'a>(motion: &CMotion, pose: &'a dyn Fn(f64) -> Pose, name: &str) 
 pub(super) unsafe fn cast_config(config: *const CCastConfig) -> Checked<CastConfig> {
     // SAFETY: by the caller.
     let given = unsafe { read_struct(config, CCastConfig::defaults())? };
-    let CCastConfig { time_begin, time_end, time_tolerance, max_distance, step_budget, .. } = given;
-    Ok(CastConfig { time_begin, time_end, time_tolerance, max_distance, step_budget })
+    let CCastConfig { time_begin, time_end, time_tolerance, max_distance, step_budget, ignores_parting, .. } = given;
+    let ignores_parting = ignores_parting != 0;
+    Ok(CastConfig { time_begin, time_end, time_tolerance, max_distance, step_budget, ignores_parting })
 }
 
 /// The caller's answer to read, its enumerators checked.

@@ -30,7 +30,8 @@ pub struct CastAnswer {
     pub outcome: CastOutcome,
     /// Certified queries made.
     pub queries: u32,
-    /// The objects are farther apart than `max_distance` from the beginning up to here; the end of the range if they are free.
+    /// The objects are farther apart than `max_distance` from the beginning, or from `time_parted`, up to here; the end of the
+    /// range if they are free.
     pub time_lower: f64,
     /// Where they are no farther apart than `max_distance`. Only of a hit.
     pub time_upper: f64,
@@ -38,9 +39,19 @@ pub struct CastAnswer {
     pub clearance: f64,
     /// Of a hit their distance at `time_upper` is at most this, 0 where they intersect; of a near miss that at `time_lower`.
     pub upper: f64,
-    /// Of a hit the contact at `time_upper`, of a near miss the distance at `time_lower`, with witness points, normal and features:
-    /// for the poses there as rounded.
+    /// Of a start in contact that was ignored because the bodies part: the objects are farther apart than `max_distance` from here
+    /// on, and nothing is said of what was before.
+    pub time_parted: f64,
+    /// Of a hit and of a near miss the distance at `time_lower`, with witness points, normal and features: for the poses there as
+    /// rounded. Next to a hit that is next to nothing; where one of the features is a face, the normal is that face's. Of a hit
+    /// whose beginning is in contact, that contact.
     pub contact: PairAnswer,
+    /// Of a hit with a `max_distance` of 0: vertex pairs, in the caller's numbering, the hull of whose differences at `time_upper`
+    /// holds the origin.
+    pub proof: [[u32; 2]; 4],
+    /// How many entries of `proof` are used: 1 to 4, or 0 where there is no such proof, as of objects that meet by their swept
+    /// radii alone.
+    pub proof_count: u32,
 }
 
 impl Default for CastAnswer {
@@ -52,7 +63,10 @@ impl Default for CastAnswer {
             time_upper: f64::NAN,
             clearance: f64::NAN,
             upper: f64::NAN,
+            time_parted: f64::NAN,
             contact: PairAnswer::default(),
+            proof: [[0; 2]; 4],
+            proof_count: 0,
         }
     }
 }

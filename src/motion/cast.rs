@@ -1,13 +1,15 @@
-//! The cast: a sweep from the beginning of a range of times until it ends, or something does.
+//! The cast: far pairs by one step, others by looks ahead, and what these leave by a sweep from there to the end of the range or
+//! to contact.
 
 use super::answer::{CastAnswer, CastOutcome};
 use super::carried::{Carried, Moving};
 use super::config::CastConfig;
+use super::looks::{MOST_LOOKS, Shown, Way, look_ahead};
 use super::moving::{Moment, MovingPair};
-use super::sweep::{Ahead, FreeStep, Sweep, Wanted, upper_bound};
+use super::sweep::{Ahead, Sweep, Wanted, upper_bound};
 use crate::base::error::Result;
 use crate::base::simd::environment::with_default;
-use crate::pair::PairCache;
+use crate::pair::{Outcome, PairAnswer, PairCache};
 
 /// Whether two moving objects stay farther apart than `max_distance`, or when they first do not. Certain for the motions exactly as
 /// they are described: rounding of poses and times is accounted for.
@@ -43,30 +45,61 @@ pub(crate) fn cast_carried(
     })
 }
 
-fn run(pair: &MovingPair, sweep: &mut Sweep, config: &CastConfig) -> Result<CastAnswer> {
-    let wanted = Wanted { max_distance: config.max_distance, with_slack: true, shortest: config.time_tolerance };
-    let mut here = pair.at(config.time_begin)?;
-    let mut clearance = f64::INFINITY;
+fn run<'a>(pair: &'a MovingPair<'a>, sweep: &mut Sweep<'a>, config: &CastConfig) -> Result<CastAnswer> {
+    let wanted = wanted(config);
+    let start = pair.at(config.time_begin)?;
+    let parted = if config.ignores_parting { sweep.parted(&start, config.time_end, &wanted)? } else { None };
+    let answer = run_from(pair, sweep, parted.unwrap_or(start), config)?;
+    Ok(CastAnswer { time_parted: parted.map_or(f64::NAN, |moment| moment.time), ..answer })
+}
+
+fn run_from<'a>(
+    pair: &'a MovingPair<'a>,
+    sweep: &mut Sweep<'a>,
+    mut here: Moment,
+    config: &CastConfig,
+) -> Result<CastAnswer> {
+    let wanted = wanted(config);
+    let mut least = f64::INFINITY;
+    if here.time < config.time_end {
+        let (far, at_end) = sweep.far(&here, config.time_end, &wanted)?;
+        if let Some(step) = far {
+            return Ok(free(sweep, config, step.least - step.slack - config.max_distance));
+        }
+        // How fast a callback moves takes another call of it; and its poses are checked where steps end.
+        if !pair.has_callback() && config.step_budget > MOST_LOOKS {
+            match look_ahead(pair, sweep, &here, at_end, config)? {
+                Way::Free { least } => return Ok(free(sweep, config, least)),
+                Way::Hit { here, contact, there, shown } => return Ok(hit(sweep, [&here, &there], contact, shown)),
+                Way::Open { here: proved, least: left } => (here, least) = (proved, left),
+            }
+        }
+    }
     loop {
         let near = sweep.distance(&here)?;
         match sweep.on(&here, &near, config.time_end, &wanted)? {
             Ahead::Free(step) => {
-                clearance = clearance.min(clearance_of(&step));
+                least = least.min(step.least - step.slack - config.max_distance);
                 here = step.ends[1];
             }
             Ahead::Contact(there, contact) => {
-                let upper = if config.max_distance == 0.0 { 0.0 } else { upper_bound(&contact, &there) };
-                let hit = CastAnswer { time_upper: there.time, upper, contact, ..CastAnswer::default() };
-                return Ok(said(CastOutcome::Hit, &here, sweep, hit));
+                let shown = Shown::by(&contact, &there, config.max_distance);
+                let is_here = there.time == here.time;
+                let contact = match near.outcome {
+                    Outcome::Separated if !is_here => near,
+                    _ if is_here => contact,
+                    _ => sweep.contact(&here)?,
+                };
+                return Ok(hit(sweep, [&here, &there], contact, shown));
             }
             Ahead::Open => {
-                let near_miss = CastAnswer { upper: upper_bound(&near, &here), contact: near, ..CastAnswer::default() };
+                let upper = upper_bound(&near, &here);
+                let near_miss = CastAnswer { upper, contact: near, ..CastAnswer::default() };
                 return Ok(said(CastOutcome::Near, &here, sweep, near_miss));
             }
         }
         if here.time >= config.time_end {
-            let free = CastAnswer { clearance: clearance.max(config.max_distance), ..CastAnswer::default() };
-            return Ok(said(CastOutcome::Free, &here, sweep, free));
+            return Ok(free(sweep, config, least));
         }
         if sweep.queries >= config.step_budget {
             return Ok(said(CastOutcome::Budget, &here, sweep, CastAnswer::default()));
@@ -74,12 +107,28 @@ fn run(pair: &MovingPair, sweep: &mut Sweep, config: &CastConfig) -> Result<Cast
     }
 }
 
-fn said(outcome: CastOutcome, here: &Moment, sweep: &Sweep, rest: CastAnswer) -> CastAnswer {
-    CastAnswer { outcome, time_lower: here.time, queries: sweep.queries, ..rest }
+/// A cast's steps; those of its check are to find them, too.
+pub(super) fn wanted(config: &CastConfig) -> Wanted {
+    Wanted { max_distance: config.max_distance, with_slack: true, shortest: config.time_tolerance }
 }
 
-/// Less than the sweep has proved, so that another proof need not find the very axis.
-fn clearance_of(step: &FreeStep) -> f64 {
+/// Farther apart than `max_distance` by that much, beyond all slack.
+fn free(sweep: &Sweep, config: &CastConfig, least: f64) -> CastAnswer {
+    /// Less than is proved, so that another proof need not find the very axis.
     const SHARE: f64 = 1.0 - 1e-9;
-    (step.least - step.slack) * SHARE
+    let clearance = ((config.max_distance + least) * SHARE).max(config.max_distance);
+    let free =
+        CastAnswer { outcome: CastOutcome::Free, time_lower: config.time_end, clearance, ..CastAnswer::default() };
+    CastAnswer { queries: sweep.queries, ..free }
+}
+
+/// Apart up to the first moment, where the contact is told, and shown to be in contact at the second.
+fn hit(sweep: &Sweep, [here, there]: [&Moment; 2], contact: PairAnswer, shown: Shown) -> CastAnswer {
+    let Shown { upper, proof, proof_count } = shown;
+    let hit = CastAnswer { time_upper: there.time, upper, contact, proof, proof_count, ..CastAnswer::default() };
+    said(CastOutcome::Hit, here, sweep, hit)
+}
+
+fn said(outcome: CastOutcome, here: &Moment, sweep: &Sweep, rest: CastAnswer) -> CastAnswer {
+    CastAnswer { outcome, time_lower: here.time, queries: sweep.queries, ..rest }
 }

@@ -15,14 +15,24 @@ pub struct CastConfig {
     pub time_tolerance: f64,
     /// Objects are free where they are farther apart than this: from 0, the default, to the largest double.
     pub max_distance: f64,
-    /// Certified queries after which it stops with its proved result, 1 or more; by default 100,000. It makes at most six for
-    /// each time tolerance in the range and a dozen in the end.
+    /// Certified queries after which it stops with its proved result, 1 or more; by default 100,000. It makes at most
+    /// 60, then six for each time tolerance in the range, and a dozen in the end.
     pub step_budget: u32,
+    /// Whether objects that are in contact at the beginning, and part within 1,024 time tolerances, are cast from where they have
+    /// parted, [`time_parted`](super::CastAnswer::time_parted); by default such a start is a hit.
+    pub ignores_parting: bool,
 }
 
 impl Default for CastConfig {
     fn default() -> Self {
-        CastConfig { time_begin: 0.0, time_end: 1.0, time_tolerance: 1e-9, max_distance: 0.0, step_budget: 100_000 }
+        CastConfig {
+            time_begin: 0.0,
+            time_end: 1.0,
+            time_tolerance: 1e-9,
+            max_distance: 0.0,
+            step_budget: 100_000,
+            ignores_parting: false,
+        }
     }
 }
 

@@ -9,6 +9,7 @@ use super::turn::Turn;
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::pair::{PairCache, Placed, Radii, sum_below};
+use crate::polyhedron::Polyhedron;
 
 /// A pair that moves.
 pub(super) struct MovingPair<'a> {
@@ -81,9 +82,21 @@ impl<'a> MovingPair<'a> {
 
     /// A lower bound of the gap of the motion along a direction of about unit length, from body 2 to body 1.
     pub fn gap(&self, moment: &Moment, direction: &Vector, vertices: &mut Option<[u32; 2]>) -> f64 {
-        let polyhedra = self.bodies.map(|body| body.shape.polyhedron());
+        let polyhedra = self.polyhedra();
         let gap = Along { polyhedra, poses: [&moment.poses[0], &moment.poses[1]], direction, vertices }.gap();
         sum_below(sum_below(gap, -self.radii.upper), -moment.rounding)
+    }
+
+    /// The unit vector between the centres of the bounding spheres, of bodies that are so far apart that it may separate them.
+    pub fn between_spheres(&self, moment: &Moment) -> Option<Vector> {
+        let [body1, body2] = self.bodies.map(|body| body.shape.polyhedron());
+        let line = moment.poses[0].transform(&body1.centre) - moment.poses[1].transform(&body2.centre);
+        let (length, [less, more]) = (line.norm(), [body1.radius.min(body2.radius), body1.radius.max(body2.radius)]);
+        (length > less + 0.5 * more).then(|| line / length)
+    }
+
+    pub fn polyhedra(&self) -> [&'a Polyhedron; 2] {
+        self.bodies.map(|body| body.shape.polyhedron())
     }
 
     /// K along a vector of at most unit length.
@@ -137,7 +150,7 @@ impl<'a> MovingPair<'a> {
     /// A lower bound of how deep the objects are in each other at a moment, by the differences of vertices that a query has found
     /// to hold the origin; 0 where they prove nothing.
     pub fn enclosed_ball(&self, moment: &Moment, cache: &PairCache) -> f64 {
-        let polyhedra = self.bodies.map(|body| body.shape.polyhedron());
+        let polyhedra = self.polyhedra();
         let poses = [&moment.poses[0], &moment.poses[1]];
         cache
             .enclosure(polyhedra)

@@ -16,10 +16,10 @@ const MOST_SIGHTS: u32 = 4;
 
 /// A ball proves contact where it is this many times as large as rounding: the check of an answer asks for a depth to within its
 /// half.
-const BALL: f64 = 4.0;
+pub(super) const BALL: f64 = 4.0;
 
 /// Contact is looked for after 1, 2, 4 … 2¹⁰ time tolerances.
-const MOST_DOUBLINGS: i32 = 10;
+pub(super) const MOST_DOUBLINGS: i32 = 10;
 
 /// The goal of a sweep.
 #[derive(Debug, Clone, Copy)]
@@ -58,7 +58,7 @@ pub(super) enum Ahead {
 
 /// The result that one moment proves about contact.
 #[allow(clippy::large_enum_variant, reason = "made in the end of a cast, and not kept")]
-enum Look {
+pub(super) enum Look {
     /// No farther apart than `max_distance`.
     Contact(PairAnswer),
     /// Farther apart, along that direction.
@@ -75,7 +75,7 @@ pub(super) struct Sweep<'a> {
     /// Certified queries made, those of gaps apart.
     pub queries: u32,
     /// Support vertices of the last gap, if one was asked for.
-    vertices: Option<[u32; 2]>,
+    pub vertices: Option<[u32; 2]>,
     /// The step before.
     last: Option<[Moment; 2]>,
     trend: Option<Trend>,
@@ -99,19 +99,40 @@ impl<'a> Sweep<'a> {
     pub fn distance(&mut self, moment: &Moment) -> Result<PairAnswer> {
         match self.sight_at(moment.time) {
             Some(sight) => Ok(sight.near),
-            None => self.ask(moment),
+            None => {
+                let mut answer = PairAnswer::default();
+                self.ask(moment, &mut answer)?;
+                Ok(answer)
+            }
         }
+    }
+
+    /// Keeps the answer about a time at which the objects are no farther apart than is asked.
+    pub fn keep_sight(&mut self, time: f64, near: &PairAnswer) {
+        self.sight = Some(Sight { time, near: *near, gap: f64::NEG_INFINITY });
     }
 
     fn sight_at(&self, time: f64) -> Option<&Sight> {
         self.sight.as_ref().filter(|sight| sight.time == time)
     }
 
-    fn ask(&mut self, moment: &Moment) -> Result<PairAnswer> {
-        let mut answer = PairAnswer::default();
+    pub fn ask(&mut self, moment: &Moment, answer: &mut PairAnswer) -> Result<()> {
         self.queries += 1;
-        pair::distance(self.pair.placed(moment), &mut self.cache, &PairConfig::default(), &mut answer)?;
-        Ok(answer)
+        pair::distance(self.pair.placed(moment), &mut self.cache, &PairConfig::default(), answer)
+    }
+
+    /// To the end along the line of centres, of bodies that are far apart: no query. With the moment there, if it was computed.
+    pub fn far(&mut self, here: &Moment, end: f64, wanted: &Wanted) -> Result<(Option<FreeStep>, Option<Moment>)> {
+        let Some(direction) = self.pair.between_spheres(here) else { return Ok((None, None)) };
+        let there = self.pair.at(end)?;
+        let needed = wanted.max_distance + self.pair.slack(here);
+        // Of a pair that meets that gap is closed.
+        if !(self.pair.gap(&there, &direction, &mut None) > needed) {
+            return Ok((None, Some(there)));
+        }
+        let trial = Trial::new(self.pair, here, direction, wanted, &mut None);
+        let step = trial.to(&there, &mut None);
+        Ok(((step.least > trial.needed).then_some(step), Some(there)))
     }
 
     /// On from a moment, whose distance is known, to `end` at most.
@@ -184,7 +205,8 @@ impl<'a> Sweep<'a> {
 
     /// A step along a direction that turns to the normal at its end. The results there are kept: the next step begins with them.
     fn turned(&mut self, trial: &Trial, there: &Moment) -> Result<Option<FreeStep>> {
-        let near = self.ask(there)?;
+        let mut near = PairAnswer::default();
+        self.ask(there, &mut near)?;
         if near.outcome != Outcome::Separated {
             return Ok(None);
         }
@@ -223,11 +245,13 @@ impl<'a> Sweep<'a> {
     }
 
     /// Whether the motion is provably in contact at a moment. With a `max_distance` of 0 the poses have to be deeper in each other
-    /// than they are rounded; with one their distance has to be so much less.
-    fn look(&mut self, moment: &Moment, max_distance: f64) -> Result<Look> {
+    /// than they are rounded; with one their distance has to be so much less, and is asked for from no cache: the check asks the
+    /// same, and finds the same upper end.
+    pub fn look(&mut self, moment: &Moment, max_distance: f64) -> Result<Look> {
         self.queries += 1;
-        let mut answer = PairAnswer::default();
-        pair::contact(self.pair.placed(moment), &mut self.cache, &PairConfig::default(), &mut answer)?;
+        let (mut answer, mut none) = (PairAnswer::default(), PairCache::default());
+        let cache = if max_distance > 0.0 { &mut none } else { &mut self.cache };
+        pair::contact(self.pair.placed(moment), cache, &PairConfig::default(), &mut answer)?;
         let is_hidden = max_distance == 0.0 && moment.rounding > 0.0 && answer.outcome == Outcome::Intersecting;
         if is_hidden && !self.is_deep(moment)? {
             return Ok(Look::Open);
@@ -249,6 +273,37 @@ impl<'a> Sweep<'a> {
         Ok(depth_at(self.pair, moment, &mut DepthCache::default())?.lower > moment.rounding)
     }
 
+    /// Where objects that are in contact, and move apart along the contact's normal, are provably apart along it: soon, or `None`.
+    pub fn parted(&mut self, start: &Moment, end: f64, wanted: &Wanted) -> Result<Option<Moment>> {
+        let needed = wanted.max_distance + self.pair.slack(start);
+        let touch = self.contact(start)?;
+        let normal = Vector::from(touch.normal);
+        // False for the NaN of bodies without a normal.
+        let are_parting = self.pair.speed(start, &normal, [&touch.local1, &touch.local2])? > 0.0;
+        if !are_parting || self.pair.gap(start, &normal, &mut self.vertices) > needed {
+            return Ok(None);
+        }
+        for doubling in 0..=MOST_DOUBLINGS {
+            let time = after(start.time, wanted.shortest * f64::from(1 << doubling)).min(end);
+            if time <= start.time {
+                break;
+            }
+            let there = self.pair.at(time)?;
+            if self.pair.gap(&there, &normal, &mut self.vertices) > needed {
+                return Ok(Some(there));
+            }
+        }
+        Ok(None)
+    }
+
+    /// The contact of the poses of a moment.
+    pub fn contact(&mut self, moment: &Moment) -> Result<PairAnswer> {
+        self.queries += 1;
+        let mut answer = PairAnswer::default();
+        pair::contact(self.pair.placed(moment), &mut self.cache, &PairConfig::default(), &mut answer)?;
+        Ok(answer)
+    }
+
     /// Whether the motion provably has its objects in contact at a moment.
     pub fn is_contact(&mut self, moment: &Moment) -> Result<bool> {
         Ok(matches!(self.look(moment, 0.0)?, Look::Contact(_)))
@@ -265,7 +320,7 @@ impl<'a> Sweep<'a> {
 }
 
 /// The latest time that is no more than `length` later.
-fn after(time: f64, length: f64) -> f64 {
+pub(super) fn after(time: f64, length: f64) -> f64 {
     let later = time + length;
     // Rounding moves it by half a unit in the last place.
     if later - time > length { later.next_down() } else { later }

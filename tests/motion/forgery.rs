@@ -20,8 +20,8 @@ fn forged_answers_are_refused() {
     let still = Motion::Fixed(Pose::IDENTITY);
     let hitting = screw(at(3.0, 0.1, 0.2), [-4.0, 0.0, 0.0], [1.0, 2.0, 0.5]);
     let missing = screw(at(-4.0, 3.2, 0.2), [8.0, 0.0, 0.0], [0.4, 0.2, 0.5]);
-    let within = CastConfig { max_distance: 0.1, ..CastConfig::default() };
-    for config in [CastConfig::default(), within] {
+    let max_distance = CastConfig { max_distance: 0.1, ..CastConfig::default() };
+    for config in [CastConfig::default(), max_distance] {
         let hit = moving([&bar, &cube], [&hitting, &still]);
         let answer = run(hit, &config);
         assert_eq!(answer.outcome, CastOutcome::Hit);
@@ -31,6 +31,10 @@ fn forged_answers_are_refused() {
         let outside = CastAnswer { time_upper: 1.5, ..answer };
         let swapped = CastAnswer { time_lower: answer.time_upper, time_upper: answer.time_lower, ..answer };
         let no_contact = CastAnswer { contact: Default::default(), ..answer };
+        let mut far = answer;
+        far.contact.world1[0] += 1e-9;
+        let mut no_proof = answer;
+        (no_proof.proof[0], no_proof.proof_count) = ([0, 0], 1);
         let none = CastAnswer { time_lower: f64::NAN, ..answer };
         let free = CastAnswer {
             outcome: CastOutcome::Free,
@@ -39,7 +43,7 @@ fn forged_answers_are_refused() {
             ..CastAnswer::default()
         };
         let beyond = CastAnswer { outcome: CastOutcome::Budget, time_lower: 0.9, ..CastAnswer::default() };
-        for forged in [later, sooner, outside, swapped, no_contact, none, free, beyond] {
+        for forged in [later, sooner, outside, swapped, no_contact, far, no_proof, none, free, beyond] {
             let refused = verify_cast(hit, &config, &forged);
             assert!(matches!(refused, Err(Error::Unverified(_))), "{forged:?}: {refused:?}");
         }
@@ -153,7 +157,8 @@ fn one_double_beyond_the_first_contact_is_refused() {
             assert!(is_refused(pair, &config, &budget), "{round} {time_lower}");
         }
         for time_upper in [apart, answer.time_lower] {
-            let sooner = CastAnswer { time_upper, contact: contact_at(time_upper), ..answer };
+            let PairAnswer { proof, proof_count, .. } = contact_at(time_upper);
+            let sooner = CastAnswer { time_upper, proof, proof_count, ..answer };
             assert!(is_refused(pair, &config, &sooner), "{round} {time_upper}");
             assert!(is_refused(pair, &config, &CastAnswer { time_upper, ..answer }), "{round} {time_upper}");
         }
@@ -181,7 +186,8 @@ fn closed_forms_of_flights_are_told_to_the_double_or_to_rounding() {
             let answer = run(pair, &config);
             let first = 0.75 - 0.5 * max_distance;
             assert_eq!((answer.outcome, verify_cast(pair, &config, &answer)), (CastOutcome::Hit, Ok(())), "{answer:?}");
-            let until = |time_lower: f64| verify_cast(pair, &config, &CastAnswer { time_lower, ..answer });
+            let free_before = CastAnswer { outcome: CastOutcome::Budget, ..CastAnswer::default() };
+            let until = |time_lower: f64| verify_cast(pair, &config, &CastAnswer { time_lower, ..free_before });
             assert_eq!(until(first - 1e-12), Ok(()));
             assert!([first, first.next_up()].iter().all(|&time_lower| until(time_lower).is_err()));
             assert!(is_refused(pair, &config, &CastAnswer { time_upper: first.next_down(), ..answer }));

@@ -3,9 +3,10 @@
 use std::f64::consts::{FRAC_1_SQRT_2, FRAC_PI_4, PI};
 
 use swiftprox::math::{Pose, Vector};
-use swiftprox::motion::{Callback, CastConfig, CastOutcome, Motion, verify_cast};
-use swiftprox::pair::Outcome;
+use swiftprox::motion::{Callback, CastAnswer, CastConfig, CastOutcome, Motion, verify_cast};
+use swiftprox::pair::{FeatureKind, Outcome};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use testkit::random::rotation;
 use testkit::shapes::{cuboid, hull};
 
 use crate::{at, moving, run, screw, straight};
@@ -20,7 +21,9 @@ fn a_cube_falls_on_a_cube() {
         answer.time_lower < 0.5 && 0.5 <= answer.time_upper && answer.time_upper - answer.time_lower <= 1e-9,
         "{answer:?}"
     );
-    assert_eq!((answer.upper, answer.contact.outcome), (0.0, Outcome::Intersecting));
+    // Told where they are still apart; shown to meet by vertex pairs where they do.
+    assert_eq!((answer.upper, answer.contact.outcome), (0.0, Outcome::Separated));
+    assert!(answer.contact.distance <= 4.0e-9 && answer.proof_count > 0, "{answer:?}");
     assert!((answer.contact.normal[2] - 1.0).abs() < 1e-12, "{answer:?}");
     assert!((answer.contact.world1[2] - 0.5).abs() < 1e-8, "{answer:?}");
     assert!(answer.queries <= 6, "{answer:?}");
@@ -35,6 +38,84 @@ fn a_start_in_contact_is_a_hit_at_the_beginning() {
         let rising = straight(at(0.0, 0.25, height), [0.0, 0.0, 1.0]);
         let answer = run(moving([&cube, &cube], [&rising, &still]), &CastConfig::default());
         assert_eq!((answer.outcome, answer.time_lower, answer.time_upper), (CastOutcome::Hit, 0.0, 0.0), "{answer:?}");
+        assert_eq!(
+            (answer.contact.outcome, answer.contact.normal),
+            (Outcome::Intersecting, [0.0, 0.0, 1.0]),
+            "{answer:?}"
+        );
+    }
+}
+
+/// Cubes that touch: from which one rises, into which one falls, along which one slides; and cubes deep in each other.
+#[test]
+fn a_touch_from_which_bodies_part_is_ignored_if_asked() {
+    let cube = cuboid([0.5; 3]);
+    let still = Motion::Fixed(Pose::IDENTITY);
+    let config = CastConfig { ignores_parting: true, ..CastConfig::default() };
+    let rising = straight(at(0.0, 0.25, 1.0), [0.0, 0.0, 1.0]);
+    let bodies = moving([&cube, &cube], [&rising, &still]);
+    let answer = run(bodies, &config);
+    assert_eq!((answer.outcome, answer.time_lower), (CastOutcome::Free, 1.0), "{answer:?}");
+    assert!(answer.time_parted > 0.0 && answer.time_parted <= 1.024e-6, "{answer:?}");
+    assert!(answer.clearance > 0.0 && answer.clearance <= answer.time_parted, "{answer:?}");
+    verify_cast(bodies, &config, &answer).unwrap();
+    for forged in [0.0, 1e-3, -1.0] {
+        assert!(verify_cast(bodies, &config, &CastAnswer { time_parted: forged, ..answer }).is_err(), "{forged}");
+    }
+    assert!(verify_cast(bodies, &CastConfig::default(), &answer).is_err());
+
+    // It rises, and is back at 1/2.
+    let arc = |t: f64| at(0.0, 0.25, 1.0 + 4.0 * t * (0.5 - t));
+    let back = Motion::Callback(Callback { pose: &arc, bend: 8.0, rounding: 1e-14 });
+    let bodies = moving([&cube, &cube], [&back, &still]);
+    let answer = run(bodies, &config);
+    verify_cast(bodies, &config, &answer).unwrap();
+    assert!(answer.outcome == CastOutcome::Hit && answer.time_parted > 0.0, "{answer:?}");
+    assert!(
+        answer.time_lower < 0.5 + 1e-13
+            && answer.time_upper > 0.5 - 1e-13
+            && answer.time_upper - answer.time_lower <= 1e-9,
+        "{answer:?}"
+    );
+
+    for (height, velocity) in [(1.0, [0.0, 0.0, -1.0]), (1.0, [1.0, 0.0, 0.0]), (0.5, [0.0, 0.0, 1.0])] {
+        let motion = straight(at(0.0, 0.25, height), velocity);
+        let answer = run(moving([&cube, &cube], [&motion, &still]), &config);
+        assert_eq!((answer.outcome, answer.time_upper), (CastOutcome::Hit, 0.0), "{answer:?}");
+        assert!(answer.time_parted.is_nan());
+    }
+    // What is apart at the beginning is cast from there.
+    let apart = straight(at(0.0, 0.25, 1.5), [0.0, 0.0, 1.0]);
+    let answer = run(moving([&cube, &cube], [&apart, &still]), &config);
+    assert!(answer.outcome == CastOutcome::Free && answer.time_parted.is_nan(), "{answer:?}");
+}
+
+/// A cube flies, a corner ahead, at the face of another that is turned about y by an angle of which sine and cosine are known.
+#[test]
+fn the_normal_of_a_hit_is_that_of_the_face() {
+    let cube = cuboid([0.5; 3]);
+    let (sine, cosine) = (0.28, 0.96);
+    let turned = Pose { rows: [[cosine, 0.0, sine, 0.0], [0.0, 1.0, 0.0, 0.0], [-sine, 0.0, cosine, 0.0]] };
+    let still = Motion::Fixed(turned);
+    let mut start = at(0.3, 0.1, 4.0);
+    let tilt = rotation(&Vector::new(1.0, 1.0, 0.0).normalize(), 0.7);
+    start = Pose::new(&tilt, &start.translation());
+    for spin in [[0.0; 3], [0.1, -0.2, 0.3]] {
+        let flying = screw(start, [0.0, 0.0, -4.0], spin);
+        let bodies = moving([&cube, &cube], [&flying, &still]);
+        let answer = run(bodies, &CastConfig::default());
+        verify_cast(bodies, &CastConfig::default(), &answer).unwrap();
+        let contact = &answer.contact;
+        assert_eq!((answer.outcome, contact.outcome), (CastOutcome::Hit, Outcome::Separated), "{answer:?}");
+        assert_eq!(
+            (contact.feature1.kind, contact.feature2.kind),
+            (FeatureKind::Vertex, FeatureKind::Face),
+            "{answer:?}"
+        );
+        let off = Vector::from(contact.normal) - Vector::new(sine, 0.0, cosine);
+        assert!(off.norm() < 1e-14, "{answer:?}");
+        // Apart by what the flight takes in a nanosecond, no more.
+        assert!(contact.distance > 0.0 && contact.distance < 6e-9, "{answer:?}");
     }
 }
 
@@ -87,7 +168,6 @@ fn bodies_that_move_together_raise_no_alarm() {
     assert_eq!(answer.queries, 1);
 }
 
-/// A corner that passes a face at 1e-12, or 1e-12 in it, as it turns by.
 /// Two points at rest, one of whose poses is off orthonormal. Cause: points have no size, so no frame, and no gap could be proved.
 /// Cut-off: bounding spheres, which here are the bodies themselves. Such motions were NEAR, however far apart.
 #[test]
@@ -124,6 +204,7 @@ fn a_ball_hits_a_ball() {
     assert!(answer.outcome == CastOutcome::Free && answer.clearance <= 0.5, "{answer:?}");
 }
 
+/// A corner that passes a face at 1e-12, or 1e-12 in it, as it turns by.
 #[test]
 fn grazing_is_told_from_touching() {
     let half = FRAC_1_SQRT_2;

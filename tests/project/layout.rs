@@ -159,9 +159,11 @@ fn layouts() -> Vec<Layout> {
         swiftprox_motion = CMotion {
             kind, start, end, centre, velocity, rotation, pose, user, bend, rounding
         },
-        swiftprox_cast_answer = CastAnswer { outcome, queries, time_lower, time_upper, clearance, upper, contact },
+        swiftprox_cast_answer = CastAnswer {
+            outcome, queries, time_lower, time_upper, clearance, upper, time_parted, contact, proof, proof_count
+        },
         swiftprox_cast_config = CCastConfig {
-            struct_size, time_begin, time_end, time_tolerance, max_distance, step_budget
+            struct_size, time_begin, time_end, time_tolerance, max_distance, step_budget, ignores_parting
         },
         swiftprox_clearance = Clearance { lower, upper, time, queries },
         swiftprox_clearance_config = CClearanceConfig {
@@ -280,7 +282,7 @@ fn constants_of_c_are_the_defaults_of_rust() {
         defaults!(swiftprox_scene_options = CSceneOptions::DEFAULT, { struct_size, rotation_limit, worker_count, enqueue_task, finish_task, task_user }),
         defaults!(swiftprox_object_options = CObjectOptions::DEFAULT, { struct_size, user_data, pose, fixed, groups, mask }),
         defaults!(swiftprox_scene_query = CSceneQuery::DEFAULT, { struct_size, max_distance, absolute_error, relative_error, error_budget, step_budget, early_exit, tuning, detail, mask }),
-        defaults!(swiftprox_cast_config = CCastConfig::defaults(), { struct_size, time_begin, time_end, time_tolerance, max_distance, step_budget }),
+        defaults!(swiftprox_cast_config = CCastConfig::defaults(), { struct_size, time_begin, time_end, time_tolerance, max_distance, step_budget, ignores_parting }),
         defaults!(swiftprox_clearance_config = CClearanceConfig::defaults(), { struct_size, time_begin, time_end, absolute_error, relative_error, step_budget }),
         defaults!(swiftprox_shape_tuning = CShapeTuning::DEFAULT, { struct_size, hierarchy, lookup, decimation, minimum_triangles, most_levels, lookup_radius_factor, lookup_resolution }),
         defaults!(swiftprox_pair_tuning = CPairTuning::DEFAULT, { struct_size, start, levels, refinement }),
