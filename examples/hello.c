@@ -10,7 +10,7 @@ int main(void)
     const swiftprox_shape *tetrahedron;
     swiftprox_pair_cache cache = {{0}}; /* all zero is cold; keep one per pair */
     swiftprox_pair_answer answer;
-    if (swiftprox_shape_create_from_mesh(corners, 4, faces, NULL, 4, NULL, &tetrahedron) != SWIFTPROX_OK ||
+    if (swiftprox_shape_create_from_mesh((swiftprox_mesh){corners, 4, faces, NULL, 4}, NULL, &tetrahedron) != SWIFTPROX_OK ||
         swiftprox_pair_distance((swiftprox_placed){tetrahedron, pose1}, (swiftprox_placed){tetrahedron, pose2}, &cache, NULL,
                                 &answer) != SWIFTPROX_OK) {
         fprintf(stderr, "%s\n", swiftprox_library_last_error_message());

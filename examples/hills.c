@@ -61,12 +61,12 @@ static void add_boxes(swiftprox_scene *scene, swiftprox_object_id *ids)
 static void print_contacts(const swiftprox_scene *scene, const swiftprox_ground *ground, swiftprox_scratch *scratch)
 {
     const double here[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}; /* rows of [R|T] */
-    swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
+    swiftprox_scene_ground_config config = SWIFTPROX_SCENE_GROUND_CONFIG_DEFAULT;
     config.max_distance = 0.05;
     config.reduces = 1; /* four points of a contact are enough */
 
     swiftprox_scene_ground_answer answer;
-    demand(swiftprox_scene_ground_contacts(scene, NULL, ground, here, &config, NULL, scratch, &answer));
+    demand(swiftprox_scene_ground_contacts(scene, NULL, (swiftprox_placed_ground){ground, here}, &config, scratch, &answer));
     for (size_t i = 0; i < answer.contact_count; i++) {
         const swiftprox_scene_ground_contact *found = &answer.contacts[i];
         const swiftprox_manifold *manifold = &found->contact.manifold;

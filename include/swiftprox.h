@@ -298,24 +298,32 @@ typedef struct swiftprox_shape_options {
 #define SWIFTPROX_SHAPE_OPTIONS_DEFAULT \
   {sizeof(swiftprox_shape_options), SWIFTPROX_INPUT_STRICT, {1, 0, 0, 0, 1, 0, 0, 0, 1}, {0, 0, 0}, 1, -1, 0, 0, 0, -1, 0}
 
+/** A polygon mesh, an argument by value. The caller owns the arrays. */
+typedef struct swiftprox_mesh {
+  /** 3 * vertex_count coordinates. */
+  const double *vertices;
+  /** Number of vertices. */
+  size_t vertex_count;
+  /** 0-based vertex numbers of all faces in turn, counter-clockwise seen from outside. */
+  const uint32_t *indices;
+  /** Number of vertices of each face; null means triangles. */
+  const uint32_t *valences;
+  /** Number of faces. */
+  size_t face_count;
+} swiftprox_mesh;
+
 /**
  * Creates a shape from a polygon mesh. Release it with swiftprox_shape_release. The arrays are copied.
  *
- * `vertices` holds 3 * vertex_count coordinates. `indices` holds the 0-based vertex numbers of all faces in turn,
- * counter-clockwise seen from outside. `valences` holds the number of vertices of each face; null means triangles. Answers name
- * features by these numbers. Unless the options allow more, the mesh must be a closed, consistently oriented, connected, convex
- * 2-manifold without unused vertices.
+ * Answers name features by the mesh's numbers of vertices and faces. Unless the options allow more, the mesh must be a closed,
+ * consistently oriented, connected, convex 2-manifold without unused vertices.
  *
  * On failure `*shape` is null. SWIFTPROX_ERROR_MESH: the mesh breaks these rules, or a coordinate is not finite.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_shape_create_from_mesh(const double *vertices,
-                                                  size_t vertex_count,
-                                                  const uint32_t *indices,
-                                                  const uint32_t *valences,
-                                                  size_t face_count,
+swiftprox_status swiftprox_shape_create_from_mesh(struct swiftprox_mesh mesh,
                                                   const struct swiftprox_shape_options *options,
                                                   const struct swiftprox_shape **shape);
 
@@ -808,7 +816,6 @@ typedef struct swiftprox_depth_config {
    */
   uint32_t step_budget;
 } swiftprox_depth_config;
-/** What the header calls its default. */
 
 /** Begins a swiftprox_depth_config: the defaults. In C and C++, as an initialiser. */
 #define SWIFTPROX_DEPTH_CONFIG_DEFAULT {sizeof(swiftprox_depth_config), 1e-2, 0, 0, UINT32_MAX}
@@ -969,7 +976,6 @@ typedef struct swiftprox_manifold_config {
    */
   int32_t reduces;
 } swiftprox_manifold_config;
-/** What the header calls its default. */
 
 /** Begins a swiftprox_manifold_config: the defaults. In C and C++, as an initialiser. */
 #define SWIFTPROX_MANIFOLD_CONFIG_DEFAULT {sizeof(swiftprox_manifold_config), 1e-2, 0, 0}
@@ -1120,7 +1126,6 @@ typedef struct swiftprox_object_options {
   /** The groups it is tested against. Default: 0, which means all. */
   uint32_t mask;
 } swiftprox_object_options;
-/** What the header calls its default. */
 
 /** Begins a swiftprox_object_options: the defaults. In C and C++, as an initialiser. */
 #define SWIFTPROX_OBJECT_OPTIONS_DEFAULT {sizeof(swiftprox_object_options), 0, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, 0, 0, 0}

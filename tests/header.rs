@@ -117,7 +117,8 @@ fn generate() -> Vec<(String, String)> {
     let mut bytes = Vec::new();
     builder.generate().expect("cbindgen reads the source").write(&mut bytes);
     let text = String::from_utf8(bytes).expect("cbindgen writes UTF-8");
-    let text = links(&short_comments(&text), &names).replace("SWIFTPROX_STATUS_", "SWIFTPROX_");
+    let text = short_comments(&text).replace("/** The defaults, as in the header. */\n", "");
+    let text = links(&text, &names).replace("SWIFTPROX_STATUS_", "SWIFTPROX_");
     let mut declared: HashMap<String, String> = HashMap::new();
     for declaration in declarations(&text) {
         declared.insert(name_of(&declaration), old_standards(&declaration));

@@ -244,8 +244,8 @@ static size_t ask_motion(struct sweep_scene *scene, const double *poses, double 
     for (size_t pair = 0; pair < scene->piece_count * scene->obstacle_count && config.time_end >= config.time_begin; pair++) {
         const struct sweep_obstacle *const obstacle = &scene->obstacles[pair % scene->obstacle_count];
         swiftprox_cast_answer answer;
-        if (swiftprox_pair_cast(scene->pieces[pair / scene->obstacle_count], &motion, obstacle->shape, &obstacle->place,
-                                &scene->caches[pair], &config, &answer)
+        if (swiftprox_pair_cast((swiftprox_moving){scene->pieces[pair / scene->obstacle_count], &motion},
+                                (swiftprox_moving){obstacle->shape, &obstacle->place}, &scene->caches[pair], &config, &answer)
             != SWIFTPROX_OK) {
             player_failed();
             return 0;

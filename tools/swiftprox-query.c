@@ -225,8 +225,8 @@ static swiftprox_status answer_cast(const struct job *job, size_t index, struct 
         status = swiftprox_motion_between(begin->second, end->second, NULL, 0, &second, NULL);
     }
     if (status == SWIFTPROX_OK) {
-        status = swiftprox_pair_cast(job->shapes[0], &first, job->shapes[1], &second, &caches->pair, &job->cast_config,
-                                     &answer->cast);
+        status = swiftprox_pair_cast((swiftprox_moving){job->shapes[0], &first}, (swiftprox_moving){job->shapes[1], &second},
+                                     &caches->pair, &job->cast_config, &answer->cast);
     }
     return status;
 }

@@ -168,7 +168,8 @@ static const swiftprox_shape *make(const body *wanted)
     } else if (wanted->sides > 0) {
         add_revolved(&m, wanted);
         place_points(&m);
-        CHECK_OK(swiftprox_shape_create_from_mesh(m.points, m.count, m.indices, NULL, m.triangle_count, NULL, &shape));
+        CHECK_OK(swiftprox_shape_create_from_mesh((swiftprox_mesh){m.points, m.count, m.indices, NULL, m.triangle_count}, NULL,
+                                                  &shape));
     } else {
         add_sphere_points(&m, 1002);
         CHECK_OK(swiftprox_shape_create_from_points(m.points, m.count, NULL, &shape));

@@ -98,8 +98,9 @@ double by_c(const Task& task, int steps)
         swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
         if (i == 0) {
             const swiftprox_shape *shape;
-            must(swiftprox_shape_create_from_mesh(&task.body.vertices[0], task.body.vertices.size() / 3, &triangles[0], NULL,
-                                                  triangles.size() / 3, NULL, &shape));
+            const swiftprox_mesh mesh = {&task.body.vertices[0], task.body.vertices.size() / 3, &triangles[0], NULL,
+                                         triangles.size() / 3};
+            must(swiftprox_shape_create_from_mesh(mesh, NULL, &shape));
             must(swiftprox_scene_add_object(scene, &shape, 1, &options, &ids[0]));
             swiftprox_shape_release(shape);
         } else {

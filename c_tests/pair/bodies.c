@@ -130,10 +130,10 @@ static void faces(void)
     for (i = 0; i < 24; ++i) {
         corners[i] = (i / 3) >> (i % 3) & 1 ? 1 : -1;
     }
-    CHECK_OK(swiftprox_shape_create_from_mesh(corners, 8, sides, valences, 6, NULL, &cube));
+    CHECK_OK(swiftprox_shape_create_from_mesh((swiftprox_mesh){corners, 8, sides, valences, 6}, NULL, &cube));
     CHECK_OK(swiftprox_shape_copy_vertices(cube, vertices, numbers, 8));
     for (i = 0; i < 6; ++i) {
-        CHECK_OK(swiftprox_shape_get_face(cube, i, &face, places, 4, &label, 1));
+        CHECK_OK(swiftprox_shape_get_face(cube, i, (swiftprox_face_room){places, 4, &label, 1}, &face));
         CHECK(face.corner_count == 4 && face.label_count == 1 && face.offset == 1 && label < 6);
         seen |= 1u << label;
         for (k = 0; k < 4; ++k) {
@@ -149,15 +149,15 @@ static void faces(void)
         CHECK(index == i);
     }
     CHECK(seen == 63);
-    CHECK_OK(swiftprox_shape_get_face(cube, 0, &face, NULL, 0, NULL, 0));
-    CHECK(swiftprox_shape_get_face(cube, 0, &face, NULL, 1, NULL, 0) == SWIFTPROX_ERROR_NULL_POINTER);
-    CHECK(swiftprox_shape_get_face(cube, 6, &face, NULL, 0, NULL, 0) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    CHECK_OK(swiftprox_shape_get_face(cube, 0, (swiftprox_face_room){NULL, 0, NULL, 0}, &face));
+    CHECK(swiftprox_shape_get_face(cube, 0, (swiftprox_face_room){NULL, 1, NULL, 0}, &face) == SWIFTPROX_ERROR_NULL_POINTER);
+    CHECK(swiftprox_shape_get_face(cube, 6, (swiftprox_face_room){NULL, 0, NULL, 0}, &face) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
     CHECK(isnan(face.offset) && face.corner_count == 0);
     CHECK(swiftprox_shape_find_face(cube, 6, &index) == SWIFTPROX_ERROR_INVALID_ARGUMENT && index == SIZE_MAX);
     hull = round_shape(corners, 8, 0);
     for (label = 0; label < 6; ++label) {
         CHECK_OK(swiftprox_shape_find_face(hull, label, &index));
-        CHECK_OK(swiftprox_shape_get_face(hull, index, &face, places, 4, NULL, 0));
+        CHECK_OK(swiftprox_shape_get_face(hull, index, (swiftprox_face_room){places, 4, NULL, 0}, &face));
         CHECK(face.corner_count == 4);
     }
     swiftprox_shape_release(cube);

@@ -28,19 +28,24 @@ static void a_cube_on_a_level_grid(void)
     CHECK(info.vertex_count == 25 && info.triangle_count == 32 && info.bytes < 200 * 32);
     CHECK(swiftprox_ground_retain(ground) == ground);
     swiftprox_ground_release(ground);
-    CHECK_OK(swiftprox_pair_ground_distance(SWIFTPROX_QUERY_KIND_DISTANCE, body, over, ground, identity, NULL, &answer));
+    CHECK_OK(swiftprox_pair_ground_distance(SWIFTPROX_QUERY_KIND_DISTANCE, (swiftprox_placed){body, over},
+                                            (swiftprox_placed_ground){ground, identity}, NULL, &answer));
     CHECK(answer.answer.outcome == SWIFTPROX_OUTCOME_SEPARATED && answer.triangle < 32);
     CHECK(answer.answer.lower <= 0.25 && 0.25 <= answer.answer.upper && answer.answer.normal[2] == 1);
-    CHECK_OK(swiftprox_pair_ground_distance(SWIFTPROX_QUERY_KIND_INTERSECTION, body, in, ground, identity, NULL, &answer));
+    CHECK_OK(swiftprox_pair_ground_distance(SWIFTPROX_QUERY_KIND_INTERSECTION, (swiftprox_placed){body, in},
+                                            (swiftprox_placed_ground){ground, identity}, NULL, &answer));
     CHECK(answer.answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING);
     config.reduces = 1;
-    CHECK_OK(swiftprox_pair_ground_contacts(body, in, ground, identity, &config, contacts, 4, points, 16, &count));
+    CHECK_OK(swiftprox_pair_ground_contacts((swiftprox_placed){body, in}, (swiftprox_placed_ground){ground, identity}, &config,
+                                            (swiftprox_ground_room){contacts, 4, points, 16}, &count));
     CHECK(count.contact_count == 1 && count.point_count == 4 && contacts[0].manifold.point_count == 4);
     CHECK(contacts[0].manifold.normal[2] == 1 && contacts[0].first_point == 0);
     CHECK(points[3].gap_lower <= -0.125 && -0.125 <= points[3].gap_upper);
-    CHECK_OK(swiftprox_pair_ground_contacts(body, in, ground, identity, &config, NULL, 0, NULL, 0, &count));
+    CHECK_OK(swiftprox_pair_ground_contacts((swiftprox_placed){body, in}, (swiftprox_placed_ground){ground, identity}, &config,
+                                            (swiftprox_ground_room){NULL, 0, NULL, 0}, &count));
     CHECK(count.contact_count == 1 && count.point_count == 4);
-    CHECK_OK(swiftprox_pair_ground_contacts(body, over, ground, identity, NULL, contacts, 4, points, 16, &count));
+    CHECK_OK(swiftprox_pair_ground_contacts((swiftprox_placed){body, over}, (swiftprox_placed_ground){ground, identity}, NULL,
+                                            (swiftprox_ground_room){contacts, 4, points, 16}, &count));
     CHECK(count.contact_count == 0 && count.point_count == 0);
     swiftprox_ground_release(ground);
     swiftprox_shape_release(body);
@@ -65,12 +70,15 @@ static void tiles_and_solids(void)
     CHECK_OK(swiftprox_ground_create_from_grounds(tiles, poses, 2, &ground));
     CHECK_OK(swiftprox_ground_get_info(ground, &info));
     CHECK(info.vertex_count == 50 && info.triangle_count == 64);
-    CHECK_OK(swiftprox_pair_ground_contacts(body, on_seam, ground, identity, &config, contacts, 4, points, 16, &count));
+    CHECK_OK(swiftprox_pair_ground_contacts((swiftprox_placed){body, on_seam}, (swiftprox_placed_ground){ground, identity},
+                                            &config, (swiftprox_ground_room){contacts, 4, points, 16}, &count));
     CHECK(count.contact_count == 1 && count.point_count == 4 && contacts[0].manifold.normal[2] == 1);
-    CHECK_OK(swiftprox_pair_ground_contacts(body, below, ground, identity, &config, contacts, 4, points, 16, &count));
+    CHECK_OK(swiftprox_pair_ground_contacts((swiftprox_placed){body, below}, (swiftprox_placed_ground){ground, identity},
+                                            &config, (swiftprox_ground_room){contacts, 4, points, 16}, &count));
     CHECK(count.contact_count == 0);
     CHECK_OK(swiftprox_ground_create_solid(ground, 1, &solid));
-    CHECK_OK(swiftprox_pair_ground_contacts(body, below, solid, identity, &config, contacts, 4, points, 16, &count));
+    CHECK_OK(swiftprox_pair_ground_contacts((swiftprox_placed){body, below}, (swiftprox_placed_ground){solid, identity}, &config,
+                                            (swiftprox_ground_room){contacts, 4, points, 16}, &count));
     CHECK(count.contact_count == 1 && contacts[0].manifold.lower <= -1.25 && -1.25 <= contacts[0].manifold.upper);
     CHECK(swiftprox_ground_create_solid(ground, -1, &none) == SWIFTPROX_ERROR_INVALID_ARGUMENT && none == NULL);
     CHECK(swiftprox_ground_create_solid(ground, NAN, &none) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
@@ -107,18 +115,24 @@ static void what_a_program_may_do_wrong(void)
     CHECK(swiftprox_ground_create_from_triangles(corners, 3, one, 1, NULL) == SWIFTPROX_ERROR_NULL_POINTER);
     CHECK(swiftprox_ground_create_from_heights(1, 4, 1, 1, corners, &none) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
     CHECK(swiftprox_ground_create_from_heights(SIZE_MAX, 4, 1, 1, corners, &none) == SWIFTPROX_ERROR_LIMIT);
-    CHECK(swiftprox_pair_ground_distance(SWIFTPROX_QUERY_KIND_CONTACT, body, identity, ground, identity, NULL, &answer) ==
+    CHECK(swiftprox_pair_ground_distance(SWIFTPROX_QUERY_KIND_CONTACT, (swiftprox_placed){body, identity},
+                                         (swiftprox_placed_ground){ground, identity}, NULL, &answer) ==
           SWIFTPROX_ERROR_INVALID_ARGUMENT);
-    CHECK(swiftprox_pair_ground_distance(SWIFTPROX_QUERY_KIND_DISTANCE, body, mirror, ground, identity, NULL, &answer) ==
+    CHECK(swiftprox_pair_ground_distance(SWIFTPROX_QUERY_KIND_DISTANCE, (swiftprox_placed){body, mirror},
+                                         (swiftprox_placed_ground){ground, identity}, NULL, &answer) ==
           SWIFTPROX_ERROR_POSE);
     CHECK(isnan(answer.answer.distance));
-    CHECK(swiftprox_pair_ground_contacts(body, identity, ground, mirror, NULL, NULL, 0, NULL, 0, &count) == SWIFTPROX_ERROR_POSE);
-    CHECK(swiftprox_pair_ground_contacts(body, identity, ground, identity, NULL, NULL, 1, NULL, 0, &count) ==
+    CHECK(swiftprox_pair_ground_contacts((swiftprox_placed){body, identity}, (swiftprox_placed_ground){ground, mirror}, NULL,
+                                         (swiftprox_ground_room){NULL, 0, NULL, 0}, &count) == SWIFTPROX_ERROR_POSE);
+    CHECK(swiftprox_pair_ground_contacts((swiftprox_placed){body, identity}, (swiftprox_placed_ground){ground, identity}, NULL,
+                                         (swiftprox_ground_room){NULL, 1, NULL, 0}, &count) ==
           SWIFTPROX_ERROR_NULL_POINTER);
-    CHECK(swiftprox_pair_ground_contacts(body, identity, NULL, identity, NULL, NULL, 0, NULL, 0, &count) ==
+    CHECK(swiftprox_pair_ground_contacts((swiftprox_placed){body, identity}, (swiftprox_placed_ground){NULL, identity}, NULL,
+                                         (swiftprox_ground_room){NULL, 0, NULL, 0}, &count) ==
           SWIFTPROX_ERROR_NULL_POINTER);
     config.max_distance = -1;
-    CHECK(swiftprox_pair_ground_contacts(body, identity, ground, identity, &config, NULL, 0, NULL, 0, &count) ==
+    CHECK(swiftprox_pair_ground_contacts((swiftprox_placed){body, identity}, (swiftprox_placed_ground){ground, identity},
+                                         &config, (swiftprox_ground_room){NULL, 0, NULL, 0}, &count) ==
           SWIFTPROX_ERROR_INVALID_ARGUMENT);
     swiftprox_ground_release(ground);
     swiftprox_ground_release(NULL);
@@ -136,10 +150,10 @@ static void down_and_solid(swiftprox_scene *scene, swiftprox_object_id id, const
     set.ids = &id;
     set.count = 1;
     set.poses = below;
-    CHECK_OK(swiftprox_scene_ground_contacts(scene, &set, ground, identity, NULL, NULL, scratch, &answer));
+    CHECK_OK(swiftprox_scene_ground_contacts(scene, &set, (swiftprox_placed_ground){ground, identity}, NULL, scratch, &answer));
     CHECK(answer.contact_count == 0);
     CHECK_OK(swiftprox_ground_create_solid(ground, 1, &solid));
-    CHECK_OK(swiftprox_scene_ground_contacts(scene, &set, solid, identity, NULL, NULL, scratch, &answer));
+    CHECK_OK(swiftprox_scene_ground_contacts(scene, &set, (swiftprox_placed_ground){solid, identity}, NULL, scratch, &answer));
     CHECK(answer.contact_count == 1 && answer.contacts[0].contact.manifold.normal[2] == 1);
     swiftprox_ground_release(solid);
 }
@@ -150,7 +164,7 @@ static void objects_of_a_scene(void)
     double heights[25] = {0};
     const double down[12] = {1, 0, 0, 2, 0, 1, 0, 2, 0, 0, 1, 0.375}, mirror[12] = {-1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     const swiftprox_half_space floor = {{0, 0, 2}, 0}, none = {{0, 0, 0}, 0};
-    const swiftprox_group_filter second = {1, 2};
+    swiftprox_scene_ground_config second = SWIFTPROX_SCENE_GROUND_CONFIG_DEFAULT;
     const swiftprox_shape *body = box(0.5, 0.5, 0.5);
     const swiftprox_ground *ground = NULL;
     swiftprox_scene *scene = NULL;
@@ -158,7 +172,7 @@ static void objects_of_a_scene(void)
     swiftprox_object_id ids[4], stale = SWIFTPROX_OBJECT_ID_NULL;
     swiftprox_object_set set = {0};
     swiftprox_object_options options;
-    swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
+    swiftprox_scene_ground_config config = SWIFTPROX_SCENE_GROUND_CONFIG_DEFAULT;
     swiftprox_scene_ground_answer answer;
     int i;
     CHECK_OK(swiftprox_ground_create_from_heights(5, 5, 1, 1, heights, &ground));
@@ -175,51 +189,54 @@ static void objects_of_a_scene(void)
         CHECK_OK(swiftprox_scene_add_object(scene, &body, 1, &options, &ids[i]));
     }
     config.reduces = 1;
-    CHECK_OK(swiftprox_scene_ground_contacts(scene, NULL, ground, identity, &config, NULL, scratch, &answer));
+    second.mask = 2;
+    CHECK_OK(swiftprox_scene_ground_contacts(scene, NULL, (swiftprox_placed_ground){ground, identity}, &config, scratch, &answer));
     CHECK(answer.contact_count == 2 && answer.point_count == 8 && answer.contacts[1].contact.first_point == 4);
     CHECK(answer.contacts[0].object.bits == ids[0].bits && answer.contacts[0].user_data == 10 && answer.contacts[0].piece == 0);
     CHECK(answer.contacts[1].contact.manifold.normal[2] == 1 && answer.contacts[1].contact.triangle < 32);
     CHECK(answer.points[7].gap_lower <= -0.125 && -0.125 <= answer.points[7].gap_upper);
-    CHECK_OK(swiftprox_scene_half_space_contacts(scene, NULL, &floor, &config, NULL, scratch, &answer));
+    CHECK_OK(swiftprox_scene_half_space_contacts(scene, NULL, &floor, &config, scratch, &answer));
     CHECK(answer.contact_count == 2 && answer.point_count == 8 && answer.contacts[0].contact.triangle == UINT32_MAX);
     CHECK(answer.points[0].gap_lower <= -0.125 && -0.125 <= answer.points[0].gap_upper);
     down_and_solid(scene, ids[0], ground, scratch);
-    CHECK_OK(swiftprox_scene_ground_contacts(scene, NULL, ground, identity, NULL, &second, scratch, &answer));
+    CHECK_OK(swiftprox_scene_ground_contacts(scene, NULL, (swiftprox_placed_ground){ground, identity}, &second, scratch,
+                                             &answer));
     CHECK(answer.contact_count == 1 && answer.contacts[0].object.bits == ids[1].bits);
     set.ids = ids + 2;
     set.count = 1;
-    CHECK_OK(swiftprox_scene_ground_contacts(scene, &set, ground, identity, NULL, NULL, scratch, &answer));
+    CHECK_OK(swiftprox_scene_ground_contacts(scene, &set, (swiftprox_placed_ground){ground, identity}, NULL, scratch, &answer));
     CHECK(answer.contact_count == 0 && answer.contacts == NULL && answer.points == NULL);
     set.poses = down;
-    CHECK_OK(swiftprox_scene_ground_contacts(scene, &set, ground, identity, NULL, NULL, scratch, &answer));
+    CHECK_OK(swiftprox_scene_ground_contacts(scene, &set, (swiftprox_placed_ground){ground, identity}, NULL, scratch, &answer));
     CHECK(answer.contact_count == 1 && answer.contacts[0].user_data == 12);
 
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene",
-                swiftprox_scene_ground_contacts(NULL, NULL, ground, identity, NULL, NULL, scratch, &answer));
+                swiftprox_scene_ground_contacts(NULL, NULL, (swiftprox_placed_ground){ground, identity}, NULL, scratch, &answer));
     CHECK(answer.contact_count == 0 && answer.point_count == 0 && answer.contacts == NULL);
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ground",
-                swiftprox_scene_ground_contacts(scene, NULL, NULL, identity, NULL, NULL, scratch, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ground_pose",
-                swiftprox_scene_ground_contacts(scene, NULL, ground, NULL, NULL, NULL, scratch, &answer));
+                swiftprox_scene_ground_contacts(scene, NULL, (swiftprox_placed_ground){NULL, identity}, NULL, scratch, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ground.pose",
+                swiftprox_scene_ground_contacts(scene, NULL, (swiftprox_placed_ground){ground, NULL}, NULL, scratch, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scratch",
-                swiftprox_scene_ground_contacts(scene, NULL, ground, identity, NULL, NULL, NULL, &answer));
+                swiftprox_scene_ground_contacts(scene, NULL, (swiftprox_placed_ground){ground, identity}, NULL, NULL, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer",
-                swiftprox_scene_ground_contacts(scene, NULL, ground, identity, NULL, NULL, scratch, NULL));
+                swiftprox_scene_ground_contacts(scene, NULL, (swiftprox_placed_ground){ground, identity}, NULL, scratch, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "",
-                swiftprox_scene_ground_contacts(scene, NULL, ground, mirror, NULL, NULL, scratch, &answer));
+                swiftprox_scene_ground_contacts(scene, NULL, (swiftprox_placed_ground){ground, mirror}, NULL, scratch, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "half_space",
-                swiftprox_scene_half_space_contacts(scene, NULL, NULL, NULL, NULL, scratch, &answer));
+                swiftprox_scene_half_space_contacts(scene, NULL, NULL, NULL, scratch, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "normal",
-                swiftprox_scene_half_space_contacts(scene, NULL, &none, NULL, NULL, scratch, &answer));
+                swiftprox_scene_half_space_contacts(scene, NULL, &none, NULL, scratch, &answer));
     set.poses = mirror;
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "object 0 of 1",
-                swiftprox_scene_ground_contacts(scene, &set, ground, identity, NULL, NULL, scratch, &answer));
+                swiftprox_scene_ground_contacts(scene, &set, (swiftprox_placed_ground){ground, identity}, NULL, scratch, &answer));
     set.ids = &stale;
     CHECK_FAILS(SWIFTPROX_ERROR_HANDLE, "null",
-                swiftprox_scene_half_space_contacts(scene, &set, &floor, NULL, NULL, scratch, &answer));
+                swiftprox_scene_half_space_contacts(scene, &set, &floor, NULL, scratch, &answer));
     config.max_distance = NAN;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "max_distance",
-                swiftprox_scene_ground_contacts(scene, NULL, ground, identity, &config, NULL, scratch, &answer));
+                swiftprox_scene_ground_contacts(scene, NULL, (swiftprox_placed_ground){ground, identity}, &config, scratch,
+                                                &answer));
     swiftprox_scratch_destroy(scratch);
     CHECK_OK(swiftprox_scene_destroy(scene));
     swiftprox_ground_release(ground);

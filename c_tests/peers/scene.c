@@ -103,8 +103,8 @@ static swiftprox_status create_prism(size_t sides, struct body *body)
         *next++ = (uint32_t)(sides + i);
         valences[2 + i] = 4;
     }
-    swiftprox_status status = swiftprox_shape_create_from_mesh(body->points, body->point_count, indices, valences,
-                                                       sides + 2, NULL, &body->shape);
+    const swiftprox_mesh mesh = {body->points, body->point_count, indices, valences, sides + 2};
+    swiftprox_status status = swiftprox_shape_create_from_mesh(mesh, NULL, &body->shape);
     free(indices);
     free(valences);
     return status;

@@ -36,7 +36,7 @@ static swiftprox_status mesh(const double *vertices, size_t vertex_count, const 
     /* Not null before: a failure must make it so. */
     const swiftprox_shape *shape = (const swiftprox_shape *)(void *)vertices;
     const swiftprox_status status =
-        swiftprox_shape_create_from_mesh(vertices, vertex_count, indices, valences, face_count, options, &shape);
+        swiftprox_shape_create_from_mesh((swiftprox_mesh){vertices, vertex_count, indices, valences, face_count}, options, &shape);
     CHECK((status == SWIFTPROX_OK) == (shape != NULL));
     swiftprox_shape_release(shape);
     return status;
@@ -46,7 +46,7 @@ static swiftprox_status add_tetrahedron(swiftprox_scene *scene, const swiftprox_
                                         swiftprox_object_id *id)
 {
     const swiftprox_shape *shape = NULL;
-    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
+    CHECK_OK(swiftprox_shape_create_from_mesh((swiftprox_mesh){CORNERS, 4, FACES, NULL, 4}, NULL, &shape));
     const swiftprox_status status = swiftprox_scene_add_object(scene, &shape, 1, options, id);
     swiftprox_shape_release(shape);
     return status;
@@ -65,11 +65,11 @@ static void meshes(void)
 
     CHECK_OK(mesh(CORNERS, 4, FACES, NULL, 4, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "vertices",
-                swiftprox_shape_create_from_mesh(NULL, 4, FACES, NULL, 4, NULL, &shape));
+                swiftprox_shape_create_from_mesh((swiftprox_mesh){NULL, 4, FACES, NULL, 4}, NULL, &shape));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "indices",
-                swiftprox_shape_create_from_mesh(CORNERS, 4, NULL, NULL, 4, NULL, &shape));
+                swiftprox_shape_create_from_mesh((swiftprox_mesh){CORNERS, 4, NULL, NULL, 4}, NULL, &shape));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "shape",
-                swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, NULL));
+                swiftprox_shape_create_from_mesh((swiftprox_mesh){CORNERS, 4, FACES, NULL, 4}, NULL, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "vertex_count", mesh(CORNERS, SIZE_MAX, FACES, NULL, 4, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "face_count", mesh(CORNERS, 4, FACES, NULL, (size_t)-4, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "indices", mesh(CORNERS, 4, FACES, NULL, UINT32_MAX, NULL));
@@ -124,7 +124,7 @@ static void tolerances(void)
 
 static swiftprox_status decompose(size_t faces, double tolerance, swiftprox_decomposition *found)
 {
-    return swiftprox_mesh_decompose(CORNERS, 4, FACES, NULL, faces, tolerance, NULL, NULL, found);
+    return swiftprox_mesh_decompose((swiftprox_mesh){CORNERS, 4, FACES, NULL, faces}, tolerance, NULL, NULL, found);
 }
 
 /* What is no surface, no room and no tolerance; the counts are 0 then, and the arrays as they were. */
@@ -149,12 +149,13 @@ static void decompositions(void)
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "decomposition->corners", decompose(4, 0, &none));
     CHECK(none.triangle_count == 0);
     CHECK_FAILS(SWIFTPROX_ERROR_MESH, "same direction",
-                swiftprox_mesh_decompose(CORNERS, 4, twice, NULL, 2, 0, NULL, NULL, &found));
+                swiftprox_mesh_decompose((swiftprox_mesh){CORNERS, 4, twice, NULL, 2}, 0, NULL, NULL, &found));
     CHECK_FAILS(SWIFTPROX_ERROR_MESH, "no face of the mesh has an area",
-                swiftprox_mesh_decompose(CORNERS, 4, same, NULL, 2, 0, NULL, NULL, &found));
-    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "face 0", swiftprox_mesh_decompose(CORNERS, 4, beyond, NULL, 1, 0, NULL, NULL, &found));
+                swiftprox_mesh_decompose((swiftprox_mesh){CORNERS, 4, same, NULL, 2}, 0, NULL, NULL, &found));
+    CHECK_FAILS(SWIFTPROX_ERROR_MESH, "face 0", swiftprox_mesh_decompose((swiftprox_mesh){CORNERS, 4, beyond, NULL, 1}, 0, NULL,
+                                                                         NULL, &found));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "vertices",
-                swiftprox_mesh_decompose(NULL, 4, FACES, NULL, 4, 0, NULL, NULL, &found));
+                swiftprox_mesh_decompose((swiftprox_mesh){NULL, 4, FACES, NULL, 4}, 0, NULL, NULL, &found));
 }
 
 static void shape_options(void)
@@ -258,7 +259,7 @@ static void pairs(void)
     size_t i;
     int entry;
 
-    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
+    CHECK_OK(swiftprox_shape_create_from_mesh((swiftprox_mesh){CORNERS, 4, FACES, NULL, 4}, NULL, &shape));
     CHECK_FAILS(
         SWIFTPROX_ERROR_NULL_POINTER, "object1.shape",
         swiftprox_pair_distance((swiftprox_placed){NULL, HERE}, (swiftprox_placed){shape, THERE}, &cache, NULL, &answer));
@@ -367,7 +368,7 @@ static void pairs(void)
         swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
         const swiftprox_shape *extreme = NULL;
         options.scale = i == 0 ? 1e-300 : 1e300;
-        CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, &options, &extreme));
+        CHECK_OK(swiftprox_shape_create_from_mesh((swiftprox_mesh){CORNERS, 4, FACES, NULL, 4}, &options, &extreme));
         CHECK_OK(swiftprox_pair_distance((swiftprox_placed){extreme, HERE}, (swiftprox_placed){shape, THERE}, &cache, NULL,
                                          &answer));
         CHECK_OK(swiftprox_pair_verify((swiftprox_placed){extreme, HERE}, (swiftprox_placed){shape, THERE}, &answer));
@@ -484,7 +485,7 @@ static void grounds(void)
     swiftprox_manifold_point point;
     swiftprox_manifold_config config;
     swiftprox_pair_config distance;
-    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
+    CHECK_OK(swiftprox_shape_create_from_mesh((swiftprox_mesh){CORNERS, 4, FACES, NULL, 4}, NULL, &shape));
     CHECK_OK(swiftprox_ground_create_from_triangles(CORNERS, 4, one, 1, &ground));
 
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ground", swiftprox_ground_create_from_triangles(CORNERS, 4, one, 1, NULL));
@@ -517,8 +518,9 @@ static void grounds(void)
     CHECK(swiftprox_ground_retain(NULL) == NULL);
     swiftprox_ground_release(NULL);
 
-#define DISTANCE(kind, shape, pose, ground, place, config, answer) \
-    swiftprox_pair_ground_distance((swiftprox_query_kind)(kind), shape, pose, ground, place, config, answer)
+#define DISTANCE(kind, shape, pose, ground, place, config, answer)                                     \
+    swiftprox_pair_ground_distance((swiftprox_query_kind)(kind), (swiftprox_placed){shape, pose},       \
+                                   (swiftprox_placed_ground){ground, place}, config, answer)
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "kind is 77", DISTANCE(77, shape, HERE, ground, HERE, NULL, &answer));
     CHECK(answer.answer.outcome == SWIFTPROX_OUTCOME_NONE && isnan(answer.answer.distance));
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "distance or intersection",
@@ -529,7 +531,7 @@ static void grounds(void)
                 DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, NULL, ground, HERE, NULL, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ground",
                 DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, HERE, NULL, HERE, NULL, &answer));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ground_pose",
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ground.pose",
                 DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, HERE, ground, NULL, NULL, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer",
                 DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, HERE, ground, HERE, NULL, NULL));
@@ -546,17 +548,20 @@ static void grounds(void)
                 DISTANCE(SWIFTPROX_QUERY_KIND_DISTANCE, shape, HERE, ground, HERE, &distance, &answer));
 #undef DISTANCE
 
-#define CONTACTS(config, contacts, contact_room, points, point_room) \
-    swiftprox_pair_ground_contacts(shape, HERE, ground, HERE, config, contacts, contact_room, points, point_room, &count)
+#define CONTACTS(config, contacts, contact_room, points, point_room)                                                    \
+    swiftprox_pair_ground_contacts((swiftprox_placed){shape, HERE}, (swiftprox_placed_ground){ground, HERE}, config, \
+                                   (swiftprox_ground_room){contacts, contact_room, points, point_room}, &count)
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "contacts", CONTACTS(NULL, NULL, 1, &point, 1));
     CHECK(count.contact_count == 0 && count.point_count == 0);
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "points", CONTACTS(NULL, &contact, 1, NULL, 1));
     CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "contacts", CONTACTS(NULL, &contact, SIZE_MAX, &point, 1));
     CHECK_FAILS(SWIFTPROX_ERROR_LIMIT, "points", CONTACTS(NULL, &contact, 1, &point, SIZE_MAX));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "count",
-                swiftprox_pair_ground_contacts(shape, HERE, ground, HERE, NULL, NULL, 0, NULL, 0, NULL));
+                swiftprox_pair_ground_contacts((swiftprox_placed){shape, HERE}, (swiftprox_placed_ground){ground, HERE}, NULL,
+                                               (swiftprox_ground_room){NULL, 0, NULL, 0}, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "entry 3",
-                swiftprox_pair_ground_contacts(shape, with(3, NAN), ground, HERE, NULL, NULL, 0, NULL, 0, &count));
+                swiftprox_pair_ground_contacts((swiftprox_placed){shape, with(3, NAN)}, (swiftprox_placed_ground){ground, HERE},
+                                               NULL, (swiftprox_ground_room){NULL, 0, NULL, 0}, &count));
     config = (swiftprox_manifold_config)SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
     config.max_distance = -1;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "max_distance", CONTACTS(&config, &contact, 1, &point, 1));
@@ -653,7 +658,7 @@ static void scenes(void)
     still_usable(scene, __LINE__);
 
     /* Adding. */
-    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
+    CHECK_OK(swiftprox_shape_create_from_mesh((swiftprox_mesh){CORNERS, 4, FACES, NULL, 4}, NULL, &shape));
     pieces[0] = shape;
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "id", swiftprox_scene_add_object(scene, pieces, 1, NULL, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "pieces[0]", swiftprox_scene_add_object(scene, &pieces[1], 1, NULL, &id));

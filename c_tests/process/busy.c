@@ -159,7 +159,7 @@ static void test_progress(void)
     const swiftprox_shape *made;
     swiftprox_object_id id;
     options.progress = on_progress;
-    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, &options, &made));
+    CHECK_OK(swiftprox_shape_create_from_mesh((swiftprox_mesh){CORNERS, 4, FACES, NULL, 4}, &options, &made));
     CHECK_OK(swiftprox_scene_add_object(scene, &made, 1, NULL, &id));
     swiftprox_shape_release(made);
 }
@@ -170,7 +170,7 @@ int main(int argc, char **argv)
     if (argc > 1) {
         rounds = atoi(argv[1]);
     }
-    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 4, FACES, NULL, 4, NULL, &shape));
+    CHECK_OK(swiftprox_shape_create_from_mesh((swiftprox_mesh){CORNERS, 4, FACES, NULL, 4}, NULL, &shape));
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     for (i = 0; i < OBJECTS; ++i) {
         const swiftprox_shape *piece = shape;

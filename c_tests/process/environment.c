@@ -483,7 +483,7 @@ static void ask_a_scene(void)
         CALL_OK(swiftprox_scene_add_object(scene, &piece, 1, &options, &ids[i]));
     }
     const swiftprox_shape *tetrahedron;
-    CALL_OK(swiftprox_shape_create_from_mesh(TETRAHEDRON, 4, TETRAHEDRON_FACES, NULL, 4, NULL, &tetrahedron));
+    CALL_OK(swiftprox_shape_create_from_mesh((swiftprox_mesh){TETRAHEDRON, 4, TETRAHEDRON_FACES, NULL, 4}, NULL, &tetrahedron));
     CALL_OK(swiftprox_scene_add_object(scene, &tetrahedron, 1, NULL, &ids[4]));
     swiftprox_shape_release(tetrahedron);
     for (int i = 0; i < POSES; ++i) {
@@ -521,14 +521,15 @@ static void ask_ground(const swiftprox_shape *shape, const double *pose, const s
     swiftprox_manifold_point points[MOST_POINTS];
     swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
     for (size_t i = 0; i < sizeof kinds / sizeof kinds[0]; ++i) {
-        CALL_OK(swiftprox_pair_ground_distance(kinds[i], shape, pose, ground, poses[0], NULL, &answer));
+        CALL_OK(swiftprox_pair_ground_distance(kinds[i], (swiftprox_placed){shape, pose},
+                                               (swiftprox_placed_ground){ground, poses[0]}, NULL, &answer));
         tell_answer(&answer.answer);
         tell(&answer.triangle, sizeof answer.triangle);
     }
     config.max_distance = max_distance;
     config.reduces = 1;
-    CALL_OK(swiftprox_pair_ground_contacts(shape, pose, ground, poses[0], &config, contacts, MOST_CONTACTS, points, MOST_POINTS,
-                                           &count));
+    CALL_OK(swiftprox_pair_ground_contacts((swiftprox_placed){shape, pose}, (swiftprox_placed_ground){ground, poses[0]}, &config,
+                                           (swiftprox_ground_room){contacts, MOST_CONTACTS, points, MOST_POINTS}, &count));
     tell(&count, sizeof count);
     for (size_t i = 0; i < count.contact_count && i < MOST_CONTACTS; ++i) {
         tell(&contacts[i].manifold, sizeof contacts[i].manifold);

@@ -73,7 +73,7 @@ static swiftprox_status from_points(void)
 
 static swiftprox_status from_mesh(void)
 {
-    return swiftprox_shape_create_from_mesh(vertices, VERTICES, corners, NULL, triangle_count, NULL, &made);
+    return swiftprox_shape_create_from_mesh((swiftprox_mesh){vertices, VERTICES, corners, NULL, triangle_count}, NULL, &made);
 }
 
 static swiftprox_status from_levels(void)

@@ -114,8 +114,9 @@ static void ask_about_a_set(worker *worker)
     REQUIRE(swiftprox_motion_between(poses, poses + 24, NULL, 4, &motion, NULL) == SWIFTPROX_OK);
     REQUIRE(swiftprox_scratch_create(&scratch) == SWIFTPROX_OK);
     REQUIRE(swiftprox_scene_least_distance(scene, &set, NULL, 100, scratch, &least) == SWIFTPROX_OK);
-    REQUIRE(swiftprox_scene_first_hit(scene, &set, poses, 3, SWIFTPROX_POSE_ORDER_IN_ORDER, 0, scratch, &hit) == SWIFTPROX_OK);
-    REQUIRE(swiftprox_scene_cast(scene, &set, &motion, 1, NULL, scratch, &cast) == SWIFTPROX_OK);
+    REQUIRE(swiftprox_scene_first_hit(scene, &set, (swiftprox_path){poses, 3, SWIFTPROX_POSE_ORDER_IN_ORDER}, 0, scratch, &hit) ==
+            SWIFTPROX_OK);
+    REQUIRE(swiftprox_scene_cast(scene, &set, (swiftprox_motions){&motion, 1, 1}, NULL, scratch, &cast) == SWIFTPROX_OK);
     REQUIRE(swiftprox_scene_cast_ray(scene, &ray, SWIFTPROX_RAY_HITS_ALL, UINT32_MAX, scratch, &met) == SWIFTPROX_OK);
     REQUIRE(met.count == SHAPES && hit.time == 2 && cast.outcome == SWIFTPROX_CAST_OUTCOME_HIT);
     const double said[SAID] = {least.lower, least.upper, (double)hit.time, cast.time_lower, cast.time_upper, (double)met.count,

@@ -28,7 +28,7 @@ static swiftprox_object_id add_cube(swiftprox_scene *scene, double x)
     swiftprox_object_id id;
     options.user_data = (uint64_t)(10 * x);
     place(options.pose, x, 0, 0);
-    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 8, FACES, VALENCES, 6, NULL, &cube));
+    CHECK_OK(swiftprox_shape_create_from_mesh((swiftprox_mesh){CORNERS, 8, FACES, VALENCES, 6}, NULL, &cube));
     CHECK_OK(swiftprox_scene_add_object(scene, &cube, 1, &options, &id));
     swiftprox_shape_release(cube);
     return id;
@@ -334,7 +334,7 @@ static void pieces(void)
     CHECK(swiftprox_scene_set_poses(scene, moved, poses, 2) == SWIFTPROX_ERROR_POSE);
     CHECK(strstr(swiftprox_library_last_error_message(), "pose 1") != NULL);
 
-    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 8, FACES, VALENCES, 6, NULL, &shape));
+    CHECK_OK(swiftprox_shape_create_from_mesh((swiftprox_mesh){CORNERS, 8, FACES, VALENCES, 6}, NULL, &shape));
     const swiftprox_shape *two[] = {shape, shape};
     CHECK_OK(swiftprox_scene_add_object(scene, two, 2, NULL, &id));
     swiftprox_shape_release(shape);
@@ -374,7 +374,7 @@ static void near_objects(void)
     CHECK(answer.count == 1 && is(answer.pairs[0].object2, b) && answer.intersecting);
     CHECK(swiftprox_scene_query_object(scene, a, (swiftprox_query_kind)9, NULL, &answer) == SWIFTPROX_ERROR_INVALID_ARGUMENT);
 
-    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 8, FACES, VALENCES, 6, NULL, &shape));
+    CHECK_OK(swiftprox_shape_create_from_mesh((swiftprox_mesh){CORNERS, 8, FACES, VALENCES, 6}, NULL, &shape));
     place(pose, 3.5, 0, 0);
     CHECK_OK(
         swiftprox_scene_query_placed(scene, &(swiftprox_placed){shape, pose}, 1, SWIFTPROX_QUERY_KIND_CONTACT, NULL, &answer));
@@ -447,7 +447,7 @@ static void workers(void)
     options.finish_task = finish;
     options.task_user = &waiting;
     CHECK_OK(swiftprox_scene_create(&options, &scenes[2]));
-    CHECK_OK(swiftprox_shape_create_from_mesh(CORNERS, 8, FACES, VALENCES, 6, NULL, &shape));
+    CHECK_OK(swiftprox_shape_create_from_mesh((swiftprox_mesh){CORNERS, 8, FACES, VALENCES, 6}, NULL, &shape));
     for (int s = 0; s < 3; ++s) {
         for (int i = 0; i < 80; ++i) {
             place(where.pose, 0.25 * i, 0, 0);

@@ -62,9 +62,9 @@ static void answers_that_are_known(swiftprox_scratch *scratch)
         place(poses + 24 * i, i == 2 ? 10.25 : -5, 0, 0);
         place(poses + 24 * i + 12, -5, 2, 0);
     }
-    CHECK_OK(swiftprox_scene_first_hit(scene, &set, poses, 4, SWIFTPROX_POSE_ORDER_IN_ORDER, 0, scratch, &hit));
+    CHECK_OK(swiftprox_scene_first_hit(scene, &set, (swiftprox_path){poses, 4, SWIFTPROX_POSE_ORDER_IN_ORDER}, 0, scratch, &hit));
     CHECK(hit.time == 2 && hit.tried == 3 && hit.pair.object2.bits == posts[0].bits);
-    CHECK_OK(swiftprox_scene_first_hit(scene, &set, poses, 2, SWIFTPROX_POSE_ORDER_BISECTION, 0, scratch, &hit));
+    CHECK_OK(swiftprox_scene_first_hit(scene, &set, (swiftprox_path){poses, 2, SWIFTPROX_POSE_ORDER_BISECTION}, 0, scratch, &hit));
     CHECK(hit.time == 2 && hit.tried == 2 && hit.pair.object1.bits == 0);
     CHECK_OK(swiftprox_scene_cast_ray(scene, &ray, SWIFTPROX_RAY_HITS_ALL, UINT32_MAX, scratch, &met));
     CHECK(met.count == 2 && met.hits[0].object.bits == arm[1].bits && met.hits[1].object.bits == arm[0].bits);
@@ -78,10 +78,10 @@ static void answers_that_are_known(swiftprox_scratch *scratch)
     CHECK_OK(swiftprox_motion_between(start, end, NULL, 3, &motions[1], NULL));
     motions[2] = motions[0];
     set.count = 1;
-    CHECK_OK(swiftprox_scene_cast(scene, &set, motions, 1, NULL, scratch, &cast));
+    CHECK_OK(swiftprox_scene_cast(scene, &set, (swiftprox_motions){motions, 1, 1}, NULL, scratch, &cast));
     CHECK(cast.outcome == SWIFTPROX_CAST_OUTCOME_HIT && cast.pair.object2.bits == posts[0].bits);
     CHECK(cast.time_lower <= 0.9 && 0.9 <= cast.time_upper && cast.time_upper - cast.time_lower < 2e-9);
-    CHECK_OK(swiftprox_scene_cast_batch(scene, &set, motions, 3, NULL, scratch, edges, 3));
+    CHECK_OK(swiftprox_scene_cast(scene, &set, (swiftprox_motions){motions, 3, 3}, NULL, scratch, edges));
     CHECK(edges[0].outcome == SWIFTPROX_CAST_OUTCOME_HIT && edges[2].outcome == SWIFTPROX_CAST_OUTCOME_HIT);
     CHECK(edges[1].outcome == SWIFTPROX_CAST_OUTCOME_FREE && edges[1].time_lower == 1 && isnan(edges[1].time_upper));
 }
@@ -110,9 +110,9 @@ static void mistakes(swiftprox_scratch *scratch)
     none.ids = &null_id;
     CHECK_FAILS(SWIFTPROX_ERROR_HANDLE, "null", swiftprox_scene_least_distance(scene, &none, NULL, 1, scratch, &least));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "poses",
-                swiftprox_scene_first_hit(scene, &set, NULL, 1, SWIFTPROX_POSE_ORDER_IN_ORDER, 0, scratch, &hit));
+                swiftprox_scene_first_hit(scene, &set, (swiftprox_path){NULL, 1, SWIFTPROX_POSE_ORDER_IN_ORDER}, 0, scratch, &hit));
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "swiftprox_pose_order",
-                swiftprox_scene_first_hit(scene, &set, pose, 1, (swiftprox_pose_order)7, 0, scratch, &hit));
+                swiftprox_scene_first_hit(scene, &set, (swiftprox_path){pose, 1, (swiftprox_pose_order)7}, 0, scratch, &hit));
     CHECK(hit.time == 0 && hit.tried == 0);
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scratch",
                 swiftprox_scene_cast_ray(scene, &ray, SWIFTPROX_RAY_HITS_ALL, 1, NULL, &met));
@@ -121,13 +121,16 @@ static void mistakes(swiftprox_scratch *scratch)
     CHECK(met.count == 0 && met.hits == NULL);
     memset(&motion, 0, sizeof motion);
     motion.kind = (swiftprox_motion_kind)9;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "motions[0]", swiftprox_scene_cast(scene, &set, &motion, 1, NULL, scratch, &cast));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "motions[0]", swiftprox_scene_cast(scene, &set,
+                                                                                     (swiftprox_motions){&motion, 1, 1}, NULL,
+                                                                                     scratch, &cast));
     CHECK(cast.outcome == SWIFTPROX_CAST_OUTCOME_NONE && isnan(cast.time_lower));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "motions", swiftprox_scene_cast(scene, &set, NULL, 1, NULL, scratch, &cast));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "motions", swiftprox_scene_cast(scene, &set, (swiftprox_motions){NULL, 1, 1}, NULL,
+                                                                              scratch, &cast));
     motion.kind = SWIFTPROX_MOTION_KIND_FIXED;
     memcpy(motion.start, pose, sizeof pose);
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answers",
-                swiftprox_scene_cast_batch(scene, &set, &motion, 1, NULL, scratch, NULL, 1));
+                swiftprox_scene_cast(scene, &set, (swiftprox_motions){&motion, 1, 1}, NULL, scratch, NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_prepare(NULL));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scratch", swiftprox_scratch_create(NULL));
     swiftprox_scratch_destroy(NULL);

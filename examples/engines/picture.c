@@ -138,7 +138,7 @@ static void draw_body(FILE *file, const struct view *view, const struct drawn *b
         for (size_t i = 0; i < body->face_count; i++) {
             swiftprox_face face;
             uint32_t corners[SCENE_MOST_POINTS];
-            demand(swiftprox_shape_get_face(body->shape, i, &face, corners, SCENE_MOST_POINTS, NULL, 0));
+            demand(swiftprox_shape_get_face(body->shape, i, (swiftprox_face_room){corners, SCENE_MOST_POINTS, NULL, 0}, &face));
             if (shade_of(body, &face) != shade) {
                 continue;
             }

@@ -83,8 +83,8 @@ static double first_hit(const struct arm_scene *world, const double *from, const
     }
     const swiftprox_object_set set = {.ids = world->links, .count = world->arm.joint_count, .among = 1};
     swiftprox_first_hit hit;
-    cell_demand(swiftprox_scene_first_hit(world->scene, &set, poses, STATES, SWIFTPROX_POSE_ORDER_BISECTION, world->cell.max_distance,
-                                          world->scratch, &hit));
+    cell_demand(swiftprox_scene_first_hit(world->scene, &set, (swiftprox_path){poses, STATES, SWIFTPROX_POSE_ORDER_BISECTION},
+                                          world->cell.max_distance, world->scratch, &hit));
     return (double)hit.time / STATES;
 }
 
@@ -99,7 +99,8 @@ static double free_up_to(const struct arm_scene *world, const double *from, cons
     config.max_distance = world->cell.max_distance;
     config.time_tolerance = 1e-6;
     swiftprox_scene_cast_answer answer;
-    cell_demand(swiftprox_scene_cast(world->scene, &set, motions, world->arm.joint_count, &config, world->scratch, &answer));
+    cell_demand(swiftprox_scene_cast(world->scene, &set, (swiftprox_motions){motions, world->arm.joint_count, 1}, &config,
+                                     world->scratch, &answer));
     return answer.time_lower;
 }
 

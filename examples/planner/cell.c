@@ -112,8 +112,8 @@ static swiftprox_cast_answer cast(struct cell *cell, struct cell_pair *pair, con
 {
     const swiftprox_motion *const second = pair->is_obstacle ? &cell->places[pair->second] : &motions[pair->second];
     swiftprox_cast_answer answer;
-    cell_demand(swiftprox_pair_cast(cell->bodies[pair->first], &motions[pair->first], second_shape(cell, pair), second,
-                                    &pair->cache, config, &answer));
+    cell_demand(swiftprox_pair_cast((swiftprox_moving){cell->bodies[pair->first], &motions[pair->first]},
+                                    (swiftprox_moving){second_shape(cell, pair), second}, &pair->cache, config, &answer));
     return answer;
 }
 
@@ -169,8 +169,8 @@ bool cell_prove_free(struct cell *cell, const swiftprox_motion *motions)
         const swiftprox_motion *const second = pair->is_obstacle ? &cell->places[pair->second] : &motions[pair->second];
         const swiftprox_cast_answer answer = cast(cell, pair, motions, &config);
         if (answer.outcome != SWIFTPROX_CAST_OUTCOME_FREE
-            || swiftprox_cast_verify(cell->bodies[pair->first], &motions[pair->first], second_shape(cell, pair), second, &config,
-                                     &answer)
+            || swiftprox_pair_cast_verify((swiftprox_moving){cell->bodies[pair->first], &motions[pair->first]},
+                                          (swiftprox_moving){second_shape(cell, pair), second}, &config, &answer)
                    != SWIFTPROX_OK) {
             return false;
         }

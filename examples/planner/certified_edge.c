@@ -83,7 +83,8 @@ static swiftprox_clearance clearance(struct cell *cell, const swiftprox_motion *
     swiftprox_clearance least = {.lower = INFINITY, .upper = INFINITY};
     for (int i = 0; i < POSTS; i++) {
         swiftprox_clearance here;
-        cell_demand(swiftprox_pair_clearance(cell->bodies[0], motion, cell->obstacles[i], &cell->places[i], &cell->pairs[i].cache,
+        cell_demand(swiftprox_pair_clearance((swiftprox_moving){cell->bodies[0], motion},
+                                             (swiftprox_moving){cell->obstacles[i], &cell->places[i]}, &cell->pairs[i].cache,
                                              &config, &here));
         least.lower = fmin(least.lower, here.lower);
         least.upper = fmin(least.upper, here.upper);

@@ -133,9 +133,11 @@ static struct edge cast_edge(struct world *world, struct state from, struct stat
     for (int i = 0; i < OBSTACLES; i++) {
         struct obstacle *const obstacle = &world->obstacles[i];
         swiftprox_cast_answer answer;
-        demand(swiftprox_pair_cast(world->plank, &motion, obstacle->shape, &obstacle->motion, &obstacle->cache, &config, &answer));
+        demand(swiftprox_pair_cast((swiftprox_moving){world->plank, &motion},
+                                   (swiftprox_moving){obstacle->shape, &obstacle->motion}, &obstacle->cache, &config, &answer));
         if (world->verifies) {
-            demand(swiftprox_cast_verify(world->plank, &motion, obstacle->shape, &obstacle->motion, &config, &answer));
+            demand(swiftprox_pair_cast_verify((swiftprox_moving){world->plank, &motion},
+                                              (swiftprox_moving){obstacle->shape, &obstacle->motion}, &config, &answer));
         }
         if (answer.outcome == SWIFTPROX_CAST_OUTCOME_FREE) {
             edge.clearance = fmin(edge.clearance, answer.clearance);

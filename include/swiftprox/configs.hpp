@@ -170,6 +170,26 @@ struct ManifoldConfig {
     }
 };
 
+struct SceneGroundConfig {
+    double max_distance = 0;
+    bool reduces = false;
+    /** 0 means the first. */
+    std::uint32_t groups = 0;
+    /** 0 means all. */
+    std::uint32_t mask = 0;
+
+    swiftprox_scene_ground_config to_c() const noexcept
+    {
+        swiftprox_scene_ground_config c{};
+        c.struct_size = sizeof c;
+        c.max_distance = max_distance;
+        c.reduces = reduces ? 1 : 0;
+        c.groups = groups;
+        c.mask = mask;
+        return c;
+    }
+};
+
 struct CastConfig {
     double time_begin = 0;
     double time_end = 1;

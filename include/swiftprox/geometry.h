@@ -60,10 +60,23 @@ typedef struct swiftprox_face {
 } swiftprox_face;
 
 /**
- * Writes a face of a shape; `index` is from 0 to below swiftprox_shape_info.face_count. `corners` receives its corners
- * counter-clockwise seen from outside, as indices into the vertices of swiftprox_shape_copy_vertices. `labels` receives the
- * caller's polygons of the face, ascending, or the face's own number if the hull was made without polygons. Both are cut at their
- * capacity, and may be null with capacity 0. For a face of an answer use swiftprox_shape_find_face.
+ * Room for what swiftprox_shape_get_face finds, by value; `{NULL, 0, NULL, 0}` requests only the plane and the numbers. What does
+ * not fit is left out.
+ */
+typedef struct swiftprox_face_room {
+  /** Receives the corners counter-clockwise seen from outside, as indices into the vertices of swiftprox_shape_copy_vertices. */
+  uint32_t *corners;
+  /** Room of `corners`; 0 allows null. */
+  size_t corner_capacity;
+  /** Receives the caller's polygons of the face, ascending, or the face's own number if the hull was made without polygons. */
+  uint32_t *labels;
+  /** Room of `labels`; 0 allows null. */
+  size_t label_capacity;
+} swiftprox_face_room;
+
+/**
+ * Writes a face of a shape; `index` is from 0 to below swiftprox_shape_info.face_count. For a face of an answer use
+ * swiftprox_shape_find_face.
  *
  * On failure `*face` is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such face.
  *
@@ -72,11 +85,8 @@ typedef struct swiftprox_face {
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_get_face(const struct swiftprox_shape *shape,
                                           size_t index,
-                                          struct swiftprox_face *face,
-                                          uint32_t *corners,
-                                          size_t corner_capacity,
-                                          uint32_t *labels,
-                                          size_t label_capacity);
+                                          struct swiftprox_face_room room,
+                                          struct swiftprox_face *face);
 
 /**
  * Finds the index, for swiftprox_shape_get_face, of the first face that contains the caller's polygon `label`. Face ids of answers
@@ -190,25 +200,21 @@ typedef struct swiftprox_decomposition {
  * Make a shape of each piece with swiftprox_shape_create_from_mesh: same vertices, its triangles, no valences,
  * input = SWIFTPROX_INPUT_PATCH. Pass all shapes to swiftprox_scene_add_object.
  *
- * The mesh is as in swiftprox_shape_create_from_mesh, but its faces must only be nearly flat. `tolerance` is relative to the
- * bounding-box diagonal. Points that close to a plane count as on it, and pieces may exceed the surface by about as much. 0 is
+ * The mesh is as in swiftprox_shape_create_from_mesh, but its faces must only be nearly flat. `convexity_tolerance` is relative to
+ * the bounding-box diagonal. Points that close to a plane count as on it, and pieces may exceed the surface by about as much. 0 is
  * exact, but splits flat faces with rounded vertices; swiftprox_mesh_estimate_tolerance suggests a value. Time is at worst
  * quadratic, one to two seconds for 10,000 triangles. `progress` (may be null, gets `progress_user`) reports progress and can
  * cancel.
  *
  * SWIFTPROX_ERROR_MESH: a coordinate is not finite, an index is out of range, a face crosses itself, or no face has an area. Also
- * an edge with more than two faces, or two in one direction. SWIFTPROX_ERROR_INVALID_ARGUMENT: tolerance is outside [0, 1], or
+ * an edge with more than two faces, or two in one direction. SWIFTPROX_ERROR_INVALID_ARGUMENT: the tolerance is outside [0, 1], or
  * capacity is too small. Then the arrays are unchanged, and the message gives the room needed.
  *
  * Stable.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_mesh_decompose(const double *vertices,
-                                          size_t vertex_count,
-                                          const uint32_t *indices,
-                                          const uint32_t *valences,
-                                          size_t face_count,
-                                          double tolerance,
+swiftprox_status swiftprox_mesh_decompose(struct swiftprox_mesh mesh,
+                                          double convexity_tolerance,
                                           swiftprox_progress_callback progress,
                                           void *progress_user,
                                           struct swiftprox_decomposition *decomposition);

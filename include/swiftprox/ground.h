@@ -180,6 +180,14 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_ground_get_info(const struct swiftprox_ground *ground,
                                            struct swiftprox_ground_info *info);
 
+/** A ground at a pose, an argument by value. Both pointers are only read during the call. */
+typedef struct swiftprox_placed_ground {
+  /** The ground. */
+  const struct swiftprox_ground *ground;
+  /** 12 doubles, the row-major 3x4 matrix [R|T]. */
+  const double *pose;
+} swiftprox_placed_ground;
+
 /** The answer for a body, which is object 1, and a ground. */
 typedef struct swiftprox_ground_distance {
   /**
@@ -206,10 +214,8 @@ typedef struct swiftprox_ground_distance {
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_pair_ground_distance(swiftprox_query_kind kind,
-                                                const struct swiftprox_shape *shape,
-                                                const double *pose,
-                                                const struct swiftprox_ground *ground,
-                                                const double *ground_pose,
+                                                struct swiftprox_placed object,
+                                                struct swiftprox_placed_ground ground,
                                                 const struct swiftprox_pair_config *config,
                                                 struct swiftprox_ground_distance *answer);
 
@@ -226,6 +232,18 @@ typedef struct swiftprox_ground_contact {
   size_t first_point;
 } swiftprox_ground_contact;
 
+/** Room for what swiftprox_pair_ground_contacts finds, by value. What does not fit is left out. */
+typedef struct swiftprox_ground_room {
+  /** Receives contacts, sorted by triangle. */
+  struct swiftprox_ground_contact *contacts;
+  /** Room of `contacts`; 0 allows null. */
+  size_t contact_capacity;
+  /** Receives points. Those of contact c begin at its first_point; there are manifold.point_count. */
+  struct swiftprox_manifold_point *points;
+  /** Room of `points`; 0 allows null. */
+  size_t point_capacity;
+} swiftprox_ground_room;
+
 /** Numbers of contacts with a ground and of their points. */
 typedef struct swiftprox_ground_count {
   /** Contacts found. */
@@ -235,9 +253,8 @@ typedef struct swiftprox_ground_count {
 } swiftprox_ground_count;
 
 /**
- * Finds the contacts of a shape (object 1) with a ground, up to config->max_distance apart, sorted by triangle. Each contact has
- * points and one normal out of the ground. `contacts` and `points` receive what fits, and may be null if their capacity is 0.
- * `count` receives all numbers found. Points of contact c begin at its first_point; there are manifold.point_count.
+ * Finds the contacts of a shape (object 1) with a ground, up to config->max_distance apart. Each contact has points and one normal
+ * out of the ground. `room` receives what fits, `count` all numbers found.
  *
  * A triangle acts only on bodies whose centre of mass is not behind its plane by more than the ground's thickness. The normal is
  * the direction of least distance or overlap among those that are normal to the surface at the touched point. So bodies slide
@@ -252,15 +269,10 @@ typedef struct swiftprox_ground_count {
  * Experimental.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_ground_contacts(const struct swiftprox_shape *shape,
-                                                const double *pose,
-                                                const struct swiftprox_ground *ground,
-                                                const double *ground_pose,
+swiftprox_status swiftprox_pair_ground_contacts(struct swiftprox_placed object,
+                                                struct swiftprox_placed_ground ground,
                                                 const struct swiftprox_manifold_config *config,
-                                                struct swiftprox_ground_contact *contacts,
-                                                size_t contact_capacity,
-                                                struct swiftprox_manifold_point *points,
-                                                size_t point_capacity,
+                                                struct swiftprox_ground_room room,
                                                 struct swiftprox_ground_count *count);
 
 /** @} */
@@ -270,16 +282,22 @@ swiftprox_status swiftprox_pair_ground_contacts(const struct swiftprox_shape *sh
  * @{
  */
 
-/**
- * The groups that something is in which is in no scene, and those that it is tested against, as of an object: it is asked about an
- * object if the mask of each has a bit of the other's groups.
- */
-typedef struct swiftprox_group_filter {
-  /** One bit for each group; the default is the first. */
+/** Options of a scene's contacts with a ground or a half-space. Initialise with SWIFTPROX_SCENE_GROUND_CONFIG_DEFAULT. */
+typedef struct swiftprox_scene_ground_config {
+  /** Set by SWIFTPROX_SCENE_GROUND_CONFIG_DEFAULT. */
+  size_t struct_size;
+  /** Largest gap of objects that have contacts, and of their points: from 0 (the default) to infinity. */
+  double max_distance;
+  /** Not 0: at most four points stay on each side of a body (swiftprox_pair_ground_contacts). Default: 0. */
+  int32_t reduces;
+  /** The ground's groups, one bit each. An object is tested if its mask has a bit of them. Default: 0, which means the first, 1. */
   uint32_t groups;
-  /** One bit for each group; the default is all. */
+  /** An object is tested if its groups have a bit of this. Default: 0, which means all. */
   uint32_t mask;
-} swiftprox_group_filter;
+} swiftprox_scene_ground_config;
+
+/** Begins a swiftprox_scene_ground_config: the defaults. In C and C++, as an initialiser. */
+#define SWIFTPROX_SCENE_GROUND_CONFIG_DEFAULT {sizeof(swiftprox_scene_ground_config), 0, 0, 0, 0}
 
 /** One contact of a piece, which is object 1, with a ground or a half-space. */
 typedef struct swiftprox_scene_ground_contact {
@@ -308,10 +326,7 @@ typedef struct swiftprox_scene_ground_answer {
 /**
  * Finds the contacts of objects of a scene with a ground (grounds belong to no scene), up to config->max_distance apart. Contacts
  * of each piece are as from swiftprox_pair_ground_contacts. Null set: all objects, in order of creation. Fixed objects are
- * skipped, unless set->poses gives their poses; set->among is not read.
- *
- * An object is tested if its groups have a bit of filter->mask, and its mask a bit of filter->groups. A null filter means group 1
- * and a full mask. Activation and the scene's pair filter do not apply. config->rotation_limit is for the ground's pose.
+ * skipped, unless set->poses gives their poses; set->among is not read. Activation and the scene's pair filter do not apply.
  *
  * Threads: as for swiftprox_scene_least_distance. The scratch owns the results and must not be null. Once it is large enough, only
  * integer arithmetic allocates. On failure the answer is empty. Same errors as swiftprox_pair_manifold.
@@ -321,15 +336,13 @@ typedef struct swiftprox_scene_ground_answer {
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_ground_contacts(const struct swiftprox_scene *scene,
                                                  const struct swiftprox_object_set *set,
-                                                 const struct swiftprox_ground *ground,
-                                                 const double *ground_pose,
-                                                 const struct swiftprox_manifold_config *config,
-                                                 const struct swiftprox_group_filter *filter,
+                                                 struct swiftprox_placed_ground ground,
+                                                 const struct swiftprox_scene_ground_config *config,
                                                  struct swiftprox_scratch *scratch,
                                                  struct swiftprox_scene_ground_answer *answer);
 
 /**
- * Like swiftprox_scene_ground_contacts for a half-space: one contact for each piece within max_distance, as from
+ * Like swiftprox_scene_ground_contacts for a half-space: one contact for each piece within config->max_distance, as from
  * swiftprox_pair_half_space_manifold. Its triangle is UINT32_MAX. Same errors as swiftprox_scene_ground_contacts and
  * swiftprox_pair_half_space_distance.
  *
@@ -339,8 +352,7 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_half_space_contacts(const struct swiftprox_scene *scene,
                                                      const struct swiftprox_object_set *set,
                                                      const struct swiftprox_half_space *half_space,
-                                                     const struct swiftprox_manifold_config *config,
-                                                     const struct swiftprox_group_filter *filter,
+                                                     const struct swiftprox_scene_ground_config *config,
                                                      struct swiftprox_scratch *scratch,
                                                      struct swiftprox_scene_ground_answer *answer);
 

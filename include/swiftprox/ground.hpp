@@ -116,7 +116,8 @@ inline Result<swiftprox_ground_distance> try_ground_distance(swiftprox_query_kin
     const swiftprox_pair_config c = config.to_c();
     Result<swiftprox_ground_distance> result;
     result.status =
-        swiftprox_pair_ground_distance(kind, body.shape(), body.pose(), ground.ground(), ground.pose(), &c, &result.value);
+        swiftprox_pair_ground_distance(kind, swiftprox_placed{body.shape(), body.pose()},
+                                       swiftprox_placed_ground{ground.ground(), ground.pose()}, &c, &result.value);
     return result;
 }
 /** Writes as many contacts and points as there is room for. */
@@ -128,8 +129,10 @@ inline Result<swiftprox_ground_count> try_ground_contacts(Placed body, PlacedGro
     const swiftprox_manifold_config c = config.to_c();
     Result<swiftprox_ground_count> result;
     result.status =
-        swiftprox_pair_ground_contacts(body.shape(), body.pose(), ground.ground(), ground.pose(), &c, contacts.data(),
-                                       contacts.size(), points.data(), points.size(), &result.value);
+        swiftprox_pair_ground_contacts(swiftprox_placed{body.shape(), body.pose()},
+                                       swiftprox_placed_ground{ground.ground(), ground.pose()}, &c,
+                                       swiftprox_ground_room{contacts.data(), contacts.size(), points.data(), points.size()},
+                                       &result.value);
     return result;
 }
 

@@ -153,6 +153,14 @@ typedef struct swiftprox_cast_config {
 /** Begins a swiftprox_cast_config: the defaults. In C and C++, as an initialiser. */
 #define SWIFTPROX_CAST_CONFIG_DEFAULT {sizeof(swiftprox_cast_config), 0, 1, 1e-9, 0, 100000}
 
+/** A shape and how it moves, an argument by value. Both pointers are only read during the call. */
+typedef struct swiftprox_moving {
+  /** The shape. */
+  const struct swiftprox_shape *shape;
+  /** Its motion. */
+  const struct swiftprox_motion *motion;
+} swiftprox_moving;
+
 /**
  * Decides whether two moving objects stay farther apart than config->max_distance, or when they first do not. The answer is
  * guaranteed for the motions as described at all times of the range, with poses' rounding included.
@@ -166,10 +174,8 @@ typedef struct swiftprox_cast_config {
  * Experimental.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_cast(const struct swiftprox_shape *shape1,
-                                     const struct swiftprox_motion *motion1,
-                                     const struct swiftprox_shape *shape2,
-                                     const struct swiftprox_motion *motion2,
+swiftprox_status swiftprox_pair_cast(struct swiftprox_moving object1,
+                                     struct swiftprox_moving object2,
                                      struct swiftprox_pair_cache *cache,
                                      const struct swiftprox_cast_config *config,
                                      struct swiftprox_cast_answer *answer);
@@ -213,10 +219,8 @@ typedef struct swiftprox_clearance_config {
  * Experimental.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_clearance(const struct swiftprox_shape *shape1,
-                                          const struct swiftprox_motion *motion1,
-                                          const struct swiftprox_shape *shape2,
-                                          const struct swiftprox_motion *motion2,
+swiftprox_status swiftprox_pair_clearance(struct swiftprox_moving object1,
+                                          struct swiftprox_moving object2,
                                           struct swiftprox_pair_cache *cache,
                                           const struct swiftprox_clearance_config *config,
                                           struct swiftprox_clearance *answer);
@@ -251,45 +255,36 @@ typedef struct swiftprox_scene_cast_answer {
   struct swiftprox_pair_result pair;
 } swiftprox_scene_cast_answer;
 
+/** Motions of a set of objects over one or many edges, an argument by value. Only read during the call. */
+typedef struct swiftprox_motions {
+  /** Edge after edge, either one motion, which moves the whole set as one body, or one for each object of the set. */
+  const struct swiftprox_motion *motions;
+  /** Number of motions. */
+  size_t count;
+  /** Number of edges, and of answers; 1 for one cast. */
+  size_t edge_count;
+} swiftprox_motions;
+
 /**
  * Tests whether moving objects stay farther than config->max_distance from all others, which rest. If not, it finds the first
- * time. The answer is guaranteed for all times of the range, as in swiftprox_pair_cast. One motion moves the whole set as one
- * body; set->count motions move one object each. Pieces with their own poses move with their object. set->among not 0 adds pairs
- * within the set; set->poses is not read.
+ * time. The answer is guaranteed for all times of the range, as in swiftprox_pair_cast. Each edge has an answer and is free up to
+ * its time_lower. Pieces with their own poses move with their object. set->among not 0 adds pairs within the set; set->poses is
+ * not read.
  *
  * Only pairs that queries test count, but both objects may be fixed. config->step_budget applies per pair; null config means the
- * defaults. Threads and scratch: as for swiftprox_scene_least_distance. On failure the outcome is SWIFTPROX_CAST_OUTCOME_NONE.
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is neither 1 nor set->count. Else same errors as swiftprox_pair_cast.
+ * defaults. Threads and scratch: as for swiftprox_scene_least_distance. SWIFTPROX_ERROR_INVALID_ARGUMENT: the number of motions is
+ * neither edge_count nor edge_count times set->count. Else same errors as swiftprox_pair_cast. The message names the edge; its
+ * answer and all later ones are SWIFTPROX_CAST_OUTCOME_NONE.
  *
  * Experimental.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_cast(const struct swiftprox_scene *scene,
                                       const struct swiftprox_object_set *set,
-                                      const struct swiftprox_motion *motions,
-                                      size_t motion_count,
+                                      struct swiftprox_motions motions,
                                       const struct swiftprox_cast_config *config,
                                       struct swiftprox_scratch *scratch,
-                                      struct swiftprox_scene_cast_answer *answer);
-
-/**
- * Runs swiftprox_scene_cast for many edges; answers has room for edge_count. motions holds, edge after edge, either one motion per
- * edge or one per object of the set. An edge is free up to its answer's time_lower.
- *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is neither edge_count nor edge_count times set->count. Else same errors as
- * swiftprox_scene_cast. The message names the edge; its answer and all later ones are reset.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_cast_batch(const struct swiftprox_scene *scene,
-                                            const struct swiftprox_object_set *set,
-                                            const struct swiftprox_motion *motions,
-                                            size_t motion_count,
-                                            const struct swiftprox_cast_config *config,
-                                            struct swiftprox_scratch *scratch,
-                                            struct swiftprox_scene_cast_answer *answers,
-                                            size_t edge_count);
+                                      struct swiftprox_scene_cast_answer *answers);
 
 /** @} */
 

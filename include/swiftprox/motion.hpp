@@ -41,20 +41,23 @@ inline Result<swiftprox_cast_answer> try_cast(Moving a, Moving b, PairCache &cac
 {
     const swiftprox_cast_config c = config.to_c();
     Result<swiftprox_cast_answer> result;
-    result.status = swiftprox_pair_cast(a.shape(), a.motion(), b.shape(), b.motion(), &cache, &c, &result.value);
+    result.status = swiftprox_pair_cast(swiftprox_moving{a.shape(), a.motion()}, swiftprox_moving{b.shape(), b.motion()}, &cache,
+                                        &c, &result.value);
     return result;
 }
 /** SWIFTPROX_ERROR_UNVERIFIED where the answer does not hold. */
 inline Result<void> try_cast_verify(Moving a, Moving b, const swiftprox_cast_answer &answer, const CastConfig &config = {}) noexcept
 {
     const swiftprox_cast_config c = config.to_c();
-    return detail::status(swiftprox_cast_verify(a.shape(), a.motion(), b.shape(), b.motion(), &c, &answer));
+    return detail::status(swiftprox_pair_cast_verify(swiftprox_moving{a.shape(), a.motion()},
+                                                     swiftprox_moving{b.shape(), b.motion()}, &c, &answer));
 }
 inline Result<swiftprox_clearance> try_clearance(Moving a, Moving b, PairCache &cache, const ClearanceConfig &config = {}) noexcept
 {
     const swiftprox_clearance_config c = config.to_c();
     Result<swiftprox_clearance> result;
-    result.status = swiftprox_pair_clearance(a.shape(), a.motion(), b.shape(), b.motion(), &cache, &c, &result.value);
+    result.status = swiftprox_pair_clearance(swiftprox_moving{a.shape(), a.motion()}, swiftprox_moving{b.shape(), b.motion()},
+                                             &cache, &c, &result.value);
     return result;
 }
 

@@ -132,6 +132,15 @@ inline const char *mesh_fault(Range<const double> vertices, Range<const std::uin
     }
     return !valences.empty() && corners != indices.size() ? "valences: their sum is not the number of indices" : nullptr;
 }
+/** The arrays of a mesh whose lengths fit. */
+inline swiftprox_mesh mesh_of(Range<const double> vertices, Range<const std::uint32_t> indices,
+                              Range<const std::uint32_t> valences) noexcept
+{
+    if (valences.empty()) {
+        return {vertices.data(), vertices.size() / 3, indices.data(), nullptr, indices.size() / 3};
+    }
+    return {vertices.data(), vertices.size() / 3, indices.data(), valences.data(), valences.size()};
+}
 } // namespace detail
 
 } // namespace swiftprox

@@ -400,7 +400,8 @@ class SceneView
         const swiftprox_object_set c = set.to_c();
         const std::size_t times = poses.size() / set.ids.size();
         return detail::asked<swiftprox_first_hit>([&](swiftprox_first_hit *answer) {
-            return swiftprox_scene_first_hit(scene_, &c, detail::rows_of(poses), times, order, max_distance, scratch.get(), answer);
+            return swiftprox_scene_first_hit(scene_, &c, swiftprox_path{detail::rows_of(poses), times, order}, max_distance,
+                                             scratch.get(), answer);
         });
     }
     /** The scratch owns the hits, until its next use. */
@@ -419,7 +420,8 @@ class SceneView
         const swiftprox_object_set c = set.to_c();
         const swiftprox_cast_config of_cast = config.to_c();
         return detail::asked<swiftprox_scene_cast_answer>([&](swiftprox_scene_cast_answer *answer) {
-            return swiftprox_scene_cast(scene_, &c, motions.data(), motions.size(), &of_cast, scratch.get(), answer);
+            return swiftprox_scene_cast(scene_, &c, swiftprox_motions{motions.data(), motions.size(), 1}, &of_cast,
+                                        scratch.get(), answer);
         });
     }
     /** One motion for each edge, or one for each object at each edge. */
@@ -431,32 +433,31 @@ class SceneView
         const swiftprox_cast_config of_cast = config.to_c();
         Result<std::vector<swiftprox_scene_cast_answer>> result;
         result.value.resize(edge_count);
-        result.status = swiftprox_scene_cast_batch(scene_, &c, motions.data(), motions.size(), &of_cast, scratch.get(),
-                                                   result.value.data(), edge_count);
+        result.status = swiftprox_scene_cast(scene_, &c, swiftprox_motions{motions.data(), motions.size(), edge_count}, &of_cast,
+                                             scratch.get(), result.value.data());
         return result;
     }
     /** Without a set: of all objects. The scratch owns contacts and points, until its next use. */
     Result<swiftprox_scene_ground_answer> try_ground_contacts(PlacedGround ground, SetScratch &scratch,
-                                                              const ManifoldConfig &config = {}, const ObjectSet *set = nullptr,
-                                                              const swiftprox_group_filter *filter = nullptr) const
+                                                              const SceneGroundConfig &config = {},
+                                                              const ObjectSet *set = nullptr) const
     {
         return detail::floor_contacts(
             set, config,
-            [&](const swiftprox_object_set *of, const swiftprox_manifold_config *c, swiftprox_scene_ground_answer *answer) {
-                return swiftprox_scene_ground_contacts(scene_, of, ground.ground(), ground.pose(), c, filter, scratch.get(),
-                                                       answer);
+            [&](const swiftprox_object_set *of, const swiftprox_scene_ground_config *c, swiftprox_scene_ground_answer *answer) {
+                return swiftprox_scene_ground_contacts(scene_, of, swiftprox_placed_ground{ground.ground(), ground.pose()},
+                                                       c, scratch.get(), answer);
             });
     }
     /** A contact for each piece. */
     Result<swiftprox_scene_ground_answer> try_half_space_contacts(const swiftprox_half_space &half_space, SetScratch &scratch,
-                                                                  const ManifoldConfig &config = {},
-                                                                  const ObjectSet *set = nullptr,
-                                                                  const swiftprox_group_filter *filter = nullptr) const
+                                                                  const SceneGroundConfig &config = {},
+                                                                  const ObjectSet *set = nullptr) const
     {
         return detail::floor_contacts(
             set, config,
-            [&](const swiftprox_object_set *of, const swiftprox_manifold_config *c, swiftprox_scene_ground_answer *answer) {
-                return swiftprox_scene_half_space_contacts(scene_, of, &half_space, c, filter, scratch.get(), answer);
+            [&](const swiftprox_object_set *of, const swiftprox_scene_ground_config *c, swiftprox_scene_ground_answer *answer) {
+                return swiftprox_scene_half_space_contacts(scene_, of, &half_space, c, scratch.get(), answer);
             });
     }
     Result<void> try_record(const std::string &path) { return detail::status(swiftprox_scene_record(scene_, path.c_str())); }
@@ -578,17 +579,15 @@ class SceneView
     {
         return take(try_cast_batch(set, motions, edge_count, scratch, config));
     }
-    swiftprox_scene_ground_answer ground_contacts(PlacedGround ground, SetScratch &scratch, const ManifoldConfig &config = {},
-                                                  const ObjectSet *set = nullptr,
-                                                  const swiftprox_group_filter *filter = nullptr) const
+    swiftprox_scene_ground_answer ground_contacts(PlacedGround ground, SetScratch &scratch, const SceneGroundConfig &config = {},
+                                                  const ObjectSet *set = nullptr) const
     {
-        return take(try_ground_contacts(ground, scratch, config, set, filter));
+        return take(try_ground_contacts(ground, scratch, config, set));
     }
     swiftprox_scene_ground_answer half_space_contacts(const swiftprox_half_space &half_space, SetScratch &scratch,
-                                                      const ManifoldConfig &config = {}, const ObjectSet *set = nullptr,
-                                                      const swiftprox_group_filter *filter = nullptr) const
+                                                      const SceneGroundConfig &config = {}, const ObjectSet *set = nullptr) const
     {
-        return take(try_half_space_contacts(half_space, scratch, config, set, filter));
+        return take(try_half_space_contacts(half_space, scratch, config, set));
     }
     void record(const std::string &path) { take(try_record(path)); }
     void end_recording() { take(try_end_recording()); }

@@ -122,11 +122,20 @@ typedef struct swiftprox_first_hit {
   struct swiftprox_pair_result pair;
 } swiftprox_first_hit;
 
+/** Poses of a set of objects at many times, an argument by value. Only read during the call. */
+typedef struct swiftprox_path {
+  /** 12 doubles per object for the first time, then for the second, and so on. */
+  const double *poses;
+  /** Number of times. */
+  size_t time_count;
+  /** The order in which times are tried. */
+  swiftprox_pose_order order;
+} swiftprox_path;
+
 /**
  * Finds a time at which a set of objects is within max_distance of any other object, or of one another if set->among is not 0.
- * poses holds 12 doubles per object for the first time, then for the second, and so on. set->poses and poses of untried times are
- * not read. Only pairs that queries test count, but both objects may be fixed. Threads and scratch: as for
- * swiftprox_scene_least_distance.
+ * set->poses and poses of untried times are not read. Only pairs that queries test count, but both objects may be fixed. Threads
+ * and scratch: as for swiftprox_scene_least_distance.
  *
  * On failure time and tried are 0, the pair's ids null. SWIFTPROX_ERROR_INVALID_ARGUMENT: an empty set, an unknown order, or
  * max_distance is negative, infinite or NaN.
@@ -136,9 +145,7 @@ typedef struct swiftprox_first_hit {
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_scene_first_hit(const struct swiftprox_scene *scene,
                                            const struct swiftprox_object_set *set,
-                                           const double *poses,
-                                           size_t time_count,
-                                           swiftprox_pose_order order,
+                                           struct swiftprox_path path,
                                            double max_distance,
                                            struct swiftprox_scratch *scratch,
                                            struct swiftprox_first_hit *answer);

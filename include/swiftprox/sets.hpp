@@ -105,12 +105,12 @@ namespace detail
 {
 /** Of a set, or of all objects: `ask` is given both in C, and where the answer goes. */
 template <class Ask>
-Result<swiftprox_scene_ground_answer> floor_contacts(const ObjectSet *set, const ManifoldConfig &config, Ask ask)
+Result<swiftprox_scene_ground_answer> floor_contacts(const ObjectSet *set, const SceneGroundConfig &config, Ask ask)
 {
     if (set && set->is_uneven()) {
         return uneven<swiftprox_scene_ground_answer>();
     }
-    const swiftprox_manifold_config c = config.to_c();
+    const swiftprox_scene_ground_config c = config.to_c();
     const swiftprox_object_set of = set ? set->to_c() : swiftprox_object_set{};
     return asked<swiftprox_scene_ground_answer>(
         [&](swiftprox_scene_ground_answer *answer) { return ask(set ? &of : nullptr, &c, answer); });

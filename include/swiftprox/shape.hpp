@@ -68,9 +68,7 @@ class Shape
             return detail::refused<Shape>(fault);
         }
         return made(options, [&](const swiftprox_shape_options *c, const swiftprox_shape **shape) {
-            return swiftprox_shape_create_from_mesh(vertices.data(), vertices.size() / 3, indices.data(),
-                                                    valences.empty() ? nullptr : valences.data(),
-                                                    valences.empty() ? indices.size() / 3 : valences.size(), c, shape);
+            return swiftprox_shape_create_from_mesh(detail::mesh_of(vertices, indices, valences), c, shape);
         });
     }
     /** The convex hull of points, 3 coordinates each. */
@@ -178,12 +176,13 @@ class Shape
     {
         Result<Face> result;
         swiftprox_face &plane = result.value.plane;
-        result.status = swiftprox_shape_get_face(shape_, index, &plane, nullptr, 0, nullptr, 0);
+        result.status = swiftprox_shape_get_face(shape_, index, swiftprox_face_room{nullptr, 0, nullptr, 0}, &plane);
         if (result.status == SWIFTPROX_OK) {
             result.value.corners.resize(plane.corner_count);
             result.value.labels.resize(plane.label_count);
-            result.status = swiftprox_shape_get_face(shape_, index, &plane, result.value.corners.data(), plane.corner_count,
-                                                     result.value.labels.data(), plane.label_count);
+            result.status = swiftprox_shape_get_face(shape_, index,
+                                                     swiftprox_face_room{result.value.corners.data(), plane.corner_count, result.value.labels.data(), plane.label_count},
+                                                     &plane);
         }
         return result;
     }
@@ -292,13 +291,12 @@ struct Decomposition {
 };
 /** A mesh that need not be convex as convex pieces; see swiftprox_mesh_decompose. */
 inline Result<Decomposition> try_decompose(Range<const double> vertices, Range<const std::uint32_t> indices,
-                                           Range<const std::uint32_t> valences = {}, double tolerance = 0,
+                                           Range<const std::uint32_t> valences = {}, double convexity_tolerance = 0,
                                            const Progress &progress = {})
 {
     if (const char *fault = detail::mesh_fault(vertices, indices, valences)) {
         return detail::refused<Decomposition>(fault);
     }
-    const std::size_t face_count = valences.empty() ? indices.size() / 3 : valences.size();
     Result<Decomposition> result;
     Decomposition &found = result.value;
     // No face has more triangles than corners.
@@ -306,8 +304,7 @@ inline Result<Decomposition> try_decompose(Range<const double> vertices, Range<c
     found.faces.resize(indices.size() + 1);
     found.pieces.resize(indices.size() + 1);
     swiftprox_decomposition c{found.corners.data(), found.faces.data(), found.pieces.data(), indices.size(), 0, 0};
-    result.status = swiftprox_mesh_decompose(vertices.data(), vertices.size() / 3, indices.data(),
-                                             valences.empty() ? nullptr : valences.data(), face_count, tolerance,
+    result.status = swiftprox_mesh_decompose(detail::mesh_of(vertices, indices, valences), convexity_tolerance,
                                              detail::callback_of(progress), detail::user_of(progress), &c);
     found.corners.resize(3 * c.triangle_count);
     found.faces.resize(c.triangle_count);
@@ -321,9 +318,10 @@ inline double estimate_tolerance(Range<const double> vertices)
     return take(try_estimate_tolerance(vertices));
 }
 inline Decomposition decompose(Range<const double> vertices, Range<const std::uint32_t> indices,
-                               Range<const std::uint32_t> valences = {}, double tolerance = 0, const Progress &progress = {})
+                               Range<const std::uint32_t> valences = {}, double convexity_tolerance = 0,
+                               const Progress &progress = {})
 {
-    return take(try_decompose(vertices, indices, valences, tolerance, progress));
+    return take(try_decompose(vertices, indices, valences, convexity_tolerance, progress));
 }
 #endif
 

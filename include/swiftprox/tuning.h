@@ -84,7 +84,6 @@ typedef struct swiftprox_shape_tuning {
    */
   uint32_t lookup_resolution;
 } swiftprox_shape_tuning;
-/** What the header calls its default. */
 
 /** Begins a swiftprox_shape_tuning: the defaults. In C and C++, as an initialiser. */
 #define SWIFTPROX_SHAPE_TUNING_DEFAULT \
@@ -123,20 +122,6 @@ typedef struct swiftprox_shape_tuning_info {
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_get_tuning_info(const struct swiftprox_shape *shape,
                                                  struct swiftprox_shape_tuning_info *info);
-
-/** A polygon mesh in the caller's arrays, as for swiftprox_shape_create_from_mesh. */
-typedef struct swiftprox_mesh {
-  /** 3 * vertex_count coordinates. */
-  const double *vertices;
-  /** Number of vertices. */
-  size_t vertex_count;
-  /** 0-based vertex numbers of all faces in turn. */
-  const uint32_t *indices;
-  /** Number of vertices of each face; null means triangles. */
-  const uint32_t *valences;
-  /** Number of faces. */
-  size_t face_count;
-} swiftprox_mesh;
 
 /**
  * Creates a shape with the caller's levels of detail, finest first. Release it with swiftprox_shape_release. The arrays are
@@ -280,7 +265,6 @@ typedef struct swiftprox_pair_tuning {
   /** How queries go from level to level. Default: adaptive. */
   swiftprox_refinement refinement;
 } swiftprox_pair_tuning;
-/** What the header calls its default. */
 
 /** Begins a swiftprox_pair_tuning: the defaults. In C and C++, as an initialiser. */
 #define SWIFTPROX_PAIR_TUNING_DEFAULT \

@@ -108,12 +108,10 @@ swiftprox_status swiftprox_pair_manifold_verify(struct swiftprox_placed object1,
  * Experimental.
  */
 SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_cast_verify(const struct swiftprox_shape *shape1,
-                                       const struct swiftprox_motion *motion1,
-                                       const struct swiftprox_shape *shape2,
-                                       const struct swiftprox_motion *motion2,
-                                       const struct swiftprox_cast_config *config,
-                                       const struct swiftprox_cast_answer *answer);
+swiftprox_status swiftprox_pair_cast_verify(struct swiftprox_moving object1,
+                                            struct swiftprox_moving object2,
+                                            const struct swiftprox_cast_config *config,
+                                            const struct swiftprox_cast_answer *answer);
 
 /** @} */
 

@@ -187,7 +187,8 @@ Cast cast(Pair &pair, nb::handle motion1, nb::handle motion2, double max_distanc
     Cast made;
     made.config = cast_config(max_distance, time_begin, time_end, time_tolerance);
     run_alone(pair, [&] {
-        return swiftprox_pair_cast(pair.shape1.get(), &a, pair.shape2.get(), &b, &pair.cache, &made.config, &made.answer);
+        return swiftprox_pair_cast(swiftprox_moving{pair.shape1.get(), &a}, swiftprox_moving{pair.shape2.get(), &b}, &pair.cache,
+                                   &made.config, &made.answer);
     });
     return made;
 }
@@ -197,7 +198,8 @@ void verify(Pair &pair, nb::handle first, nb::handle second, nb::handle answer)
     Cast *cast;
     if (nb::try_cast(answer, cast, false) && cast) {
         const swiftprox_motion a = read_motion(first, "pose1"), b = read_motion(second, "pose2");
-        run([&] { return swiftprox_cast_verify(pair.shape1.get(), &a, pair.shape2.get(), &b, &cast->config, &cast->answer); });
+        run([&] { return swiftprox_pair_cast_verify(swiftprox_moving{pair.shape1.get(), &a},
+                                                    swiftprox_moving{pair.shape2.get(), &b}, &cast->config, &cast->answer); });
         return;
     }
     const Pose a = read_pose(first, "pose1"), b = read_pose(second, "pose2");

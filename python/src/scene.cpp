@@ -176,11 +176,11 @@ FirstHit first_hit(Scene &scene, nb::handle ids, nb::handle poses, double max_di
         refuse("poses must have the shape (times, n, 3, 4)");
     }
     const swiftprox_object_set asked = {set.ids.data(), set.ids.size(), nullptr, among};
+    const swiftprox_pose_order order = in_order ? SWIFTPROX_POSE_ORDER_IN_ORDER : SWIFTPROX_POSE_ORDER_BISECTION;
+    const swiftprox_path path = {set.poses->data(), set.states, order};
     FirstHit hit;
     run_alone(scene, [&] {
-        return swiftprox_scene_first_hit(scene.scene, &asked, set.poses->data(), set.states,
-                                         in_order ? SWIFTPROX_POSE_ORDER_IN_ORDER : SWIFTPROX_POSE_ORDER_BISECTION, max_distance,
-                                         scene.scratch, &hit.answer);
+        return swiftprox_scene_first_hit(scene.scene, &asked, path, max_distance, scene.scratch, &hit.answer);
     });
     hit.hits = hit.answer.time < set.states;
     return hit;
@@ -220,7 +220,8 @@ swiftprox_scene_cast_answer cast(Scene &scene, nb::handle ids, nb::handle motion
     const swiftprox_object_set asked = set.at(0, among);
     swiftprox_scene_cast_answer answer;
     run_alone(scene, [&] {
-        return swiftprox_scene_cast(scene.scene, &asked, moving.data(), moving.size(), &config, scene.scratch, &answer);
+        return swiftprox_scene_cast(scene.scene, &asked, swiftprox_motions{moving.data(), moving.size(), 1}, &config,
+                                    scene.scratch, &answer);
     });
     return answer;
 }
@@ -249,7 +250,8 @@ swiftprox_pair_answer ground_distance(const Ground &ground, const Shape &shape, 
     config.max_distance = max_distance;
     swiftprox_ground_distance answer;
     run([&] {
-        return swiftprox_pair_ground_distance(SWIFTPROX_QUERY_KIND_DISTANCE, shape.get(), a.m, ground.ground, still.m, &config, &answer);
+        return swiftprox_pair_ground_distance(SWIFTPROX_QUERY_KIND_DISTANCE, swiftprox_placed{shape.get(), a.m},
+                                              swiftprox_placed_ground{ground.ground, still.m}, &config, &answer);
     });
     return answer.answer;
 }
@@ -266,8 +268,10 @@ nb::tuple ground_contacts(const Ground &ground, const Shape &shape, nb::handle p
     run([&] {
         for (;;) {
             const swiftprox_status status =
-                swiftprox_pair_ground_contacts(shape.get(), a.m, ground.ground, still.m, &config, all.data(), all.size(), points.data(),
-                                               points.size(), &count);
+                swiftprox_pair_ground_contacts(swiftprox_placed{shape.get(), a.m},
+                                               swiftprox_placed_ground{ground.ground, still.m}, &config,
+                                               swiftprox_ground_room{all.data(), all.size(), points.data(), points.size()},
+                                               &count);
             const bool fits = count.contact_count <= all.size() && count.point_count <= points.size();
             all.resize(fits ? count.contact_count : count.contact_count + 1);
             points.resize(fits ? count.point_count : count.point_count + 1);

@@ -77,10 +77,8 @@ Shape make_shape(nb::handle points, nb::handle faces, const std::string &policy,
     }
     std::vector<uint32_t> indices, valences;
     read_faces(faces, indices, valences);
-    run([&] {
-        return swiftprox_shape_create_from_mesh(vertices.data(), vertices.dim(0), indices.data(), valences.data(), valences.size(),
-                                                &options, &made);
-    });
+    const swiftprox_mesh mesh = {vertices.data(), vertices.dim(0), indices.data(), valences.data(), valences.size()};
+    run([&] { return swiftprox_shape_create_from_mesh(mesh, &options, &made); });
     return Shape(made);
 }
 

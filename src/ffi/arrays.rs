@@ -36,21 +36,32 @@ pub(super) unsafe fn copy_triangles(polyhedron: &Polyhedron, corners: *mut u32, 
     Ok(())
 }
 
+/// A polygon mesh, an argument by value. The caller owns the arrays.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CMesh {
+    /// 3 * vertex_count coordinates.
+    pub vertices: *const f64,
+    /// Number of vertices.
+    pub vertex_count: usize,
+    /// 0-based vertex numbers of all faces in turn, counter-clockwise seen from outside.
+    pub indices: *const u32,
+    /// Number of vertices of each face; null means triangles.
+    pub valences: *const u32,
+    /// Number of faces.
+    pub face_count: usize,
+}
+
 /// A mesh from a caller's arrays.
 ///
 /// # Safety
 /// The arrays meet the header's pointer rules.
-pub(super) unsafe fn read_arrays(
-    vertices: *const f64,
-    vertex_count: usize,
-    indices: *const u32,
-    valences: *const u32,
-    face_count: usize,
-) -> Checked<PolygonMesh> {
-    check_count(vertex_count, "vertex_count")?;
+pub(super) unsafe fn read_mesh(mesh: CMesh) -> Checked<PolygonMesh> {
+    let CMesh { vertices, vertex_count, indices, valences, face_count } = mesh;
+    check_count(vertex_count, "mesh.vertex_count")?;
     // SAFETY: by the caller.
     let (faces, points) =
-        unsafe { (read_faces(indices, valences, face_count)?, read_vectors(vertices, vertex_count, "vertices")?) };
+        unsafe { (read_faces(indices, valences, face_count)?, read_vectors(vertices, vertex_count, "mesh.vertices")?) };
     Ok(PolygonMesh::new(points, copied(faces.indices)?, faces.valences)?)
 }
 

@@ -2,7 +2,7 @@
 
 use std::ffi::c_void;
 
-use super::arrays::{check_capacity, read_arrays};
+use super::arrays::{CMesh, check_capacity, read_mesh};
 use super::failure::{Failure, StatusCode};
 use super::guard::guard;
 use super::shape_options::{ProgressCallback, in_steps};
@@ -37,23 +37,19 @@ pub struct CDecomposition {
 /// Make a shape of each piece with swiftprox_shape_create_from_mesh: same vertices, its triangles, no valences,
 /// input = SWIFTPROX_INPUT_PATCH. Pass all shapes to swiftprox_scene_add_object.
 ///
-/// The mesh is as in swiftprox_shape_create_from_mesh, but its faces must only be nearly flat. `tolerance` is relative to the
-/// bounding-box diagonal. Points that close to a plane count as on it, and pieces may exceed the surface by about as much. 0 is
+/// The mesh is as in swiftprox_shape_create_from_mesh, but its faces must only be nearly flat. `convexity_tolerance` is relative to
+/// the bounding-box diagonal. Points that close to a plane count as on it, and pieces may exceed the surface by about as much. 0 is
 /// exact, but splits flat faces with rounded vertices; swiftprox_mesh_estimate_tolerance suggests a value. Time is at worst
 /// quadratic, one to two seconds for 10,000 triangles. `progress` (may be null, gets `progress_user`) reports progress and can
 /// cancel.
 ///
 /// SWIFTPROX_ERROR_MESH: a coordinate is not finite, an index is out of range, a face crosses itself, or no face has an area. Also
-/// an edge with more than two faces, or two in one direction. SWIFTPROX_ERROR_INVALID_ARGUMENT: tolerance is outside [0, 1], or
+/// an edge with more than two faces, or two in one direction. SWIFTPROX_ERROR_INVALID_ARGUMENT: the tolerance is outside [0, 1], or
 /// capacity is too small. Then the arrays are unchanged, and the message gives the room needed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_mesh_decompose(
-    vertices: *const f64,
-    vertex_count: usize,
-    indices: *const u32,
-    valences: *const u32,
-    face_count: usize,
-    tolerance: f64,
+    mesh: CMesh,
+    convexity_tolerance: f64,
     progress: ProgressCallback,
     progress_user: *mut c_void,
     decomposition: *mut CDecomposition,
@@ -63,11 +59,11 @@ pub unsafe extern "C" fn swiftprox_mesh_decompose(
         let output = unsafe { decomposition.as_mut() }.ok_or_else(|| Failure::null("decomposition"))?;
         (output.triangle_count, output.piece_count) = (0, 0);
         // SAFETY: the header's pointer rules.
-        let mesh = unsafe { read_arrays(vertices, vertex_count, indices, valences, face_count) }?;
+        let mesh = unsafe { read_mesh(mesh) }?;
         if output.corners.is_null() {
             return Err(Failure::null("decomposition->corners"));
         }
-        let found = in_steps(progress, progress_user, |progress| decompose(&mesh, tolerance, progress))?;
+        let found = in_steps(progress, progress_user, |progress| decompose(&mesh, convexity_tolerance, progress))?;
         check_capacity(output.corners, "decomposition->corners", output.capacity, found.triangles.len())?;
         for (t, corners) in found.triangles.iter().enumerate() {
             // SAFETY: t is below the capacity.

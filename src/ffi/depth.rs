@@ -40,7 +40,7 @@ unsafe impl Versioned for CDepthConfig {
 }
 
 impl CDepthConfig {
-    /// What the header calls its default.
+    /// The defaults, as in the header.
     pub const DEFAULT: CDepthConfig = CDepthConfig {
         struct_size: size_of::<CDepthConfig>(),
         rotation_limit: ROTATION_LIMIT,
@@ -224,7 +224,7 @@ unsafe impl Versioned for CManifoldConfig {
 }
 
 impl CManifoldConfig {
-    /// What the header calls its default.
+    /// The defaults, as in the header.
     pub const DEFAULT: CManifoldConfig = CManifoldConfig {
         struct_size: size_of::<CManifoldConfig>(),
         rotation_limit: ROTATION_LIMIT,

@@ -7,15 +7,14 @@ use super::depth::{CManifoldConfig, check_room, read_manifold_config};
 use super::enumerators::{QueryNumber, read_enumerator};
 use super::failure::{Checked, StatusCode};
 use super::guard::{guard, keep_panics_quiet};
-use super::pair::{CPairConfig, read_config};
+use super::pair::{CPairConfig, CPlaced, body, read_config};
 use super::pointers::{array, input, output};
 use crate::base::math::Pose;
 use crate::base::memory::with_capacity;
 use crate::ground::{
-    Ground, GroundContact, GroundContacts, GroundDistance, HeightGrid, ground_contacts, ground_distance,
+    Ground, GroundContact, GroundContacts, GroundDistance, HeightGrid, PlacedGround, ground_contacts, ground_distance,
 };
 use crate::pair::ManifoldPoint;
-use crate::shape::Shape;
 
 /// Creates a ground from triangles. The caller owns it and gives it back with swiftprox_ground_release. The arrays are copied.
 ///
@@ -137,6 +136,23 @@ pub unsafe extern "C" fn swiftprox_ground_release(ground: *const Ground) {
     });
 }
 
+/// A ground at a pose, an argument by value. Both pointers are only read during the call.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CPlacedGround {
+    /// The ground.
+    pub ground: *const Ground,
+    /// 12 doubles, the row-major 3x4 matrix [R|T].
+    pub pose: *const f64,
+}
+
+/// # Safety
+/// The pointers meet the header's pointer rules for `'a`.
+pub(super) unsafe fn read_placed<'a>(ground: CPlacedGround) -> Checked<PlacedGround<'a>> {
+    // SAFETY: by the caller; a pose is twelve doubles, row by row, as is `Pose`.
+    unsafe { Ok(input(ground.ground, "ground.ground")?.at(input(ground.pose.cast::<Pose>(), "ground.pose")?)) }
+}
+
 /// Properties of a ground.
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
@@ -170,20 +186,17 @@ pub unsafe extern "C" fn swiftprox_ground_get_info(ground: *const Ground, info: 
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_ground_distance(
     kind: QueryNumber,
-    shape: *const Shape,
-    pose: *const f64,
-    ground: *const Ground,
-    ground_pose: *const f64,
+    object: CPlaced,
+    ground: CPlacedGround,
     config: *const CPairConfig,
     answer: *mut GroundDistance,
 ) -> StatusCode {
-    // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
+    // SAFETY: the header's pointer rules.
     guard(|| unsafe {
         output(answer, "answer", GroundDistance::default())?;
         let query = read_enumerator(kind, "kind", "swiftprox_query_kind")?;
-        let (shape, pose) = (input(shape, "shape")?, input(pose.cast::<Pose>(), "pose")?);
-        let (ground, place) = (input(ground, "ground")?, input(ground_pose.cast::<Pose>(), "ground_pose")?);
-        output(answer, "answer", ground_distance(query, shape.at(pose), ground.at(place), &read_config(config)?)?)
+        let (object, ground) = (body(object, ["object.shape", "object.pose"])?, read_placed(ground)?);
+        output(answer, "answer", ground_distance(query, object, ground, &read_config(config)?)?)
     })
 }
 
@@ -197,9 +210,22 @@ pub struct GroundCount {
     pub point_count: usize,
 }
 
-/// Finds the contacts of a shape (object 1) with a ground, up to config->max_distance apart, sorted by triangle. Each contact has
-/// points and one normal out of the ground. `contacts` and `points` receive what fits, and may be null if their capacity is 0.
-/// `count` receives all numbers found. Points of contact c begin at its first_point; there are manifold.point_count.
+/// Room for what swiftprox_pair_ground_contacts finds, by value. What does not fit is left out.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CGroundRoom {
+    /// Receives contacts, sorted by triangle.
+    pub contacts: *mut GroundContact,
+    /// Room of `contacts`; 0 allows null.
+    pub contact_capacity: usize,
+    /// Receives points. Those of contact c begin at its first_point; there are manifold.point_count.
+    pub points: *mut ManifoldPoint,
+    /// Room of `points`; 0 allows null.
+    pub point_capacity: usize,
+}
+
+/// Finds the contacts of a shape (object 1) with a ground, up to config->max_distance apart. Each contact has points and one normal
+/// out of the ground. `room` receives what fits, `count` all numbers found.
 ///
 /// A triangle acts only on bodies whose centre of mass is not behind its plane by more than the ground's thickness. The normal is
 /// the direction of least distance or overlap among those that are normal to the surface at the touched point. So bodies slide
@@ -212,33 +238,23 @@ pub struct GroundCount {
 /// capacity is larger than memory.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_ground_contacts(
-    shape: *const Shape,
-    pose: *const f64,
-    ground: *const Ground,
-    ground_pose: *const f64,
+    object: CPlaced,
+    ground: CPlacedGround,
     config: *const CManifoldConfig,
-    contacts: *mut GroundContact,
-    contact_capacity: usize,
-    points: *mut ManifoldPoint,
-    point_capacity: usize,
+    room: CGroundRoom,
     count: *mut GroundCount,
 ) -> StatusCode {
+    let CGroundRoom { contacts, contact_capacity, points, point_capacity } = room;
     guard(|| {
-        // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
-        let (shape, pose, ground, place, config) = unsafe {
+        // SAFETY: the header's pointer rules.
+        let (object, ground, config) = unsafe {
             output(count, "count", GroundCount::default())?;
-            (
-                input(shape, "shape")?,
-                input(pose.cast::<Pose>(), "pose")?,
-                input(ground, "ground")?,
-                input(ground_pose.cast::<Pose>(), "ground_pose")?,
-                read_manifold_config(config)?,
-            )
+            (body(object, ["object.shape", "object.pose"])?, read_placed(ground)?, read_manifold_config(config)?)
         };
-        check_room(contacts, "contacts", contact_capacity)?;
-        check_room(points, "points", point_capacity)?;
+        check_room(contacts, "room.contacts", contact_capacity)?;
+        check_room(points, "room.points", point_capacity)?;
         let mut found = GroundContacts::default();
-        ground_contacts(shape.at(pose), ground.at(place), &config, &mut found)?;
+        ground_contacts(object, ground, &config, &mut found)?;
         for (place, contact) in found.contacts.iter().take(contact_capacity).enumerate() {
             // SAFETY: not null, and place < capacity.
             unsafe { contacts.add(place).write(*contact) };

@@ -1,6 +1,6 @@
 //! Levels of detail: those that a caller gives, and what the levels of a shape are.
 
-use super::arrays::{copy_triangles, copy_vertices, read_arrays};
+use super::arrays::{CMesh, copy_triangles, copy_vertices, read_mesh};
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::guard;
 use super::pointers::{array, input};
@@ -10,22 +10,6 @@ use super::structs::{Versioned, write_struct};
 use crate::base::memory::with_capacity;
 use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
-
-/// A polygon mesh in the caller's arrays, as for swiftprox_shape_create_from_mesh.
-#[derive(Debug, Clone, Copy)]
-#[repr(C)]
-pub struct CMesh {
-    /// 3 * vertex_count coordinates.
-    pub vertices: *const f64,
-    /// Number of vertices.
-    pub vertex_count: usize,
-    /// 0-based vertex numbers of all faces in turn.
-    pub indices: *const u32,
-    /// Number of vertices of each face; null means triangles.
-    pub valences: *const u32,
-    /// Number of faces.
-    pub face_count: usize,
-}
 
 /// Properties of a level of detail. Set struct_size to sizeof(swiftprox_level_info) before the call.
 #[derive(Debug, Clone, Copy)]
@@ -86,11 +70,7 @@ pub unsafe extern "C" fn swiftprox_shape_create_from_levels(
         let levels = array(levels, level_count, "levels")?;
         let mut meshes = with_capacity(levels.len())?;
         for (i, level) in levels.iter().enumerate() {
-            let &CMesh { vertices, vertex_count, indices, valences, face_count } = level;
-            let read = match i {
-                0 => read_arrays(vertices, vertex_count, indices, valences, face_count),
-                _ => read_arrays(vertices, vertex_count, indices, valences, 0),
-            };
+            let read = read_mesh(if i == 0 { *level } else { CMesh { face_count: 0, ..*level } });
             let in_level = |f: Failure| Failure { status: f.status, message: format!("levels[{i}]: {}", f.message) };
             meshes.push(read.map_err(in_level)?);
         }

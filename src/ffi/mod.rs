@@ -15,7 +15,7 @@ mod structs;
 // In the order of the header.
 pub mod library;
 pub mod allocator;
-mod arrays;
+pub mod arrays;
 pub mod mesh_reader;
 pub mod tuning;
 pub mod shape_options;

@@ -100,7 +100,7 @@ unsafe impl Versioned for CCastConfig {
 }
 
 impl CCastConfig {
-    /// What the header calls its default.
+    /// The defaults, as in the header.
     pub fn defaults() -> CCastConfig {
         let CastConfig { time_begin, time_end, time_tolerance, max_distance, step_budget, ignores_parting } =
             CastConfig::default();
@@ -133,7 +133,7 @@ unsafe impl Versioned for CClearanceConfig {
 }
 
 impl CClearanceConfig {
-    /// What the header calls its default.
+    /// The defaults, as in the header.
     pub fn defaults() -> CClearanceConfig {
         let ClearanceConfig { time_begin, time_end, absolute_error, relative_error, step_budget } =
             ClearanceConfig::default();
@@ -189,6 +189,16 @@ pub unsafe extern "C" fn swiftprox_motion_between(
     })
 }
 
+/// A shape and how it moves, an argument by value. Both pointers are only read during the call.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CMoving {
+    /// The shape.
+    pub shape: *const Shape,
+    /// Its motion.
+    pub motion: *const CMotion,
+}
+
 fn row_major(pose: &Pose) -> [f64; 12] {
     std::array::from_fn(|k| pose.rows[k / 4][k % 4])
 }
@@ -203,18 +213,15 @@ fn row_major(pose: &Pose) -> [f64; 12] {
 /// SWIFTPROX_ERROR_POSE: a motion's pose is refused; the message gives the time.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_cast(
-    shape1: *const Shape,
-    motion1: *const CMotion,
-    shape2: *const Shape,
-    motion2: *const CMotion,
+    object1: CMoving,
+    object2: CMoving,
     cache: *mut CPairCache,
     config: *const CCastConfig,
     answer: *mut CastAnswer,
 ) -> StatusCode {
-    let bodies = [(shape1, motion1), (shape2, motion2)];
     // SAFETY: the header's pointer rules.
     unsafe {
-        ask(bodies, cache, answer, |bodies, cache, answer| {
+        ask([object1, object2], cache, answer, |bodies, cache, answer| {
             let config = cast_config(config)?;
             Ok(cast(bodies, cache, &config, answer)?)
         })
@@ -226,18 +233,15 @@ pub unsafe extern "C" fn swiftprox_pair_cast(
 /// swiftprox_pair_cast. On failure the numbers are NaN.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_clearance(
-    shape1: *const Shape,
-    motion1: *const CMotion,
-    shape2: *const Shape,
-    motion2: *const CMotion,
+    object1: CMoving,
+    object2: CMoving,
     cache: *mut CPairCache,
     config: *const CClearanceConfig,
     answer: *mut Clearance,
 ) -> StatusCode {
-    let bodies = [(shape1, motion1), (shape2, motion2)];
     // SAFETY: the header's pointer rules.
     unsafe {
-        ask(bodies, cache, answer, |bodies, cache, answer| {
+        ask([object1, object2], cache, answer, |bodies, cache, answer| {
             let given = read_struct(config, CClearanceConfig::defaults())?;
             let CClearanceConfig { time_begin, time_end, absolute_error, relative_error, step_budget, .. } = given;
             let config = ClearanceConfig { time_begin, time_end, absolute_error, relative_error, step_budget };
@@ -258,11 +262,9 @@ pub unsafe extern "C" fn swiftprox_pair_clearance(
 /// SWIFTPROX_ERROR_UNVERIFIED: something is wrong or unproved; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT: the answer
 /// has an unknown enumerator or no outcome. Other errors as in swiftprox_pair_cast and swiftprox_pair_verify.
 #[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_cast_verify(
-    shape1: *const Shape,
-    motion1: *const CMotion,
-    shape2: *const Shape,
-    motion2: *const CMotion,
+pub unsafe extern "C" fn swiftprox_pair_cast_verify(
+    object1: CMoving,
+    object2: CMoving,
     config: *const CCastConfig,
     answer: *const CastAnswer,
 ) -> StatusCode {
@@ -271,7 +273,7 @@ pub unsafe extern "C" fn swiftprox_cast_verify(
         let (config, answer) = unsafe { (cast_config(config)?, read_answer(answer)?) };
         let verify = |bodies: [Moving; 2]| Ok(verify_cast(bodies, &config, answer)?);
         // SAFETY: the header's pointer rules.
-        unsafe { with_bodies([(shape1, motion1), (shape2, motion2)], verify) }
+        unsafe { with_bodies([object1, object2], verify) }
     })
 }
 
@@ -294,7 +296,7 @@ pub extern "C" fn swiftprox_library_cast_outcome_string(outcome: CastOutcomeNumb
 /// # Safety
 /// The pointers meet the header's pointer rules.
 unsafe fn ask<A: Default>(
-    bodies: [(*const Shape, *const CMotion); 2],
+    bodies: [CMoving; 2],
     cache: *mut CPairCache,
     answer: *mut A,
     run: impl FnOnce([Moving; 2], &mut PairCache, &mut A) -> Checked<()>,
@@ -328,17 +330,19 @@ unsafe fn ask<A: Default>(
 ///
 /// # Safety
 /// The pointers meet the header's pointer rules.
-unsafe fn with_bodies(
-    [(shape1, motion1), (shape2, motion2)]: [(*const Shape, *const CMotion); 2],
-    run: impl FnOnce([Moving; 2]) -> Checked<()>,
-) -> Checked<()> {
+unsafe fn with_bodies([object1, object2]: [CMoving; 2], run: impl FnOnce([Moving; 2]) -> Checked<()>) -> Checked<()> {
     // SAFETY: the header's pointer rules.
     let (shape1, motion1, shape2, motion2) = unsafe {
-        (input(shape1, "shape1")?, input(motion1, "motion1")?, input(shape2, "shape2")?, input(motion2, "motion2")?)
+        (
+            input(object1.shape, "object1.shape")?,
+            input(object1.motion, "object1.motion")?,
+            input(object2.shape, "object2.shape")?,
+            input(object2.motion, "object2.motion")?,
+        )
     };
     let (pose1, pose2) = (called(motion1), called(motion2));
-    let first = read_motion(motion1, &pose1, "motion1")?;
-    let second = read_motion(motion2, &pose2, "motion2")?;
+    let first = read_motion(motion1, &pose1, "object1.motion")?;
+    let second = read_motion(motion2, &pose2, "object2.motion")?;
     run([Moving { shape: shape1, motion: &first }, Moving { shape: shape2, motion: &second }])
 }
 

@@ -39,7 +39,7 @@ unsafe impl Versioned for CObjectOptions {
 }
 
 impl CObjectOptions {
-    /// What the header calls its default.
+    /// The defaults, as in the header.
     pub const DEFAULT: CObjectOptions = CObjectOptions {
         struct_size: size_of::<CObjectOptions>(),
         user_data: 0,

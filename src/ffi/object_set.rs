@@ -97,10 +97,21 @@ pub unsafe extern "C" fn swiftprox_scene_least_distance(
     }
 }
 
+/// Poses of a set of objects at many times, an argument by value. Only read during the call.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CPath {
+    /// 12 doubles per object for the first time, then for the second, and so on.
+    pub poses: *const f64,
+    /// Number of times.
+    pub time_count: usize,
+    /// The order in which times are tried.
+    pub order: PoseOrderNumber,
+}
+
 /// Finds a time at which a set of objects is within max_distance of any other object, or of one another if set->among is not 0.
-/// poses holds 12 doubles per object for the first time, then for the second, and so on. set->poses and poses of untried times are
-/// not read. Only pairs that queries test count, but both objects may be fixed. Threads and scratch: as for
-/// swiftprox_scene_least_distance.
+/// set->poses and poses of untried times are not read. Only pairs that queries test count, but both objects may be fixed. Threads
+/// and scratch: as for swiftprox_scene_least_distance.
 ///
 /// On failure time and tried are 0, the pair's ids null. SWIFTPROX_ERROR_INVALID_ARGUMENT: an empty set, an unknown order, or
 /// max_distance is negative, infinite or NaN.
@@ -108,9 +119,7 @@ pub unsafe extern "C" fn swiftprox_scene_least_distance(
 pub unsafe extern "C" fn swiftprox_scene_first_hit(
     scene: *const SceneHandle,
     set: *const CObjectSet,
-    poses: *const f64,
-    time_count: usize,
-    order: PoseOrderNumber,
+    path: CPath,
     max_distance: f64,
     scratch: *mut SetScratch,
     answer: *mut FirstHit,
@@ -118,8 +127,8 @@ pub unsafe extern "C" fn swiftprox_scene_first_hit(
     // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
     unsafe {
         ask(scene, set, scratch, answer, FirstHit::default(), |scene, set, scratch| {
-            let order = read_enumerator(order, "order", "swiftprox_pose_order")?;
-            let poses = array(poses.cast::<Pose>(), time_count.saturating_mul(set.ids.len()), "poses")?;
+            let order = read_enumerator(path.order, "path.order", "swiftprox_pose_order")?;
+            let poses = array(path.poses.cast::<Pose>(), path.time_count.saturating_mul(set.ids.len()), "path.poses")?;
             Ok(scene.first_hit(&set, poses, order, max_distance, scratch)?)
         })
     }
@@ -153,51 +162,37 @@ pub unsafe extern "C" fn swiftprox_scene_cast_ray(
     })
 }
 
+/// Motions of a set of objects over one or many edges, an argument by value. Only read during the call.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CMotions {
+    /// Edge after edge, either one motion, which moves the whole set as one body, or one for each object of the set.
+    pub motions: *const CMotion,
+    /// Number of motions.
+    pub count: usize,
+    /// Number of edges, and of answers; 1 for one cast.
+    pub edge_count: usize,
+}
+
 /// Tests whether moving objects stay farther than config->max_distance from all others, which rest. If not, it finds the first
-/// time. The answer is guaranteed for all times of the range, as in swiftprox_pair_cast. One motion moves the whole set as one
-/// body; set->count motions move one object each. Pieces with their own poses move with their object. set->among not 0 adds pairs
-/// within the set; set->poses is not read.
+/// time. The answer is guaranteed for all times of the range, as in swiftprox_pair_cast. Each edge has an answer and is free up to
+/// its time_lower. Pieces with their own poses move with their object. set->among not 0 adds pairs within the set; set->poses is
+/// not read.
 ///
 /// Only pairs that queries test count, but both objects may be fixed. config->step_budget applies per pair; null config means the
-/// defaults. Threads and scratch: as for swiftprox_scene_least_distance. On failure the outcome is SWIFTPROX_CAST_OUTCOME_NONE.
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is neither 1 nor set->count. Else same errors as swiftprox_pair_cast.
+/// defaults. Threads and scratch: as for swiftprox_scene_least_distance. SWIFTPROX_ERROR_INVALID_ARGUMENT: the number of motions is
+/// neither edge_count nor edge_count times set->count. Else same errors as swiftprox_pair_cast. The message names the edge; its
+/// answer and all later ones are SWIFTPROX_CAST_OUTCOME_NONE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_cast(
     scene: *const SceneHandle,
     set: *const CObjectSet,
-    motions: *const CMotion,
-    motion_count: usize,
-    config: *const CCastConfig,
-    scratch: *mut SetScratch,
-    answer: *mut SceneCastAnswer,
-) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    unsafe {
-        ask(scene, set, scratch, answer, SceneCastAnswer::default(), |scene, set, scratch| {
-            let config = cast_config(config)?;
-            with_motions(array(motions, motion_count, "motions")?, |motions| {
-                Ok(scene.cast(&set, motions, &config, scratch)?)
-            })
-        })
-    }
-}
-
-/// Runs swiftprox_scene_cast for many edges; answers has room for edge_count. motions holds, edge after edge, either one motion per
-/// edge or one per object of the set. An edge is free up to its answer's time_lower.
-///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: motion_count is neither edge_count nor edge_count times set->count. Else same errors as
-/// swiftprox_scene_cast. The message names the edge; its answer and all later ones are reset.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_cast_batch(
-    scene: *const SceneHandle,
-    set: *const CObjectSet,
-    motions: *const CMotion,
-    motion_count: usize,
+    motions: CMotions,
     config: *const CCastConfig,
     scratch: *mut SetScratch,
     answers: *mut SceneCastAnswer,
-    edge_count: usize,
 ) -> StatusCode {
+    let CMotions { motions, count, edge_count } = motions;
     // SAFETY: the header's pointer rules.
     guard(|| unsafe {
         array(answers.cast_const(), edge_count, "answers")?;
@@ -207,7 +202,7 @@ pub unsafe extern "C" fn swiftprox_scene_cast_batch(
             let (set, config) = (read_set(input(set, "set")?)?, cast_config(config)?);
             let mut own = SetScratch::default();
             let scratch = scratch.as_mut().unwrap_or(&mut own);
-            with_motions(array(motions, motion_count, "motions")?, |motions| {
+            with_motions(array(motions, count, "motions.motions")?, |motions| {
                 Ok(scene.cast_batch(&set, motions, &config, scratch, answers)?)
             })
         })

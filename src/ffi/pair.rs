@@ -45,7 +45,7 @@ unsafe impl Versioned for CPairConfig {
 }
 
 impl CPairConfig {
-    /// What the header calls its default.
+    /// The defaults, as in the header.
     pub const DEFAULT: CPairConfig = CPairConfig {
         struct_size: size_of::<CPairConfig>(),
         max_distance: f64::INFINITY,

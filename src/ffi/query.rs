@@ -57,7 +57,7 @@ unsafe impl Versioned for CSceneQuery {
 }
 
 impl CSceneQuery {
-    /// What the header calls its default.
+    /// The defaults, as in the header.
     pub const DEFAULT: CSceneQuery = CSceneQuery {
         struct_size: size_of::<CSceneQuery>(),
         max_distance: DEFAULT_MAX_DISTANCE,

@@ -125,7 +125,7 @@ unsafe impl Versioned for CSceneOptions {
 }
 
 impl CSceneOptions {
-    /// What the header calls its default.
+    /// The defaults, as in the header.
     pub const DEFAULT: CSceneOptions = CSceneOptions {
         struct_size: size_of::<CSceneOptions>(),
         rotation_limit: ROTATION_LIMIT,

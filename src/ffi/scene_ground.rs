@@ -1,15 +1,15 @@
 //! Where objects of a scene meet a ground or a half-space, which threads may ask at once.
 
-use super::depth::{CManifoldConfig, read_manifold_config};
 use super::failure::{Checked, StatusCode};
+use super::ground::{CPlacedGround, read_placed};
 use super::guard::guard;
 use super::object_set::{CObjectSet, read_set};
 use super::pointers::{exclusive, input, output};
 use super::scene::{SceneHandle, look};
-use crate::base::math::Pose;
-use crate::ground::Ground;
+use super::structs::{Versioned, read_struct};
+use crate::ground::PlacedGround;
 use crate::pair::{HalfSpace, ManifoldConfig, ManifoldPoint};
-use crate::scene::{GroupFilter, ObjectSet, Scene, SceneGroundContact, SceneGroundContacts, SetScratch};
+use crate::scene::{GroupFilter, SceneGroundContact, SceneGroundContacts, SetScratch};
 
 /// Contacts of objects of a scene with a ground or a half-space. Owned by the scratch and valid until its next use.
 #[derive(Debug, Clone, Copy)]
@@ -30,12 +30,41 @@ impl CSceneGroundAnswer {
         CSceneGroundAnswer { contacts: std::ptr::null(), contact_count: 0, points: std::ptr::null(), point_count: 0 };
 }
 
+/// Options of a scene's contacts with a ground or a half-space. Initialise with SWIFTPROX_SCENE_GROUND_CONFIG_DEFAULT.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CSceneGroundConfig {
+    /// Set by SWIFTPROX_SCENE_GROUND_CONFIG_DEFAULT.
+    pub struct_size: usize,
+    /// Largest gap of objects that have contacts, and of their points: from 0 (the default) to infinity.
+    pub max_distance: f64,
+    /// Not 0: at most four points stay on each side of a body (swiftprox_pair_ground_contacts). Default: 0.
+    pub reduces: i32,
+    /// The ground's groups, one bit each. An object is tested if its mask has a bit of them. Default: 0, which means the first, 1.
+    pub groups: u32,
+    /// An object is tested if its groups have a bit of this. Default: 0, which means all.
+    pub mask: u32,
+}
+
+// SAFETY: repr(C), struct_size first, any bytes are valid.
+unsafe impl Versioned for CSceneGroundConfig {
+    const NAME: &'static str = "swiftprox_scene_ground_config";
+}
+
+impl CSceneGroundConfig {
+    /// The defaults, as in the header.
+    pub const DEFAULT: CSceneGroundConfig = CSceneGroundConfig {
+        struct_size: size_of::<CSceneGroundConfig>(),
+        max_distance: 0.0,
+        reduces: 0,
+        groups: 0,
+        mask: 0,
+    };
+}
+
 /// Finds the contacts of objects of a scene with a ground (grounds belong to no scene), up to config->max_distance apart. Contacts
 /// of each piece are as from swiftprox_pair_ground_contacts. Null set: all objects, in order of creation. Fixed objects are
-/// skipped, unless set->poses gives their poses; set->among is not read.
-///
-/// An object is tested if its groups have a bit of filter->mask, and its mask a bit of filter->groups. A null filter means group 1
-/// and a full mask. Activation and the scene's pair filter do not apply. config->rotation_limit is for the ground's pose.
+/// skipped, unless set->poses gives their poses; set->among is not read. Activation and the scene's pair filter do not apply.
 ///
 /// Threads: as for swiftprox_scene_least_distance. The scratch owns the results and must not be null. Once it is large enough, only
 /// integer arithmetic allocates. On failure the answer is empty. Same errors as swiftprox_pair_manifold.
@@ -43,24 +72,16 @@ impl CSceneGroundAnswer {
 pub unsafe extern "C" fn swiftprox_scene_ground_contacts(
     scene: *const SceneHandle,
     set: *const CObjectSet,
-    ground: *const Ground,
-    ground_pose: *const f64,
-    config: *const CManifoldConfig,
-    filter: *const GroupFilter,
+    ground: CPlacedGround,
+    config: *const CSceneGroundConfig,
     scratch: *mut SetScratch,
     answer: *mut CSceneGroundAnswer,
 ) -> StatusCode {
-    let asked = Asked { scene, set, config, filter, scratch, answer };
-    // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
-    unsafe {
-        asked.answer(|scene, set, config, filter, scratch| {
-            let (ground, place) = (input(ground, "ground")?, input(ground_pose.cast::<Pose>(), "ground_pose")?);
-            Ok(scene.ground_contacts(set, ground.at(place), config, filter, scratch)?)
-        })
-    }
+    // SAFETY: the header's pointer rules.
+    unsafe { find(scene, set, || Ok(Floor::Ground(read_placed(ground)?)), config, scratch, answer) }
 }
 
-/// Like swiftprox_scene_ground_contacts for a half-space: one contact for each piece within max_distance, as from
+/// Like swiftprox_scene_ground_contacts for a half-space: one contact for each piece within config->max_distance, as from
 /// swiftprox_pair_half_space_manifold. Its triangle is UINT32_MAX. Same errors as swiftprox_scene_ground_contacts and
 /// swiftprox_pair_half_space_distance.
 #[unsafe(no_mangle)]
@@ -68,62 +89,56 @@ pub unsafe extern "C" fn swiftprox_scene_half_space_contacts(
     scene: *const SceneHandle,
     set: *const CObjectSet,
     half_space: *const HalfSpace,
-    config: *const CManifoldConfig,
-    filter: *const GroupFilter,
+    config: *const CSceneGroundConfig,
     scratch: *mut SetScratch,
     answer: *mut CSceneGroundAnswer,
 ) -> StatusCode {
-    let asked = Asked { scene, set, config, filter, scratch, answer };
     // SAFETY: the header's pointer rules.
-    unsafe {
-        asked.answer(|scene, set, config, filter, scratch| {
-            Ok(scene.half_space_contacts(set, input(half_space, "half_space")?, config, filter, scratch)?)
-        })
-    }
+    unsafe { find(scene, set, || Ok(Floor::HalfSpace(input(half_space, "half_space")?)), config, scratch, answer) }
 }
 
-/// What both are given.
-struct Asked {
+/// Asks a scene, and writes its contacts with what `floor` reads; none where it fails.
+///
+/// # Safety
+/// The pointers meet the header's pointer rules.
+unsafe fn find<'a>(
     scene: *const SceneHandle,
     set: *const CObjectSet,
-    config: *const CManifoldConfig,
-    filter: *const GroupFilter,
+    floor: impl FnOnce() -> Checked<Floor<'a>>,
+    config: *const CSceneGroundConfig,
     scratch: *mut SetScratch,
     answer: *mut CSceneGroundAnswer,
+) -> StatusCode {
+    // SAFETY: by the caller.
+    guard(|| unsafe {
+        output(answer, "answer", CSceneGroundAnswer::EMPTY)?;
+        look(scene, |scene| {
+            let set = set.as_ref().map(|set| read_set(set)).transpose()?;
+            let CSceneGroundConfig { max_distance, reduces, groups, mask, .. } =
+                read_struct(config, CSceneGroundConfig::DEFAULT)?;
+            let config = ManifoldConfig { max_distance, reduces: reduces != 0, ..ManifoldConfig::default() };
+            let filter = GroupFilter {
+                groups: if groups == 0 { 1 } else { groups },
+                mask: if mask == 0 { u32::MAX } else { mask },
+            };
+            let (scratch, set) = (exclusive(scratch, "scratch")?, set.as_ref());
+            let SceneGroundContacts { contacts, points } = match floor()? {
+                Floor::Ground(ground) => scene.ground_contacts(set, ground, &config, filter, scratch)?,
+                Floor::HalfSpace(half_space) => scene.half_space_contacts(set, half_space, &config, filter, scratch)?,
+            };
+            answer.write(CSceneGroundAnswer {
+                contacts: if contacts.is_empty() { std::ptr::null() } else { contacts.as_ptr() },
+                contact_count: contacts.len(),
+                points: if points.is_empty() { std::ptr::null() } else { points.as_ptr() },
+                point_count: points.len(),
+            });
+            Ok(())
+        })
+    })
 }
 
-impl Asked {
-    /// Asks a scene, and writes what it says; nothing where it fails.
-    ///
-    /// # Safety
-    /// The pointers meet the header's pointer rules.
-    unsafe fn answer(
-        self,
-        find: impl for<'a> FnOnce(
-            &Scene,
-            Option<&ObjectSet>,
-            &ManifoldConfig,
-            GroupFilter,
-            &'a mut SetScratch,
-        ) -> Checked<SceneGroundContacts<'a>>,
-    ) -> StatusCode {
-        // SAFETY: by the caller.
-        guard(|| unsafe {
-            output(self.answer, "answer", CSceneGroundAnswer::EMPTY)?;
-            look(self.scene, |scene| {
-                let set = self.set.as_ref().map(|set| read_set(set)).transpose()?;
-                let config = read_manifold_config(self.config)?;
-                let filter = self.filter.as_ref().copied().unwrap_or_default();
-                let scratch = exclusive(self.scratch, "scratch")?;
-                let SceneGroundContacts { contacts, points } = find(scene, set.as_ref(), &config, filter, scratch)?;
-                self.answer.write(CSceneGroundAnswer {
-                    contacts: if contacts.is_empty() { std::ptr::null() } else { contacts.as_ptr() },
-                    contact_count: contacts.len(),
-                    points: if points.is_empty() { std::ptr::null() } else { points.as_ptr() },
-                    point_count: points.len(),
-                });
-                Ok(())
-            })
-        })
-    }
+/// Where contacts are looked for.
+enum Floor<'a> {
+    Ground(PlacedGround<'a>),
+    HalfSpace(&'a HalfSpace),
 }

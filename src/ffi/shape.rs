@@ -3,7 +3,7 @@
 use std::ffi::{c_char, c_void};
 use std::sync::Arc;
 
-use super::arrays::{copy_triangles, copy_vertices, read_arrays, read_path, read_vectors};
+use super::arrays::{CMesh, copy_triangles, copy_vertices, read_mesh, read_path, read_vectors};
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::{guard, keep_panics_quiet};
 use super::pointers::{input, output};
@@ -75,26 +75,20 @@ impl ShapeInfo {
 
 /// Creates a shape from a polygon mesh. Release it with swiftprox_shape_release. The arrays are copied.
 ///
-/// `vertices` holds 3 * vertex_count coordinates. `indices` holds the 0-based vertex numbers of all faces in turn,
-/// counter-clockwise seen from outside. `valences` holds the number of vertices of each face; null means triangles. Answers name
-/// features by these numbers. Unless the options allow more, the mesh must be a closed, consistently oriented, connected, convex
-/// 2-manifold without unused vertices.
+/// Answers name features by the mesh's numbers of vertices and faces. Unless the options allow more, the mesh must be a closed,
+/// consistently oriented, connected, convex 2-manifold without unused vertices.
 ///
 /// On failure `*shape` is null. SWIFTPROX_ERROR_MESH: the mesh breaks these rules, or a coordinate is not finite.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_from_mesh(
-    vertices: *const f64,
-    vertex_count: usize,
-    indices: *const u32,
-    valences: *const u32,
-    face_count: usize,
+    mesh: CMesh,
     options: *const CShapeOptions,
     shape: *mut *const Shape,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
     create(shape, || unsafe {
         let making = read_options(options)?;
-        let mesh = read_arrays(vertices, vertex_count, indices, valences, face_count)?;
+        let mesh = read_mesh(mesh)?;
         Ok(making.run(|options, progress| Shape::from_mesh_in_steps(&mesh, options, progress))?)
     })
 }
@@ -400,22 +394,33 @@ impl CFace {
     const UNKNOWN: CFace = CFace { normal: [f64::NAN; 3], offset: f64::NAN, corner_count: 0, label_count: 0 };
 }
 
-/// Writes a face of a shape; `index` is from 0 to below swiftprox_shape_info.face_count. `corners` receives its corners
-/// counter-clockwise seen from outside, as indices into the vertices of swiftprox_shape_copy_vertices. `labels` receives the
-/// caller's polygons of the face, ascending, or the face's own number if the hull was made without polygons. Both are cut at their
-/// capacity, and may be null with capacity 0. For a face of an answer use swiftprox_shape_find_face.
+/// Room for what swiftprox_shape_get_face finds, by value; `{NULL, 0, NULL, 0}` requests only the plane and the numbers. What does
+/// not fit is left out.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CFaceRoom {
+    /// Receives the corners counter-clockwise seen from outside, as indices into the vertices of swiftprox_shape_copy_vertices.
+    pub corners: *mut u32,
+    /// Room of `corners`; 0 allows null.
+    pub corner_capacity: usize,
+    /// Receives the caller's polygons of the face, ascending, or the face's own number if the hull was made without polygons.
+    pub labels: *mut u32,
+    /// Room of `labels`; 0 allows null.
+    pub label_capacity: usize,
+}
+
+/// Writes a face of a shape; `index` is from 0 to below swiftprox_shape_info.face_count. For a face of an answer use
+/// swiftprox_shape_find_face.
 ///
 /// On failure `*face` is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: there is no such face.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_get_face(
     shape: *const Shape,
     index: usize,
+    room: CFaceRoom,
     face: *mut CFace,
-    corners: *mut u32,
-    corner_capacity: usize,
-    labels: *mut u32,
-    label_capacity: usize,
 ) -> StatusCode {
+    let CFaceRoom { corners, corner_capacity, labels, label_capacity } = room;
     guard(|| {
         // SAFETY: the header's pointer rules.
         unsafe { output(face, "face", CFace::UNKNOWN) }?;
@@ -425,7 +430,9 @@ pub unsafe extern "C" fn swiftprox_shape_get_face(
             let message = format!("face {index} of a shape with {} faces", shape.face_count());
             Failure::new(StatusCode::ErrorInvalidArgument, message)
         })?;
-        for (array, capacity, name) in [(corners, corner_capacity, "corners"), (labels, label_capacity, "labels")] {
+        for (array, capacity, name) in
+            [(corners, corner_capacity, "room.corners"), (labels, label_capacity, "room.labels")]
+        {
             if array.is_null() && capacity > 0 {
                 return Err(Failure::null(name));
             }

@@ -84,7 +84,7 @@ pub(super) fn in_steps<T>(
 }
 
 impl CShapeOptions {
-    /// What the header calls its default.
+    /// The defaults, as in the header.
     pub const DEFAULT: CShapeOptions = CShapeOptions {
         struct_size: size_of::<CShapeOptions>(),
         input: InputPolicy::Strict as i32,

@@ -47,7 +47,7 @@ unsafe impl Versioned for CShapeTuning {
 }
 
 impl CShapeTuning {
-    /// What the header calls its default.
+    /// The defaults, as in the header.
     pub const DEFAULT: CShapeTuning = CShapeTuning {
         struct_size: size_of::<CShapeTuning>(),
         hierarchy: HierarchyKind::Automatic as i32,
@@ -100,7 +100,7 @@ unsafe impl Versioned for CPairTuning {
 }
 
 impl CPairTuning {
-    /// What the header calls its default.
+    /// The defaults, as in the header.
     pub const DEFAULT: CPairTuning = CPairTuning {
         struct_size: size_of::<CPairTuning>(),
         start: Start::Automatic as i32,

@@ -5,6 +5,7 @@ use std::mem::MaybeUninit;
 use std::ptr::{null, null_mut};
 
 use swiftprox::ffi::StatusCode;
+use swiftprox::ffi::arrays::CMesh;
 use swiftprox::ffi::level::*;
 use swiftprox::ffi::shape::*;
 use swiftprox::ffi::shape_options::*;

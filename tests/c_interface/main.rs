@@ -12,6 +12,7 @@ use std::ptr::{null, null_mut};
 
 use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::allocator::swiftprox_library_set_allocator;
+use swiftprox::ffi::arrays::CMesh;
 use swiftprox::ffi::library::*;
 use swiftprox::ffi::object::*;
 use swiftprox::ffi::pair::*;
@@ -37,8 +38,9 @@ fn last_message() -> String {
 fn tetrahedron() -> *const Shape {
     let mut shape = null();
     // SAFETY: arrays of the sizes that are given, and room for the shape.
-    let status =
-        unsafe { swiftprox_shape_create_from_mesh(CORNERS.as_ptr(), 4, FACES.as_ptr(), null(), 4, null(), &mut shape) };
+    let mesh =
+        CMesh { vertices: CORNERS.as_ptr(), vertex_count: 4, indices: FACES.as_ptr(), valences: null(), face_count: 4 };
+    let status = unsafe { swiftprox_shape_create_from_mesh(mesh, null(), &mut shape) };
     assert_eq!(status, StatusCode::Ok, "{}", last_message());
     shape
 }

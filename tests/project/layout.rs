@@ -8,22 +8,23 @@ use std::mem::{align_of, offset_of, size_of};
 use std::path::Path;
 use std::process::Command;
 
+use swiftprox::ffi::arrays::CMesh;
 use swiftprox::ffi::decomposition::CDecomposition;
 use swiftprox::ffi::depth::{CDepthCache, CDepthConfig, CManifoldCache, CManifoldConfig, CManifoldRoom};
-use swiftprox::ffi::ground::{GroundCount, GroundInfo};
-use swiftprox::ffi::level::{CMesh, LevelInfo};
+use swiftprox::ffi::ground::{CGroundRoom, CPlacedGround, GroundCount, GroundInfo};
+use swiftprox::ffi::level::LevelInfo;
 use swiftprox::ffi::listener::CListenerEvents;
-use swiftprox::ffi::motion::{CCastConfig, CClearanceConfig, CMotion};
+use swiftprox::ffi::motion::{CCastConfig, CClearanceConfig, CMotion, CMoving};
 use swiftprox::ffi::object::{CObjectOptions, ObjectInfo};
 use swiftprox::ffi::object_query::CSceneEvents;
-use swiftprox::ffi::object_set::{CObjectSet, CSceneRayAnswer};
+use swiftprox::ffi::object_set::{CMotions, CObjectSet, CPath, CSceneRayAnswer};
 use swiftprox::ffi::pair::{CPairCache, CPairConfig, CPlaced};
 use swiftprox::ffi::pair_batch::{CPairQuestion, CPoses};
 use swiftprox::ffi::query::{CSceneAnswer, CSceneContacts, CSceneQuery};
 use swiftprox::ffi::record::CReplayStep;
 use swiftprox::ffi::scene::CSceneOptions;
-use swiftprox::ffi::scene_ground::CSceneGroundAnswer;
-use swiftprox::ffi::shape::{CFace, ShapeInfo};
+use swiftprox::ffi::scene_ground::{CSceneGroundAnswer, CSceneGroundConfig};
+use swiftprox::ffi::shape::{CFace, CFaceRoom, ShapeInfo};
 use swiftprox::ffi::shape_options::CShapeOptions;
 use swiftprox::ffi::tuning::{CPairTuning, CShapeTuning, TuningInfo};
 use swiftprox::ground::{GroundContact, GroundDistance};
@@ -36,7 +37,7 @@ use swiftprox::pair::{
 use swiftprox::point::{PointAnswer, SupportVertex};
 use swiftprox::ray::{Ray, RayAnswer};
 use swiftprox::scene::{
-    Contact, FirstHit, GroupFilter, LeastDistance, ObjectPair, PairEvent, PairResult, PointEvent, SceneCastAnswer,
+    Contact, FirstHit, LeastDistance, ObjectPair, PairEvent, PairResult, PointEvent, SceneCastAnswer,
     SceneGroundContact, SceneRayHit, SceneStatistics,
 };
 
@@ -88,6 +89,7 @@ fn layouts() -> Vec<Layout> {
             struct_size, input, rotation, translation, scale, convexity_tolerance, progress, progress_user,
             tuning, face_noise, swept_radius
         },
+        swiftprox_mesh = CMesh { vertices, vertex_count, indices, valences, face_count },
         swiftprox_shape_info = ShapeInfo {
             struct_size, dimension, vertex_count, edge_count, face_count, triangle_count, volume,
             centre_of_mass, radius, lower_corner, upper_corner, bytes, inertia, swept_radius
@@ -156,6 +158,7 @@ fn layouts() -> Vec<Layout> {
         swiftprox_object_set = CObjectSet { ids, count, poses, among },
         swiftprox_least_distance = LeastDistance { lower, upper, nearest },
         swiftprox_first_hit = FirstHit { time, tried, pair },
+        swiftprox_path = CPath { poses, time_count, order },
         swiftprox_motion = CMotion {
             kind, start, end, centre, velocity, rotation, pose, user, bend, rounding
         },
@@ -165,20 +168,25 @@ fn layouts() -> Vec<Layout> {
         swiftprox_cast_config = CCastConfig {
             struct_size, time_begin, time_end, time_tolerance, max_distance, step_budget, ignores_parting
         },
+        swiftprox_moving = CMoving { shape, motion },
         swiftprox_clearance = Clearance { lower, upper, time, queries },
         swiftprox_clearance_config = CClearanceConfig {
             struct_size, time_begin, time_end, absolute_error, relative_error, step_budget
         },
         swiftprox_scene_cast_answer = SceneCastAnswer { outcome, queries, time_lower, time_upper, upper, pair },
+        swiftprox_motions = CMotions { motions, count, edge_count },
         swiftprox_half_space = HalfSpace { normal, offset },
         swiftprox_ground_info = GroundInfo { vertex_count, triangle_count, bytes },
+        swiftprox_placed_ground = CPlacedGround { ground, pose },
         swiftprox_ground_distance = GroundDistance { answer, triangle },
         swiftprox_ground_contact = GroundContact { manifold, triangle, first_point },
+        swiftprox_ground_room = CGroundRoom { contacts, contact_capacity, points, point_capacity },
         swiftprox_ground_count = GroundCount { contact_count, point_count },
-        swiftprox_group_filter = GroupFilter { groups, mask },
+        swiftprox_scene_ground_config = CSceneGroundConfig { struct_size, max_distance, reduces, groups, mask },
         swiftprox_scene_ground_contact = SceneGroundContact { object, user_data, piece, contact },
         swiftprox_scene_ground_answer = CSceneGroundAnswer { contacts, contact_count, points, point_count },
         swiftprox_face = CFace { normal, offset, corner_count, label_count },
+        swiftprox_face_room = CFaceRoom { corners, corner_capacity, labels, label_capacity },
         swiftprox_decomposition = CDecomposition { corners, faces, pieces, capacity, triangle_count, piece_count },
         swiftprox_ray = Ray { origin, direction, t_max },
         swiftprox_ray_answer = RayAnswer { outcome, exact, entry, exit, normal, feature, steps },
@@ -197,7 +205,6 @@ fn layouts() -> Vec<Layout> {
         swiftprox_shape_tuning_info = TuningInfo {
             struct_size, hierarchy, lookup, level_count, level_bytes, lookup_bytes, lookup_resolution
         },
-        swiftprox_mesh = CMesh { vertices, vertex_count, indices, valences, face_count },
         swiftprox_level_info = LevelInfo {
             struct_size, vertex_count, edge_count, face_count, triangle_count, deviation, bytes
         },
@@ -284,6 +291,7 @@ fn constants_of_c_are_the_defaults_of_rust() {
         defaults!(swiftprox_scene_query = CSceneQuery::DEFAULT, { struct_size, max_distance, absolute_error, relative_error, error_budget, step_budget, early_exit, tuning, detail, mask }),
         defaults!(swiftprox_cast_config = CCastConfig::defaults(), { struct_size, time_begin, time_end, time_tolerance, max_distance, step_budget, ignores_parting }),
         defaults!(swiftprox_clearance_config = CClearanceConfig::defaults(), { struct_size, time_begin, time_end, absolute_error, relative_error, step_budget }),
+        defaults!(swiftprox_scene_ground_config = CSceneGroundConfig::DEFAULT, { struct_size, max_distance, reduces, groups, mask }),
         defaults!(swiftprox_shape_tuning = CShapeTuning::DEFAULT, { struct_size, hierarchy, lookup, decimation, minimum_triangles, most_levels, lookup_radius_factor, lookup_resolution }),
         defaults!(swiftprox_pair_tuning = CPairTuning::DEFAULT, { struct_size, start, levels, refinement }),
     ];
@@ -348,7 +356,7 @@ impl<T> Bytes for Option<T> {
 /// What a C program prints of its constants, a line for each.
 fn constants_of_c(names: &[&str]) -> String {
     let mut source = "#include <stdio.h>\n#include <string.h>\n".to_string();
-    for header in ["motion", "tuning"] {
+    for header in ["ground", "motion", "tuning"] {
         writeln!(source, "#include \"swiftprox/{header}.h\"").unwrap();
     }
     source += "int main(void)\n{\n    unsigned char bytes[4096];\n    size_t i;\n";

@@ -5,5 +5,6 @@ mod cpp;
 mod headers;
 mod layout;
 mod links;
+mod parameters;
 mod symbols;
 mod workflow;

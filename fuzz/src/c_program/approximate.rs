@@ -5,6 +5,7 @@ use std::ptr::{null, null_mut};
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use swiftprox::ffi::StatusCode;
+use swiftprox::ffi::arrays::CMesh;
 use swiftprox::ffi::level::*;
 use swiftprox::ffi::library::*;
 use swiftprox::ffi::pair::*;

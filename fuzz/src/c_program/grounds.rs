@@ -48,7 +48,8 @@ impl Program {
     fn ask_ground(&mut self, u: &mut Unstructured, ground: *const Ground) -> Result<StatusCode> {
         let shape = self.shape(u)?;
         let (pose, place) = (any_pose(u)?, any_pose(u)?);
-        let (pose, place) = (or_null(u, pose.at::<f64>())?, or_null(u, place.at::<f64>())?);
+        let object = CPlaced { shape, pose: or_null(u, pose.at::<f64>())? };
+        let placed = CPlacedGround { ground, pose: or_null(u, place.at::<f64>())? };
         if u.arbitrary()? {
             let (kind, config) = (u.int_in_range(-1..=4)?, pair_config(u)?);
             let answer = Block::new(size_of::<GroundDistance>());
@@ -56,7 +57,7 @@ impl Program {
             // SAFETY: living handles or null, blocks of the sizes that the header names.
             return Ok(unsafe {
                 let status = inside(self.environment, || {
-                    swiftprox_pair_ground_distance(kind, shape, pose, ground, place, start(&config), target)
+                    swiftprox_pair_ground_distance(kind, object, placed, start(&config), target)
                 });
                 if !target.is_null() {
                     let said = target.read().answer;
@@ -69,23 +70,18 @@ impl Program {
         let (contact_room, point_room) = (u.int_in_range(0..=MOST_ROOM)?, u.int_in_range(0..=MOST_ROOM)?);
         let contacts = Block::new(size_of::<GroundContact>() * contact_room);
         let points = Block::new(size_of::<ManifoldPoint>() * point_room);
-        let (contacts, contact_room) = array(u, contacts.at(), contact_room)?;
-        let (points, point_room) = array(u, points.at(), point_room)?;
+        let (contacts, contact_capacity) = array(u, contacts.at(), contact_room)?;
+        let (points, point_capacity) = array(u, points.at(), point_room)?;
         let count = Block::new(size_of::<GroundCount>());
         let target = or_null(u, count.at::<GroundCount>())?;
         // SAFETY: as above; no array has less room than it claims.
         Ok(unsafe {
             let status = inside(self.environment, || {
                 swiftprox_pair_ground_contacts(
-                    shape,
-                    pose,
-                    ground,
-                    place,
+                    object,
+                    placed,
                     start(&config),
-                    contacts,
-                    contact_room,
-                    points,
-                    point_room,
+                    CGroundRoom { contacts, contact_capacity, points, point_capacity },
                     target,
                 )
             });

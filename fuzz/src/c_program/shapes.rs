@@ -5,6 +5,7 @@ use std::ptr::{null, null_mut};
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use swiftprox::base::simd::environment::Environment;
 use swiftprox::ffi::StatusCode;
+use swiftprox::ffi::arrays::CMesh;
 use swiftprox::ffi::level::*;
 use swiftprox::ffi::pair::*;
 use swiftprox::ffi::shape::*;
@@ -78,11 +79,7 @@ impl Program {
             let face_count = arrays.face_count;
             let out = if u.ratio(1, 32)? { null_mut() } else { &raw mut shape };
             swiftprox_shape_create_from_mesh(
-                vertices,
-                vertex_count,
-                indices,
-                valences,
-                face_count,
+                CMesh { vertices, vertex_count, indices, valences, face_count },
                 start(&options),
                 out,
             )

@@ -101,8 +101,7 @@ inline const swiftprox_shape* make_shape(const std::vector<Mesh>& levels, const 
             options.tuning = &tuning;
         }
         const swiftprox_mesh body = native_mesh(levels[0]);
-        status = swiftprox_shape_create_from_mesh(body.vertices, body.vertex_count, body.indices, body.valences,
-                                                  body.face_count, &options, &shape);
+        status = swiftprox_shape_create_from_mesh(body, &options, &shape);
     }
     return status == SWIFTPROX_OK ? shape : NULL;
 }
@@ -114,8 +113,7 @@ inline const swiftprox_shape* make_hull_of_patch(const Mesh& mesh)
     options.input = SWIFTPROX_INPUT_PATCH;
     const swiftprox_shape* shape = NULL;
     const swiftprox_mesh body = native_mesh(mesh);
-    const swiftprox_status status = swiftprox_shape_create_from_mesh(body.vertices, body.vertex_count, body.indices, body.valences,
-                                                                     body.face_count, &options, &shape);
+    const swiftprox_status status = swiftprox_shape_create_from_mesh(body, &options, &shape);
     return status == SWIFTPROX_OK ? shape : NULL;
 }
 

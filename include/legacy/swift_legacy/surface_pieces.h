@@ -32,8 +32,7 @@ inline bool pieces_of_surface(const Mesh& mesh, std::vector<Mesh>& pieces)
     found.pieces = &numbers[0];
     found.capacity = capacity;
     const swiftprox_mesh native = native_mesh(mesh);
-    if (swiftprox_mesh_decompose(native.vertices, native.vertex_count, native.indices, native.valences, native.face_count,
-                                 mesh.tolerance, NULL, NULL, &found) != SWIFTPROX_OK) {
+    if (swiftprox_mesh_decompose(native, mesh.tolerance, NULL, NULL, &found) != SWIFTPROX_OK) {
         return false;
     }
     SubMesh piece(mesh);
