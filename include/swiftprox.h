@@ -60,7 +60,8 @@
  *
  * Units and frames. Lengths are in the unit of the caller's vertices. A pose is 12 doubles, the row-major 3x4 matrix [R|T]; an
  * object is exactly R*v + T for its vertices v. R is accepted if every entry of R^T R - I is at most 1e-2 and det R > 0; it need
- * not be exactly orthonormal. Frames are right-handed; faces are counter-clockwise seen from outside.
+ * not be exactly orthonormal. The 16 numbers of OpenGL, glm and Eigen are column-major: swiftprox_pose_from_column_major. Frames
+ * are right-handed; faces are counter-clockwise seen from outside.
  *
  * Floating-point environment. Any is allowed on x86-64 and AArch64: other rounding modes, flushed subnormals, trapped exceptions.
  * Answers are bit for bit those of the default one. Functions set the default environment and restore the program's before they
@@ -474,6 +475,36 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_shape_prepare(const struct swiftprox_shape *shape,
                                          swiftprox_progress_callback progress,
                                          void *progress_user);
+
+/** @} */
+
+/**
+ * @defgroup swiftprox_pose Poses from what other libraries have
+ * @{
+ */
+
+/**
+ * Makes a pose, 12 doubles, from a quaternion x, y, z, w (the order of Eigen's coefficients and of ROS) and a translation.
+ *
+ * SWIFTPROX_ERROR_POSE: a number is not finite, or the quaternion's length is not 1 to 1e-2. The pose is then NaN.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pose_from_quaternion(const double *quaternion,
+                                                const double *translation,
+                                                double *pose);
+
+/**
+ * Makes a pose, 12 doubles, from the 16 numbers of a column-major 4x4 matrix, as OpenGL, glm and Eigen have them.
+ *
+ * SWIFTPROX_ERROR_POSE: the last row is not 0 0 0 1, as in a transposed matrix, or the pose is refused. The pose is then NaN.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pose_from_column_major(const double *matrix,
+                                                  double *pose);
 
 /** @} */
 

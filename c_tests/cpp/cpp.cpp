@@ -95,6 +95,10 @@ static void poses()
         CHECK(std::fabs(quaternion.rows()[i] - turned.rows()[i]) < 1e-15);
     }
     CHECK(column_major.rows() == turned.rows());
+    CHECK(Pose::try_from_column_major(columns).value.rows() == turned.rows());
+    CHECK(Pose::try_from_column_major(nullptr).status == SWIFTPROX_ERROR_NULL_POINTER);
+    CHECK(Pose::try_from_unit_quaternion({0, 0, 0, 1}, {1, 2, 3}).value.rows() == Pose::at(1, 2, 3).rows());
+    CHECK(Pose::try_from_unit_quaternion({0, 0, 0, 3}).status == SWIFTPROX_ERROR_POSE);
     CHECK(transform.rows() == turned.rows());
     CHECK(Pose::from_quaternion(1e-200, 0, 0, 0).rows() == Pose().rows());
     CHECK(Pose::from_quaternion(1e200, 0, 0, 0).rows() == Pose().rows());

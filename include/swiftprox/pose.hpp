@@ -2,6 +2,8 @@
 #ifndef SWIFTPROX_POSE_HPP
 #define SWIFTPROX_POSE_HPP
 
+#include "result.hpp"
+
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -41,6 +43,21 @@ class Pose
     static constexpr Pose from_column_major(const double *m) noexcept
     {
         return Pose({m[0], m[4], m[8], m[1], m[5], m[9], m[2], m[6], m[10]}, {m[12], m[13], m[14]});
+    }
+    /** From x, y, z, w and a translation; refuses a quaternion whose length is not 1. */
+    static Result<Pose> try_from_unit_quaternion(const std::array<double, 4> &quaternion,
+                                                 const std::array<double, 3> &translation = {}) noexcept
+    {
+        Result<Pose> result;
+        result.status = swiftprox_pose_from_quaternion(quaternion.data(), translation.data(), result.value.rows_.data());
+        return result;
+    }
+    /** From the 16 numbers of a column-major 4x4 matrix; refuses what is no pose. */
+    static Result<Pose> try_from_column_major(const double *matrix) noexcept
+    {
+        Result<Pose> result;
+        result.status = swiftprox_pose_from_column_major(matrix, result.value.rows_.data());
+        return result;
     }
     /** From anything whose matrix() has entries (row, column), such as Eigen::Isometry3d and Affine3d. */
     template <class Transform, class = decltype(std::declval<const Transform &>().matrix()(0, 0))>

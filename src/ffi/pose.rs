@@ -5,10 +5,63 @@ use super::guard::guard;
 use super::object::check_piece;
 use super::pointers::{array, input, output};
 use super::scene::{SceneHandle, change, look};
-use crate::base::math::{Matrix, Pose, Vector};
+use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use crate::base::memory::collected;
 use crate::scene::Scene;
 use crate::scene::object::ObjectId;
+
+/// Makes a pose, 12 doubles, from a quaternion x, y, z, w (the order of Eigen's coefficients and of ROS) and a translation.
+///
+/// SWIFTPROX_ERROR_POSE: a number is not finite, or the quaternion's length is not 1 to 1e-2. The pose is then NaN.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_pose_from_quaternion(
+    quaternion: *const f64,
+    translation: *const f64,
+    pose: *mut f64,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    guard(|| unsafe {
+        output(pose.cast::<[f64; 12]>(), "pose", [f64::NAN; 12])?;
+        let [x, y, z, w] = *input(quaternion.cast::<[f64; 4]>(), "quaternion")?;
+        let &[tx, ty, tz] = input(translation.cast::<[f64; 3]>(), "translation")?;
+        let length = (x * x + y * y + z * z + w * w).sqrt();
+        if !((length - 1.0).abs() <= 1e-2) {
+            let message = format!("the quaternion's length is {length:e}, it must be 1: divide it by its length");
+            return Err(Failure::new(StatusCode::ErrorPose, message));
+        }
+        let [x, y, z, w] = [x, y, z, w].map(|part| part / length);
+        let rotation = [
+            [1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y - w * z), 2.0 * (x * z + w * y)],
+            [2.0 * (x * y + w * z), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z - w * x)],
+            [2.0 * (x * z - w * y), 2.0 * (y * z + w * x), 1.0 - 2.0 * (x * x + y * y)],
+        ];
+        let [a, b, c] = rotation;
+        let made = Pose { rows: [[a[0], a[1], a[2], tx], [b[0], b[1], b[2], ty], [c[0], c[1], c[2], tz]] };
+        made.check(ROTATION_LIMIT)?;
+        output(pose.cast::<Pose>(), "pose", made)
+    })
+}
+
+/// Makes a pose, 12 doubles, from the 16 numbers of a column-major 4x4 matrix, as OpenGL, glm and Eigen have them.
+///
+/// SWIFTPROX_ERROR_POSE: the last row is not 0 0 0 1, as in a transposed matrix, or the pose is refused. The pose is then NaN.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_pose_from_column_major(matrix: *const f64, pose: *mut f64) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    guard(|| unsafe {
+        output(pose.cast::<[f64; 12]>(), "pose", [f64::NAN; 12])?;
+        let m = input(matrix.cast::<[[f64; 4]; 4]>(), "matrix")?;
+        let last = m.map(|column| column[3]);
+        if last != [0.0, 0.0, 0.0, 1.0] {
+            let message =
+                format!("the last row of the matrix is {last:?}, not 0 0 0 1: is it row-major, or a projection?");
+            return Err(Failure::new(StatusCode::ErrorPose, message));
+        }
+        let made = Pose { rows: std::array::from_fn(|row| std::array::from_fn(|column| m[column][row])) };
+        made.check(ROTATION_LIMIT)?;
+        output(pose.cast::<Pose>(), "pose", made)
+    })
+}
 
 /// Moves an object, also a fixed one. `pose` is 12 doubles, row-major [R|T]. On failure the object does not move.
 #[unsafe(no_mangle)]

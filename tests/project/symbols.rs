@@ -7,10 +7,11 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The nouns of the C interface.
-const NOUNS: [&str; 15] = [
+const NOUNS: [&str; 16] = [
     "library",
     "mesh",
     "shape",
+    "pose",
     "pair",
     "ground",
     "replay",
