@@ -86,14 +86,14 @@ static void parting(const swiftprox_shape *cube)
     place(end, 0.25, 0, 3);
     CHECK_OK(swiftprox_motion_between(start, end, NULL, 1, &rising, NULL));
     CHECK(config.ignores_parting == 0);
-    CHECK_OK(swiftprox_pair_cast(cube, &rising, cube, &still, &cache, &config, &answer));
+    CHECK_OK(swiftprox_pair_cast((swiftprox_moving){cube, &rising}, (swiftprox_moving){cube, &still}, &cache, &config, &answer));
     CHECK(answer.outcome == SWIFTPROX_CAST_OUTCOME_HIT && answer.time_upper == 0 && isnan(answer.time_parted));
     CHECK(answer.proof_count > 0);
     config.ignores_parting = 1;
-    CHECK_OK(swiftprox_pair_cast(cube, &rising, cube, &still, &cache, &config, &answer));
+    CHECK_OK(swiftprox_pair_cast((swiftprox_moving){cube, &rising}, (swiftprox_moving){cube, &still}, &cache, &config, &answer));
     CHECK(answer.outcome == SWIFTPROX_CAST_OUTCOME_FREE && answer.proof_count == 0);
     CHECK(answer.time_parted > 0 && answer.time_parted <= 1024 * config.time_tolerance);
-    CHECK_OK(swiftprox_cast_verify(cube, &rising, cube, &still, &config, &answer));
+    CHECK_OK(swiftprox_pair_cast_verify((swiftprox_moving){cube, &rising}, (swiftprox_moving){cube, &still}, &config, &answer));
 }
 
 static void known_clearances(const swiftprox_shape *cube)

@@ -119,7 +119,10 @@ typedef struct swiftprox_cast_answer {
   swiftprox_cast_outcome outcome;
   /** Certified queries made. */
   uint32_t queries;
-  /** The objects are farther apart than `max_distance` from the beginning up to here; the end of the range if they are free. */
+  /**
+   * The objects are farther apart than `max_distance` from the beginning, or from `time_parted`, up to here; the end of the
+   * range if they are free.
+   */
   double time_lower;
   /** Where they are no farther apart than `max_distance`. Only of a hit. */
   double time_upper;
@@ -128,10 +131,26 @@ typedef struct swiftprox_cast_answer {
   /** Of a hit their distance at `time_upper` is at most this, 0 where they intersect; of a near miss that at `time_lower`. */
   double upper;
   /**
-   * Of a hit the contact at `time_upper`, of a near miss the distance at `time_lower`, with witness points, normal and features:
-   * for the poses there as rounded.
+   * Of a start in contact that was ignored because the bodies part: the objects are farther apart than `max_distance` from here
+   * on, and nothing is said of what was before.
+   */
+  double time_parted;
+  /**
+   * Of a hit and of a near miss the distance at `time_lower`, with witness points, normal and features: for the poses there as
+   * rounded. Next to a hit that is next to nothing; where one of the features is a face, the normal is that face's. Of a hit
+   * whose beginning is in contact, that contact.
    */
   struct swiftprox_pair_answer contact;
+  /**
+   * Of a hit with a `max_distance` of 0: vertex pairs, in the caller's numbering, the hull of whose differences at `time_upper`
+   * holds the origin.
+   */
+  uint32_t proof[4][2];
+  /**
+   * How many entries of `proof` are used: 1 to 4, or 0 where there is no such proof, as of objects that meet by their swept
+   * radii alone.
+   */
+  uint32_t proof_count;
 } swiftprox_cast_answer;
 
 /** Options of a cast. Initialise with SWIFTPROX_CAST_CONFIG_DEFAULT. */
@@ -148,10 +167,15 @@ typedef struct swiftprox_cast_config {
   double max_distance;
   /** The largest number of queries, 1 or more. Then the cast stops with the bounds so far. Default: 100,000. */
   uint32_t step_budget;
+  /**
+   * Not 0: objects that are in contact at the beginning, and part within 1,024 time tolerances, are cast from there on; see
+   * swiftprox_cast_answer.time_parted. Default: 0, such a start is a hit.
+   */
+  int32_t ignores_parting;
 } swiftprox_cast_config;
 
 /** Begins a swiftprox_cast_config: the defaults. In C and C++, as an initialiser. */
-#define SWIFTPROX_CAST_CONFIG_DEFAULT {sizeof(swiftprox_cast_config), 0, 1, 1e-9, 0, 100000}
+#define SWIFTPROX_CAST_CONFIG_DEFAULT {sizeof(swiftprox_cast_config), 0, 1, 1e-9, 0, 100000, 0}
 
 /** A shape and how it moves, an argument by value. Both pointers are only read during the call. */
 typedef struct swiftprox_moving {
