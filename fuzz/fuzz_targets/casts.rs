@@ -106,7 +106,14 @@ fn forgeries(case: &Case, answer: &CastAnswer) -> Vec<CastAnswer> {
         let placed = [case.shapes[0].at(&poses[0]), case.shapes[1].at(&poses[1])];
         if pair::contact(placed, &mut PairCache::default(), &PairConfig::default(), &mut contact).is_ok() {
             let upper = contact.upper;
-            forged.push(CastAnswer { outcome: CastOutcome::Hit, time_lower: time_begin, time_upper: time_end, upper, contact, ..said });
+            forged.push(CastAnswer {
+                outcome: CastOutcome::Hit,
+                time_lower: time_begin,
+                time_upper: time_end,
+                upper,
+                contact,
+                ..said
+            });
             if is_tame(case) && upper < f64::INFINITY {
                 forged.push(CastAnswer { clearance: upper + allowance(case), ..*answer });
             }

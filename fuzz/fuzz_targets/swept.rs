@@ -181,7 +181,9 @@ fn check_half_space(u: &mut Unstructured, body: &Body, pose: &Pose, environment:
         ManifoldConfig { max_distance: any_number(u, &mut last)?.abs(), reduces: u.arbitrary()?, ..Default::default() };
     let found = match half_space_manifold(placed, &half_space, &config, &mut points) {
         Ok(found) => found,
-        Err(error) => return Ok(assert!(matches!(error, Error::Argument(_)) && config.max_distance.is_nan(), "{error}")),
+        Err(error) => {
+            return Ok(assert!(matches!(error, Error::Argument(_)) && config.max_distance.is_nan(), "{error}"));
+        }
     };
     assert_eq!(found.outcome == Outcome::Beyond, answer.lower > config.max_distance, "{found:?} {}", described());
     assert!(found.point_count <= if config.reduces { 4 } else { found.found_count }, "{found:?}");

@@ -27,8 +27,8 @@ impl Lowest {
     ///
     /// Whichever direction is taken for the normal, the difference of heights along it is a lower bound. A point that is placed is
     /// right to 6u of its translation and of twice its local length, the difference of two to u of both, the product with the
-    /// direction to 4u of it, the length of the direction to 4u, the order of two heights to 8u, and the direction inside the body to
-    /// 7u of twice its radius: all in all less than 64u of those lengths.
+    /// direction to 4u of it, the length of the direction to 4u, the order of two heights to 8u, and the direction inside the body
+    /// to 7u of twice its radius: all in all less than 64u of those lengths.
     pub fn new(body: &Vertices, ground: PlacedGround, triangle: &Triangle, up: &Vector, start: u32) -> Lowest {
         let (polyhedron, pose, up) = (body.polyhedron(), body.pose(), *up);
         let vertex = body.lowest(&up, start);
