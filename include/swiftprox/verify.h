@@ -97,8 +97,8 @@ swiftprox_status swiftprox_pair_manifold_verify(struct swiftprox_placed object1,
  *
  * It proves without tolerance, at every time: free pairs stay farther apart than max_distance, and at least clearance. Other pairs
  * stay farther apart than max_distance up to time_lower, unless that is the beginning. Hits are at most max_distance and upper
- * apart at time_upper, as `proof` shows. Near misses are at most upper apart at time_lower. swiftprox_pair_verify checks `contact`,
- * of the poses at time_lower. `queries` is not checked.
+ * apart at time_upper, as `proof` shows. Near misses are at most upper apart at time_lower. swiftprox_pair_verify checks
+ * `contact`, of the poses at time_lower. `queries` is not checked.
  *
  * Time grows with the number of vertices times the number of steps.
  *
