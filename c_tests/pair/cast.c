@@ -61,7 +61,7 @@ static void known_casts(const swiftprox_shape *cube)
     config.max_distance = 0.75;
     CHECK_OK(swiftprox_pair_cast((swiftprox_moving){cube, &falling}, (swiftprox_moving){cube, &still}, &cache, &config, &answer));
     CHECK(answer.outcome == SWIFTPROX_CAST_OUTCOME_FREE && answer.time_lower == 0.25 && isnan(answer.time_upper));
-    CHECK(answer.clearance > 0.99 && answer.clearance <= 1);
+    CHECK(answer.clearance > config.max_distance && answer.clearance <= 1);
     CHECK_OK(swiftprox_pair_cast_verify((swiftprox_moving){cube, &falling}, (swiftprox_moving){cube, &still}, &config, &answer));
     answer.clearance = 1.5;
     CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "apart", swiftprox_pair_cast_verify((swiftprox_moving){cube, &falling},
