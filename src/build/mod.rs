@@ -12,6 +12,7 @@ pub(crate) mod spread;
 pub(crate) mod labels;
 pub(crate) mod mass;
 pub(crate) mod fan;
+pub(crate) mod outlines;
 #[doc(hidden)]
 pub mod assembly;
 pub(crate) mod contact_faces;

@@ -4,10 +4,13 @@
 use super::answer::{Feature, Outcome, PairAnswer};
 use super::cache::PairCache;
 use super::config::{PairConfig, Query};
-use super::depth::{self, DepthAnswer, DepthCache, DepthConfig};
+use super::depth::{self, DepthAnswer, DepthCache, DepthConfig, DepthPlaces};
 use super::ladder::{self, Glances};
 use super::placed::Placed;
 use crate::base::error::Result;
+use crate::base::simd::Lanes;
+use crate::solve::facets::Proved;
+use crate::solve::frame::Frame;
 
 /// What a pair remembers of its signed distance. Any bytes are safe; all zero is cold. It changes how fast an answer comes, and
 /// which of several least directions is said; never the verdict.
@@ -22,6 +25,11 @@ impl SignedDistanceCache {
     /// The cached depth.
     pub(super) fn depth(&self) -> &DepthCache {
         &self.depth
+    }
+
+    /// The same, to keep what was found.
+    pub(super) fn depth_mut(&mut self) -> &mut DepthCache {
+        &mut self.depth
     }
 }
 
@@ -88,6 +96,16 @@ impl From<&DepthAnswer> for SignedDistance {
             feature2,
         }
     }
+}
+
+/// The signed distance of a pair whose depth a facet proves: that of the depth's answer.
+#[inline(always)]
+pub(super) fn fill_at_rest<L: Lanes>(answer: &mut SignedDistance, frame: &Frame<L>, proved: &Proved<L>) {
+    answer.outcome = Outcome::Intersecting;
+    (answer.lower, answer.distance, answer.upper) = (-proved.upper, -proved.depth, -proved.lower);
+    let SignedDistance { local1, local2, world1, world2, normal, feature1, feature2, .. } = answer;
+    let places = DepthPlaces { direction: proved.direction, points: proved.points, features: proved.features };
+    places.fill(frame, [local1, local2, world1, world2, normal], [feature1, feature2]);
 }
 
 /// The signed distance of two polyhedra.

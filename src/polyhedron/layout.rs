@@ -15,6 +15,7 @@ use crate::base::normal::unit;
 use crate::polyhedron::contact_faces::ContactFaces;
 use crate::polyhedron::fan::{Fan, PointBlock};
 use crate::polyhedron::lookup::Lookup;
+use crate::polyhedron::outlines::Outlines;
 use crate::polyhedron::polygon_search::PolygonSearch;
 use std::ops::RangeInclusive;
 
@@ -255,6 +256,8 @@ pub struct Polyhedron {
     pub rough_blocks: Vec<[[f32; 8]; 3]>,
     /// For a body of few corners, the data that its depth in another is read from; see [`Fan`].
     pub fan: Option<Fan>,
+    /// The corners of its faces, for what rests on it.
+    pub outlines: Outlines,
     /// Faces as manifolds take them. Levels of detail have none.
     pub contact_faces: ContactFaces,
 }
@@ -316,6 +319,7 @@ impl Polyhedron {
             vertex_blocks: copied(&self.vertex_blocks)?,
             rough_blocks: copied(&self.rough_blocks)?,
             fan: self.fan.as_ref().map(Fan::copy).transpose()?,
+            outlines: self.outlines.copy()?,
             contact_faces: self.contact_faces.copy()?,
         })
     }
@@ -336,6 +340,16 @@ impl Polyhedron {
             Some(&edge) => edge,
             None => self.sides[(face.first_side + side) as usize],
         }
+    }
+
+    /// The plane of a face's side, inside positive: its normal and offset; `side` is less than the face's `side_count`.
+    #[inline(always)]
+    pub fn side_plane(&self, face: &Face, side: usize) -> [f64; 4] {
+        let (block, lane) = match side {
+            0..3 => (&face.planes, 1 + side),
+            _ => (&self.more_sides[face.first_more as usize + (side - 3) / 4], (side - 3) % 4),
+        };
+        [block.x[lane], block.y[lane], block.z[lane], block.offset[lane]]
     }
 
     /// The vertex at which a face's side begins, counter-clockwise seen from outside; `side` is less than the face's `side_count`.
@@ -499,6 +513,7 @@ impl Polyhedron {
             vertex_blocks,
             rough_blocks,
             fan,
+            outlines,
             contact_faces,
             mass: _,
             lookup,
@@ -522,6 +537,7 @@ impl Polyhedron {
             + size_of_val(&vertex_blocks[..])
             + size_of_val(&rough_blocks[..])
             + fan.as_ref().map_or(0, Fan::heap_bytes)
+            + outlines.heap_bytes()
             + contact_faces.heap_bytes()
             + lookup.heap_bytes()
     }

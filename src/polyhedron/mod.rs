@@ -7,6 +7,8 @@ pub(crate) mod polygon_search;
 #[doc(hidden)]
 pub mod fan;
 pub(crate) mod contact_faces;
+#[doc(hidden)]
+pub mod outlines;
 mod layout;
 mod polygon_at;
 pub(crate) mod triangulation;

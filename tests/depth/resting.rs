@@ -1,9 +1,9 @@
-//! Pairs at rest, whose depth a pyramid of before proves: against the depth from nothing, the independent check, and whatever bytes
-//! stand where the pyramids do.
+//! Pairs at rest, whose depth a facet or a pyramid of before proves: against the depth from nothing, the independent check, and
+//! whatever bytes stand where these do.
 
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::{
-    DepthAnswer, DepthCache, Outcome, PairConfig, SignedDistance, SignedDistanceCache, signed_distance,
+    DepthAnswer, DepthCache, FeatureKind, Outcome, PairConfig, SignedDistance, SignedDistanceCache, signed_distance,
 };
 use swiftprox::shape::Shape;
 use swiftprox::verify::verify_depth;
@@ -19,6 +19,16 @@ use crate::{Random, query};
 pub fn is_by_pyramid(answer: &DepthAnswer) -> bool {
     let statistics = &answer.statistics;
     (4..=14).contains(&statistics.triangles) && (statistics.steps, statistics.supports) == (0, 1)
+}
+
+/// Whether a facet gave an answer: no triangles, and no steps of a search.
+pub fn is_by_facet(answer: &DepthAnswer) -> bool {
+    let statistics = &answer.statistics;
+    (1..=10).contains(&statistics.supports) && (statistics.steps, statistics.triangles) == (0, 0)
+}
+
+fn is_at_rest(answer: &DepthAnswer) -> bool {
+    is_by_facet(answer) || is_by_pyramid(answer)
 }
 
 /// Two bodies of which the second rests on the first.
@@ -101,7 +111,7 @@ fn check(shapes: [&Shape; 2], poses: &[Pose; 2], cache: &mut DepthCache) -> Dept
     assert!(answer.lower <= single.upper && single.lower <= answer.upper, "{}", told());
     verify_depth([shapes[0].at(placed[0]), shapes[1].at(placed[1])], cache, &answer)
         .unwrap_or_else(|error| panic!("{error}: {}", told()));
-    if is_by_pyramid(&answer) {
+    if is_at_rest(&answer) {
         let size: f64 = shapes.iter().map(|shape| shape.polyhedron().radius).sum();
         let apart = (poses[0].translation() - poses[1].translation()).norm();
         assert!(answer.upper - answer.lower <= 2e-14 * size.max(apart), "{}", told());
@@ -133,7 +143,7 @@ fn what_rests_is_proved_by_what_proved_it_before() {
             let answer = check(pair, &rest.settle(), &mut cache);
             if step > 2 && answer.outcome == Outcome::Intersecting {
                 asked[lies] += 1;
-                held[lies] += usize::from(is_by_pyramid(&answer));
+                held[lies] += usize::from(is_at_rest(&answer));
             }
             rest.advance(&mut random);
         }
@@ -171,7 +181,7 @@ fn what_rests_on_faces_rounded_to_single_precision_is_proved_as_well() {
             let answer = check(pair, &rest.poses(), &mut cache);
             if step > 2 && answer.outcome == Outcome::Intersecting {
                 asked[which] += 1;
-                held[which] += usize::from(is_by_pyramid(&answer));
+                held[which] += usize::from(is_at_rest(&answer));
             }
             // What a pile still does once it has settled.
             rest.turns[1] = rotation(&random.direction(), 1e-10 * random.signed()) * rest.turns[1];
@@ -182,10 +192,57 @@ fn what_rests_on_faces_rounded_to_single_precision_is_proved_as_well() {
     assert!((0..4).all(|which| asked[which] > 50 && 10 * held[which] > 9 * asked[which]), "{held:?} of {asked:?}");
 }
 
+/// Where a cache has the facet: its kind and two indices.
+const FACET: std::ops::Range<usize> = 16..28;
+
+/// Any facets in the place of that which was the least: what is said of them, or of others near them, is as true.
+#[test]
+fn corrupted_facets_prove_nothing_false() {
+    let mut random = Random::new(94);
+    let shapes = bodies(&mut random);
+    let (mut accepted, mut walked, mut all) = ([0; 2], 0, 0);
+    for round in 0..600 {
+        let pair = [&shapes[random.below(shapes.len())], &shapes[random.below(shapes.len())]];
+        let [unit, height] = sizes(pair);
+        let turn = |random: &mut Random| match round % 2 {
+            0 => rotation(&random.direction(), 1e-3) * rotation(&Vector::z(), 3.0 * random.signed()),
+            _ => random.rotation(),
+        };
+        let turns = [turn(&mut random), turn(&mut random)];
+        let (aside, deep) = (random.vector() * (0.3 * unit), unit * random.pick(&[1e-5, 1e-3, 1e-1]));
+        let mut rest = Rest { shapes: pair, turns, aside, height, deep, unit };
+        let poses = rest.settle();
+        for _ in 0..30 {
+            let kind = random.below(4) as u32;
+            let counts = pair.map(|shape| {
+                let polyhedron = shape.polyhedron();
+                if kind == 3 { polyhedron.edges.len() } else { polyhedron.faces.len() }
+            });
+            let indices = if random.below(10) == 0 {
+                [0, 1].map(|_| random.next_u64() as u32)
+            } else {
+                [random.below(counts[if kind == 2 { 1 } else { 0 }]) as u32, random.below(counts[1]) as u32]
+            };
+            let mut bytes = bytes_of(&DepthCache::default());
+            for (word, place) in [kind, indices[0], indices[1]].into_iter().zip(bytes[FACET].chunks_exact_mut(4)) {
+                place.copy_from_slice(&word.to_ne_bytes());
+            }
+            let answer = check(pair, &poses, &mut of_bytes(&bytes));
+            if is_by_facet(&answer) {
+                accepted[usize::from(matches!(answer.feature1.kind, FeatureKind::Edge))] += 1;
+                walked += usize::from(answer.statistics.supports > 1);
+            }
+            all += 1;
+        }
+    }
+    println!("{accepted:?}, {walked} walked to, of {all}");
+    assert!(accepted[0] > 600 && accepted[1] > 250 && walked > 600, "{accepted:?} {walked} of {all}");
+}
+
 /// Numbers where the pyramids are: bits flipped, indices exchanged for others, anything.
 #[test]
 fn corrupted_pyramids_prove_nothing_false() {
-    const PYRAMIDS: std::ops::Range<usize> = 16..192;
+    const PYRAMIDS: std::ops::Range<usize> = 28..204;
     let mut random = Random::new(93);
     let shapes = bodies(&mut random);
     let (mut accepted, mut all) = (0, 0);
@@ -208,12 +265,13 @@ fn corrupted_pyramids_prove_nothing_false() {
                 1 => (0..1 + random.below(3)).for_each(|_| bytes[place(&mut random)] ^= 1 << random.below(8)),
                 2 => {
                     // The pairs of the first, among each other.
-                    let [from, to] = [0, 1].map(|_| 16 + 4 * random.below(18));
+                    let [from, to] = [0, 1].map(|_| 28 + 4 * random.below(18));
                     let word: [u8; 4] = bytes[from..from + 4].try_into().unwrap();
                     bytes[to..to + 4].copy_from_slice(&word);
                 }
                 _ => bytes[place(&mut random)] = random.below(20) as u8,
             }
+            bytes[FACET].fill(0);
             let mut corrupted = of_bytes(&bytes);
             let answer = check(pair, &rest.poses(), &mut corrupted);
             accepted += usize::from(is_by_pyramid(&answer));

@@ -1,5 +1,6 @@
 //! Manifolds: what boxes on boxes and hulls on hulls have in common, and what of it stays from pose to pose.
 
+mod at_rest;
 mod contact_faces;
 mod gaps;
 mod reduction;

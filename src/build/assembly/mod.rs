@@ -17,9 +17,11 @@ use crate::build::hull::{Hull, convex_hull};
 use crate::build::labels::{label_by_index, label_by_polygons};
 use crate::build::mass::mass_properties;
 use crate::build::merge::{MergedFaces, Triangles, merge_bound, merge_faces};
+use crate::build::outlines::outlines_of;
 use crate::build::slack::RiseBounds;
 use crate::mesh::{Numbers, PolygonMesh};
 use crate::polyhedron::lookup::Lookup;
+use crate::polyhedron::outlines::Outlines;
 use crate::polyhedron::polygon_search::PolygonSearch;
 use crate::polyhedron::triangulation::Triangulation;
 use crate::polyhedron::{ContactFaces, LARGEST, NONE, Polyhedron, SMALLEST};
@@ -80,6 +82,7 @@ pub fn build_in_steps(
     polyhedron.simple = centre == Vector::zeros() && (is_in_range || polyhedron.dimension == 0);
     polyhedron.fill_vertex_blocks()?;
     polyhedron.fan = fan_of(&polyhedron)?;
+    polyhedron.outlines = outlines_of(&polyhedron)?;
     Ok(polyhedron)
 }
 
@@ -245,6 +248,7 @@ impl HullSurface {
             vertex_blocks: Vec::new(),
             rough_blocks: Vec::new(),
             fan: None,
+            outlines: Outlines::default(),
             contact_faces: ContactFaces::default(),
             mass,
             lookup: Lookup::none(),

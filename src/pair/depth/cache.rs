@@ -29,7 +29,9 @@ pub struct DepthCache {
     proved: u16,
     /// Where no polytope is kept, the single-precision bits of the direction of the least overlap, in body 1's axes.
     direction: [u32; 3],
-    /// What proved the depth where the pair rested, the last one that did first.
+    /// The facet of least overlap of a pair that seems to rest: its kind, 0 for none, and its indices. The bodies need not have it.
+    resting: [u32; 3],
+    /// What proved the depth where the pair rested and no facet did, the last one that did first.
     pyramids: [KeptPyramid; PYRAMIDS],
     /// The vertices. Coordinates are computed anew: what is stored could lie. Of a facet, the indices are the first pair, and the
     /// next two have the bits of its direction in body 2's axes.
@@ -83,6 +85,7 @@ impl Default for DepthCache {
             failures: 0,
             proved: 0,
             direction: [0; 3],
+            resting: [0; 3],
             pyramids: [KeptPyramid::default(); PYRAMIDS],
             pairs: [[0; 2]; MOST_VERTICES],
             triangles: [[0; 3]; MOST_TRIANGLES],
@@ -186,6 +189,34 @@ impl DepthCache {
         self.facet()?;
         let ([x, y], [z, _]) = (self.pairs[1], self.pairs[2]);
         Some([number(self.direction), number([x, y, z])])
+    }
+
+    /// The facet of least overlap of a pair that seems to rest; the bodies need not have it.
+    #[inline(always)]
+    pub fn resting(&self) -> Option<Facet> {
+        let [kind, first, second] = self.resting;
+        match u8::try_from(kind) {
+            Ok(FACE_OF_FIRST) => Some(Facet::Face(0, first)),
+            Ok(FACE_OF_SECOND) => Some(Facet::Face(1, first)),
+            Ok(EDGES) => Some(Facet::Edges([first, second])),
+            _ => None,
+        }
+    }
+
+    /// Keeps the facet of least overlap of a pair that seems to rest.
+    #[inline(always)]
+    pub fn rest_on(&mut self, facet: Facet) {
+        self.resting = match facet {
+            Facet::Face(0, face) => [u32::from(FACE_OF_FIRST), face, 0],
+            Facet::Face(_, face) => [u32::from(FACE_OF_SECOND), face, 0],
+            Facet::Edges([first, second]) => [u32::from(EDGES), first, second],
+        };
+    }
+
+    /// The pair does not seem to rest.
+    #[inline(always)]
+    pub fn rest_no_more(&mut self) {
+        self.resting = [0; 3];
     }
 
     /// Whether a search may raise a pyramid. It is asked once in each search of a pair that seems to rest.

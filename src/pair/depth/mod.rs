@@ -1,6 +1,6 @@
 //! How deep two objects are in each other: an interval that holds the least translation that parts them, and where.
 //!
-//! Floating point searches and proves: for pairs at rest by the earlier pyramid, else for small bodies by all facets,
+//! Floating point searches and proves: for pairs at rest by the earlier facet or pyramid, else for small bodies by all facets,
 //! `solve/facets/`, else by `solve/polytope/`. Integers decide what rounding hides at the ends: objects that touch, flat ones in
 //! one plane, objects that hardly overlap.
 
@@ -25,6 +25,7 @@ pub use cache::DepthCache;
 pub(super) use cache::PYRAMIDS;
 use filling::fill;
 pub(super) use proof::{ProofFrom, proof};
+pub(super) use resting::{DepthPlaces, prove_at_rest};
 use scaling::Rescaled;
 pub(super) use search::Pyramids;
 use search::{DepthQuery, FoundPolytope, Search};

@@ -1,13 +1,14 @@
-//! Pairs at rest: the pyramids that proved a depth before, and pyramids for later queries.
+//! Pairs at rest: the facet that proved a depth before, or where it is small beside the depth a pyramid, for later queries.
 
 use super::answer::{DepthAnswer, DepthEnding, DepthStatistics};
 use super::cache::{DepthCache, PYRAMIDS};
 use crate::base::math::{Pose, ROTATION_LIMIT, Vector, clamp};
 use crate::base::simd::{self, Kernel, Lanes, Work};
-use crate::pair::answer::Outcome;
+use crate::pair::answer::{Feature, Outcome};
 use crate::pair::contact;
 use crate::polyhedron::Polyhedron;
 use crate::solve::exact::VertexPair;
+use crate::solve::facets::{self, Facet, Proved};
 use crate::solve::frame::Frame;
 use crate::solve::polytope::{self, Failure, Pyramid, Rest, Rounding};
 use crate::solve::state::FeatureId;
@@ -17,6 +18,62 @@ const SHALLOW: f64 = 1.0 / 64.0;
 
 /// … and whose direction of least overlap has turned by at most the angle of this cosine, 8°, since the last search.
 const STEADY: f64 = 0.99;
+
+/// The depth that the facet of before proves, or one near it, for a frame that is in range. It is kept; if none does, the next
+/// search decides whether the pair still rests.
+#[inline(always)]
+pub fn prove_at_rest<L: Lanes>(frame: &Frame<L>, cache: &mut DepthCache) -> Option<Proved<L>> {
+    match facets::prove(frame, cache.resting()?) {
+        Ok(proved) => {
+            cache.rest_on(proved.facet);
+            Some(proved)
+        }
+        Err(last) => {
+            cache.rest_on(last);
+            None
+        }
+    }
+}
+
+/// Answers by the facet of before, if it proves a depth.
+#[inline(always)]
+pub fn look_at_facet<L: Lanes>(frame: &Frame<L>, cache: &mut DepthCache, answer: &mut DepthAnswer) -> bool {
+    let Some(proved) = prove_at_rest(frame, cache) else { return false };
+    (answer.outcome, answer.ending) = (Outcome::Intersecting, DepthEnding::Narrow);
+    (answer.lower, answer.depth, answer.upper) = (proved.lower, proved.depth, proved.upper);
+    answer.statistics = DepthStatistics { steps: 0, supports: 1 + proved.steps, triangles: 0, exact_iterations: 0 };
+    let DepthAnswer { local1, local2, world1, world2, normal, feature1, feature2, .. } = answer;
+    let witness = DepthPlaces { direction: proved.direction, points: proved.points, features: proved.features };
+    witness.fill(frame, [local1, local2, world1, world2, normal], [feature1, feature2]);
+    true
+}
+
+/// Where a depth is, in centred coordinates.
+pub struct DepthPlaces<L> {
+    pub direction: L,
+    pub points: [L; 2],
+    pub features: [FeatureId; 2],
+}
+
+impl<L: Lanes> DepthPlaces<L> {
+    /// Says the points in both frames, the normal and the features.
+    #[inline(always)]
+    pub fn fill(
+        &self,
+        frame: &Frame<L>,
+        [local1, local2, world1, world2, normal]: [&mut [f64; 3]; 5],
+        features: [&mut Feature; 2],
+    ) {
+        let ([body1, body2], [point1, point2]) = (&frame.bodies, self.points);
+        self.direction.negate().store_vector(normal);
+        point1.add(L::from_vector(&body1.polyhedron.centre)).store_vector(local1);
+        point2.add(L::from_vector(&body2.polyhedron.centre)).store_vector(local2);
+        body1.rotate_lanes(point1).add(body1.translation).store_vector(world1);
+        body2.rotate_lanes(point2).add(body2.translation).store_vector(world2);
+        *features[0] = contact::label(body1.polyhedron, self.features[0], &point1.to_vector());
+        *features[1] = contact::label(body2.polyhedron, self.features[1], &point2.to_vector());
+    }
+}
 
 /// Answers by an earlier pyramid, if one still proves a depth.
 #[inline(always)]
@@ -97,20 +154,15 @@ fn fill<L: Lanes>(
     cache: &mut DepthCache,
     rest: &Rest<L>,
 ) {
-    let ([body1, body2], [point1, point2]) = (&frame.bodies, rest.points);
     let features = features_of(frame.polyhedra(), poses, cache, rest);
     cache.has_proved();
     (answer.outcome, answer.ending) = (Outcome::Intersecting, DepthEnding::Narrow);
     (answer.lower, answer.upper) = (rest.lower, rest.upper);
     answer.depth = clamp(rest.depth, rest.lower, rest.upper);
     answer.statistics = DepthStatistics { steps: 0, supports: 1, triangles: rest.triangles, exact_iterations: 0 };
-    rest.direction.negate().store_vector(&mut answer.normal);
-    point1.add(L::from_vector(&body1.polyhedron.centre)).store_vector(&mut answer.local1);
-    point2.add(L::from_vector(&body2.polyhedron.centre)).store_vector(&mut answer.local2);
-    body1.rotate_lanes(point1).add(body1.translation).store_vector(&mut answer.world1);
-    body2.rotate_lanes(point2).add(body2.translation).store_vector(&mut answer.world2);
-    answer.feature1 = contact::label(body1.polyhedron, features[0], &point1.to_vector());
-    answer.feature2 = contact::label(body2.polyhedron, features[1], &point2.to_vector());
+    let DepthAnswer { local1, local2, world1, world2, normal, feature1, feature2, .. } = answer;
+    let witness = DepthPlaces { direction: rest.direction, points: rest.points, features };
+    witness.fill(frame, [local1, local2, world1, world2, normal], [feature1, feature2]);
 }
 
 /// The features that hold the witness points of the first pyramid: the earlier ones, if the pyramid is still made of the same
@@ -142,6 +194,8 @@ pub struct LeastFacet {
     pub direction: Vector,
     /// Vertices that reach farthest along the direction, where many would have to be looked at for them.
     pub farthest: VertexPair,
+    /// If the search found which it is.
+    pub facet: Option<Facet>,
 }
 
 impl LeastFacet {
@@ -170,7 +224,7 @@ impl<L: Lanes> Work for Raise<'_, L> {
 
     #[inline(always)]
     fn run(&mut self) {
-        let Raise { cache, frame, facet: LeastFacet { upper, direction, farthest } } = self;
+        let Raise { cache, frame, facet: LeastFacet { upper, direction, farthest, .. } } = self;
         if let Some(pyramid) = polytope::raise(frame, direction, *upper, *farthest)
             && pyramid.prove(frame, &Rounding::of(frame)).is_ok()
         {

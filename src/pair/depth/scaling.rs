@@ -3,6 +3,7 @@
 use crate::base::error::Result;
 use crate::base::math::{Pose, Vector, power_of_two};
 use crate::polyhedron::lookup::Plan;
+use crate::polyhedron::outlines::Outlines;
 use crate::polyhedron::{LARGEST, Polyhedron};
 
 /// Copies of both bodies and their poses, the larger body near size 1.
@@ -96,5 +97,6 @@ fn in_unit_of(polyhedron: &Polyhedron, unit: f64) -> Result<Option<Polyhedron>> 
     copy.lookup.plan = Plan::None;
     copy.fill_vertex_blocks()?;
     copy.fan = None;
+    copy.outlines = Outlines::default();
     Ok(Some(copy))
 }

@@ -119,15 +119,23 @@ impl Kernel for DepthQuery<'_> {
             return None;
         }
         let is_new = self.pyramids == Pyramids::Unused;
-        if !is_new && resting::look_at_pyramids(&frame, self.poses, self.cache, self.answer) {
+        if !is_new
+            && (resting::look_at_facet(&frame, self.cache, self.answer)
+                || resting::look_at_pyramids(&frame, self.poses, self.cache, self.answer))
+        {
             return Some(Search::Answered);
         }
         let before = self.cache.direction(&frame);
         let found = self.search_anew(&frame)?;
-        if let Some(facet) = self.facet_of(&found)
+        let facet = self.facet_of(&found);
+        let rests = facet.as_ref().is_some_and(|facet| facet.rests(before, frame.size));
+        if !rests {
+            self.cache.rest_no_more();
+        }
+        if let Some(facet) = facet
             && match self.pyramids {
                 Pyramids::Unused => false,
-                Pyramids::AtRest => facet.rests(before, frame.size) && self.cache.may_raise(),
+                Pyramids::AtRest => rests && !self.learn(&frame, &facet) && self.cache.may_raise(),
                 Pyramids::Always => true,
             }
         {
@@ -187,17 +195,33 @@ impl<L: Lanes> Work for ByPolytope<'_, '_, L> {
 }
 
 impl<'a> DepthQuery<'a> {
+    /// Keeps the facet of a pair that seems to rest, if it alone proves a depth; whether it does.
+    #[inline(always)]
+    fn learn<L: Lanes>(&mut self, frame: &Frame<L>, found: &LeastFacet) -> bool {
+        let known = found.facet.or_else(|| facets::across(frame, &found.direction));
+        match known.map(|facet| facets::prove(frame, facet)) {
+            Some(Ok(proved)) => self.cache.rest_on(proved.facet),
+            Some(Err(_)) | None => self.cache.rest_no_more(),
+        }
+        self.cache.resting().is_some()
+    }
+
     /// `None` where the search was not sure of one.
     #[inline(always)]
     fn facet_of(&self, found: &Search) -> Option<LeastFacet> {
         match found {
             Search::Facets => {
-                let Overlap { upper, direction, .. } = *self.overlap;
-                Some(LeastFacet { upper, direction, farthest: [0; 2] })
+                let Overlap { upper, direction, facet, .. } = *self.overlap;
+                Some(LeastFacet { upper, direction, farthest: [0; 2], facet: Some(facet) })
             }
             Search::Polytope(FoundPolytope { expansion, .. }) => {
                 let Expansion { ending, lower, upper, direction, farthest, .. } = *expansion;
-                (ending == Ending::Narrow && lower > 0.0).then_some(LeastFacet { upper, direction, farthest })
+                (ending == Ending::Narrow && lower > 0.0).then_some(LeastFacet {
+                    upper,
+                    direction,
+                    farthest,
+                    facet: None,
+                })
             }
             Search::Apart(_) | Search::Answered => None,
         }

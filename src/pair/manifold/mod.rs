@@ -6,6 +6,7 @@
 //! where edges cross, it is the one pair of witness points.
 
 mod answer;
+mod sink;
 mod id;
 mod patch;
 mod outline;
@@ -13,6 +14,7 @@ mod clip;
 mod places;
 mod overlay;
 mod reduction;
+mod at_rest;
 mod swept;
 mod steady;
 mod half_space;
@@ -21,6 +23,7 @@ mod four;
 use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::memory::push;
+use crate::base::simd;
 use crate::base::simd::environment::with_default;
 use crate::pair::answer::{Outcome, PairAnswer};
 use crate::pair::config::PairConfig;
@@ -33,6 +36,7 @@ use crate::solve::frame::between_centres;
 use answer::FOUR;
 pub(crate) use answer::Reference;
 pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
+use at_rest::{Answered, AtRest};
 use clip::Precision;
 pub(crate) use four::four_of_points;
 pub use half_space::half_space_manifold;
@@ -40,9 +44,10 @@ pub(crate) use half_space::half_space_manifold_into;
 pub(super) use id::id_of;
 use outline::{Axes, Outline};
 use overlay::Overlay;
-use patch::{COINCIDENT, Facing, facing};
+use patch::{COINCIDENT, Patches, STICKY, STICKY_INCIDENT, choose, facing};
 use places::{CommonPoint, Origin, View};
 use reduction::{Thinned, four_of};
+pub(crate) use sink::{Fill, Sink};
 use steady::steady;
 
 /// The manifold of two objects, written to `points` as far as there is room. For objects farther apart than `max_distance` there is
@@ -90,36 +95,6 @@ fn manifold_beside(
     manifold_into(bodies, cache, config, &mut Sink { capacity, written: 0, write: &mut write }, distance)
 }
 
-/// Fills all members of a point in its final place: numbers just written one by one are not copied (rule R1).
-pub(crate) type Fill<'a> = &'a mut dyn FnMut(&mut ManifoldPoint);
-
-/// The destination of points.
-pub(crate) struct Sink<'a> {
-    /// How many there is room for.
-    pub capacity: usize,
-    /// How many have been written.
-    pub written: usize,
-    /// Has one filled at its place.
-    pub write: &'a mut dyn FnMut(usize, Fill),
-}
-
-impl Sink<'_> {
-    fn push(&mut self, mut fill: impl FnMut(&mut ManifoldPoint)) {
-        if self.written < self.capacity {
-            (self.write)(self.written, &mut fill);
-            self.written += 1;
-        }
-    }
-
-    /// Adds one that must be among them, in place of the last where there is no room.
-    fn insist(&mut self, fill: impl FnMut(&mut ManifoldPoint)) {
-        if self.capacity > 0 {
-            self.written = self.written.min(self.capacity - 1);
-            self.push(fill);
-        }
-    }
-}
-
 /// Has points added to a list that grows with them.
 ///
 /// # Errors
@@ -153,6 +128,14 @@ pub(crate) fn manifold_into(
             rotation_limit: config.rotation_limit,
             ..PairConfig::default()
         };
+        if cache.depth().resting().is_some() && Radii::of(&bodies).is_none() {
+            let mut query = AtRest { bodies: &bodies, cache, config, points, contact };
+            match simd::dispatch_to_avx2(&mut query) {
+                Answered::Whole(manifold) => return Ok(manifold),
+                Answered::Contact => return Ok(make(bodies, &mut cache.reference, config, contact, points)),
+                Answered::Nothing => {}
+            }
+        }
         signed_distance(bodies, &mut cache.signed_distance, &within, contact)?;
         Ok(of_bodies(bodies, &mut cache.reference, config, contact, points))
     })
@@ -227,15 +210,6 @@ pub(crate) fn witness(contact: &SignedDistance) -> ManifoldPoint {
     ManifoldPoint { local1, local2, world1, world2, gap_lower, gap_upper, feature1, feature2, id }
 }
 
-/// The cosine between a patch's normal and the contact's from which on the patch may be the reference: 10°.
-const PARALLEL: f64 = 0.984_8;
-
-/// By how much less parallel the last reference may be and stay.
-const STICKY: f64 = 1e-3;
-
-/// The same of the incident patch, which is not nearly parallel: only ties are broken.
-const STICKY_INCIDENT: f64 = 1e-6;
-
 fn make(
     bodies: [Placed; 2],
     before: &mut Reference,
@@ -275,12 +249,6 @@ fn make(
     answer
 }
 
-/// The patches that a manifold is made over, and which of them is the reference.
-struct Patches {
-    facing: [Option<Facing>; 2],
-    reference: usize,
-}
-
 /// The last reference stays while it is about as parallel. `None` where no patch is nearly parallel to the normal.
 fn choose_patches(bodies: [Placed; 2], contact: &SignedDistance, last: &Reference) -> Option<Patches> {
     let normal = Vector::from(contact.normal);
@@ -292,14 +260,7 @@ fn choose_patches(bodies: [Placed; 2], contact: &SignedDistance, last: &Referenc
         let witness = Vector::from(if i == 0 { contact.local1 } else { contact.local2 });
         facing(bodies[i], &direction, &witness, last, sticky)
     };
-    let facing = [towards(0), towards(1)];
-    let parallel = |i: usize| facing[i].map_or(-1.0, |facing| facing.parallel);
-    let best = if parallel(1) > parallel(0) { 1 } else { 0 };
-    let reference = match last.body {
-        body @ 1..=2 if parallel(body as usize - 1) >= parallel(best) - STICKY => body as usize - 1,
-        _ => best,
-    };
-    (parallel(reference) >= PARALLEL).then_some(Patches { facing, reference })
+    choose([towards(0), towards(1)], last)
 }
 
 /// Larger objects are not clipped, and their manifold is the pair of witness points: squares of lengths must not overflow.

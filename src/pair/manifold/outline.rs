@@ -235,7 +235,7 @@ impl<'a> Outline<'a> {
 const RIGID: f64 = 8.0 * UNIT_ROUNDOFF;
 
 /// A patch whose normal is flatter to the contact's than this has no height over a point.
-const STEEPEST: f64 = 1e-3;
+pub const STEEPEST: f64 = 1e-3;
 
 /// One side of an outline, from its leftmost corner to its rightmost.
 #[derive(Clone, Copy)]

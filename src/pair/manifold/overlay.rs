@@ -17,7 +17,7 @@ const FOURS: usize = FEW / 4;
 const MOST_CORNERS: usize = 2 * FEW;
 
 /// Within this many times [`coincident`](Precision::coincident), the sweep takes two corners for one.
-const DOUBT: f64 = 4.0;
+pub const DOUBT: f64 = 4.0;
 
 /// The points of the common part whose gap is at most `max_distance`; and the witness points, if others are there and none is as
 /// deep.

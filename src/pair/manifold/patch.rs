@@ -1,5 +1,6 @@
 //! The patch of a body that looks towards the other: a merged face, or several that a contact face combines.
 
+use super::answer::Reference;
 use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::pair::contact::faces_at;
 use crate::pair::placed::Placed;
@@ -132,6 +133,33 @@ pub fn facing(body: Placed, direction: &Vector, witness: &Vector, last: Option<u
         }
     };
     Some(last.filter(|last| last.parallel >= best.parallel - sticky).unwrap_or(best))
+}
+
+/// The cosine between a patch's normal and the contact's from which on the patch may be the reference: 10°.
+const PARALLEL: f64 = 0.984_8;
+
+/// By how much less parallel the last reference may be and stay.
+pub const STICKY: f64 = 1e-3;
+
+/// The same of the incident patch, which is not nearly parallel: only ties are broken.
+pub const STICKY_INCIDENT: f64 = 1e-6;
+
+/// The patches that a manifold is made over, and which of them is the reference.
+pub struct Patches {
+    pub facing: [Option<Facing>; 2],
+    pub reference: usize,
+}
+
+/// Which of two patches is the reference.
+#[inline(always)]
+pub fn choose(facing: [Option<Facing>; 2], last: &Reference) -> Option<Patches> {
+    let parallel = |i: usize| facing[i].map_or(-1.0, |facing| facing.parallel);
+    let best = if parallel(1) > parallel(0) { 1 } else { 0 };
+    let reference = match last.body {
+        body @ 1..=2 if parallel(body as usize - 1) >= parallel(best) - STICKY => body as usize - 1,
+        _ => best,
+    };
+    (parallel(reference) >= PARALLEL).then_some(Patches { facing, reference })
 }
 
 /// A vertex that reaches farthest along a direction, up to [`COINCIDENT`]. `None` of bodies without faces.

@@ -56,13 +56,23 @@ impl CommonPoint {
     pub fn key(&self) -> u32 {
         match self.origin {
             Origin::Witness => 1,
-            Origin::Corner(CommonCorner::Vertex { body, corner }) => 2 + body as u32 + ((corner as u32) << 2),
-            Origin::Corner(CommonCorner::Crossing { sides }) => {
-                let [first, second] = sides.map(|side| side as u32);
-                (first << 2 ^ second.rotate_right(14)) & !3 | 1 << 31 | 1
-            }
+            Origin::Corner(CommonCorner::Vertex { body, corner }) => key_of_vertex(body, corner),
+            Origin::Corner(CommonCorner::Crossing { sides }) => key_of_crossing(sides),
         }
     }
+}
+
+/// See [`CommonPoint::key`].
+#[inline(always)]
+pub fn key_of_vertex(body: usize, corner: usize) -> u32 {
+    2 + body as u32 + ((corner as u32) << 2)
+}
+
+/// See [`CommonPoint::key`].
+#[inline(always)]
+pub fn key_of_crossing(sides: [usize; 2]) -> u32 {
+    let [first, second] = sides.map(|side| side as u32);
+    (first << 2 ^ second.rotate_right(14)) & !3 | 1 << 31 | 1
 }
 
 impl View<'_> {

@@ -3,7 +3,6 @@
 
 use super::answer::FOUR;
 use super::places::CommonPoint;
-use crate::base::math::Vector;
 
 /// By how much less deep than the deepest point the earlier deepest may be, relative to the size of the pair: a contact at rest
 /// rocks.
@@ -62,24 +61,55 @@ impl Thinned<'_> {
     }
 }
 
+/// A place of which four of many are chosen.
+pub trait Place {
+    /// Its coordinates across the normal.
+    fn across(&self) -> [f64; 2];
+    /// See [`CommonPoint::gap`].
+    fn gap(&self) -> f64;
+    /// By how much the gap may be off.
+    fn error(&self) -> f64;
+    /// See [`CommonPoint::key`].
+    fn key(&self) -> u32;
+}
+
+impl Place for CommonPoint {
+    fn across(&self) -> [f64; 2] {
+        [self.spots[0].x, self.spots[0].y]
+    }
+
+    fn gap(&self) -> f64 {
+        self.gap()
+    }
+
+    fn error(&self) -> f64 {
+        self.error
+    }
+
+    fn key(&self) -> u32 {
+        self.key()
+    }
+}
+
 /// Four places, or fewer.
-type Four<'a> = [Option<&'a CommonPoint>; FOUR];
+type Four<'a, P> = [Option<&'a P>; FOUR];
 
 /// Those that stay. `kept` are the keys of those that stayed the last time, in order, 0 for none; `size` is a length next to the
 /// pair.
-pub fn four_of<'a>(places: &'a [CommonPoint], kept: &[u32; FOUR], size: f64) -> Four<'a> {
+#[inline(always)]
+pub fn four_of<'a, P: Place>(places: &'a [P], kept: &[u32; FOUR], size: f64) -> Four<'a, P> {
     if places.len() <= FOUR {
         return std::array::from_fn(|i| places.get(i));
     }
     let best = best_of(places);
     let Some(before) = these(places, kept) else { return best };
-    let deepest = |four: &Four| four.iter().flatten().map(|place| place.gap()).fold(f64::INFINITY, f64::min);
+    let deepest = |four: &Four<P>| four.iter().flatten().map(|place| place.gap()).fold(f64::INFINITY, f64::min);
     let is_as_good = deepest(&before) <= deepest(&best) + AS_DEEP * size && area(&before) >= AS_LARGE * area(&best);
     if is_as_good { before } else { best }
 }
 
 /// Those of such keys; `None` where one of them is no more.
-fn these<'a>(places: &'a [CommonPoint], keys: &[u32; FOUR]) -> Option<Four<'a>> {
+fn these<'a, P: Place>(places: &'a [P], keys: &[u32; FOUR]) -> Option<Four<'a, P>> {
     let mut these = [None; FOUR];
     for (place, key) in these.iter_mut().zip(keys).filter(|(_, key)| **key != 0) {
         *place = Some(places.iter().find(|place| place.key() == *key)?);
@@ -87,14 +117,14 @@ fn these<'a>(places: &'a [CommonPoint], keys: &[u32; FOUR]) -> Option<Four<'a>> 
     Some(these)
 }
 
-fn best_of(places: &[CommonPoint]) -> Four<'_> {
+fn best_of<P: Place>(places: &[P]) -> Four<'_, P> {
     let first = &places[most(places, |place| -place.gap())];
     let second = &places[most(places, |place| apart(first, place).norm_squared())];
     let line = apart(first, second);
-    let side = |place: &CommonPoint| line.perp(&apart(first, place));
+    let side = |place: &P| line.perp(&apart(first, place));
     let extreme = |sign: f64| {
         let place = &places[most(places, |place| sign * side(place))];
-        (sign * side(place) > place.error * line.norm()).then_some(place)
+        (sign * side(place) > place.error() * line.norm()).then_some(place)
     };
     [Some(first), Some(second), extreme(1.0), extreme(-1.0)]
 }
@@ -102,13 +132,15 @@ fn best_of(places: &[CommonPoint]) -> Four<'_> {
 type Across = nalgebra::Vector2<f64>;
 
 /// From one place to another, across the normal.
-fn apart(from: &CommonPoint, to: &CommonPoint) -> Across {
-    let difference: Vector = to.spots[0] - from.spots[0];
-    difference.xy()
+#[inline(always)]
+fn apart<P: Place>(from: &P, to: &P) -> Across {
+    let ([x, y], [to_x, to_y]) = (from.across(), to.across());
+    Across::new(to_x - x, to_y - y)
 }
 
 /// The place with the most of something; the first of equals.
-fn most(places: &[CommonPoint], measure: impl Fn(&CommonPoint) -> f64) -> usize {
+#[inline(always)]
+fn most<P>(places: &[P], measure: impl Fn(&P) -> f64) -> usize {
     let mut best = (0, f64::NEG_INFINITY);
     for (at, place) in places.iter().enumerate() {
         let value = measure(place);
@@ -120,8 +152,8 @@ fn most(places: &[CommonPoint], measure: impl Fn(&CommonPoint) -> f64) -> usize 
 }
 
 /// Twice the area of a quadrilateral whose first two places are one diagonal; one that is missing is where the first is.
-fn area(four: &Four) -> f64 {
+fn area<P: Place>(four: &Four<P>) -> f64 {
     let Some(first) = four[0] else { return 0.0 };
-    let arm = |place: Option<&CommonPoint>| place.map_or(Across::zeros(), |place| apart(first, place));
+    let arm = |place: Option<&P>| place.map_or(Across::zeros(), |place| apart(first, place));
     arm(four[1]).perp(&(arm(four[3]) - arm(four[2]))).abs()
 }

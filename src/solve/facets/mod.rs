@@ -27,6 +27,7 @@ mod search;
 mod arcs;
 mod crossings;
 mod witness;
+mod kept;
 
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::{Lanes, Work};
@@ -35,6 +36,7 @@ use crate::solve::frame::Frame;
 use arcs::Survivors;
 use crossings::Crossings;
 pub use crossings::ON_ARC;
+pub use kept::{Proved, across, prove};
 use placed::PlacedFan;
 pub use search::Facet;
 use search::{Best, Search};
