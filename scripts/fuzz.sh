@@ -19,7 +19,7 @@ if [ "$1" = --as-test ]; then
 fi
 shift
 targets=("$@")
-((${#targets[@]})) || targets=(mesh_readers shape_files recordings hull pairs swept grounds casts rays c_calls)
+((${#targets[@]})) || targets=(mesh_readers shape_files recordings hull pairs swept compounds grounds casts rays c_calls)
 
 cargo=(cargo)
 wanted=$(sed -n 's/^rust-version = "\(.*\)"/\1/p' ../Cargo.toml)

@@ -44,6 +44,7 @@ pub mod pair;
 pub mod motion;
 pub mod ray;
 pub mod point;
+pub mod compound;
 pub mod ground;
 pub mod scene;
 #[doc(hidden)]

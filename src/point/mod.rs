@@ -16,7 +16,7 @@ use crate::base::error::{Error, Result};
 ///
 /// # Errors
 /// [`Error::Argument`], naming the first.
-fn check_finite(name: &str, numbers: &[f64; 3]) -> Result<()> {
+pub(crate) fn check_finite(name: &str, numbers: &[f64; 3]) -> Result<()> {
     match numbers.iter().position(|x| !x.is_finite()) {
         None => Ok(()),
         Some(k) => Err(Error::Argument(format!("{name}[{k}] is {}, it must be finite", numbers[k]))),

@@ -1,0 +1,139 @@
+//! A compound: its pieces and the tree over them.
+
+use std::sync::Arc;
+
+use super::tree::{Leaf, Tree};
+use crate::base::error::{Error, Result};
+use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
+use crate::base::memory::{collected, copied, push, with_capacity};
+use crate::base::progress::Progress;
+use crate::base::simd::environment::with_default;
+use crate::decomposition::decompose;
+use crate::mesh::PolygonMesh;
+use crate::shape::{InputPolicy, Shape, ShapeOptions};
+
+/// The largest number of pieces.
+const MOST_PIECES: usize = 1 << 20;
+
+/// A piece of a compound.
+#[derive(Debug, Clone)]
+pub struct Piece {
+    /// Its geometry.
+    pub shape: Arc<Shape>,
+    /// Its pose in the compound.
+    pub pose: Pose,
+}
+
+/// A body of several convex pieces: their union. Immutable, shared by any number of owners.
+///
+/// A piece at the identity is exactly where the pose of the compound takes it. Any other is at the product of both poses, each
+/// number rounded, as pieces of an object in a scene are.
+#[derive(Debug, Clone)]
+pub struct Compound {
+    pieces: Vec<Piece>,
+    pub(super) tree: Tree,
+    pub(super) reach: Reach,
+}
+
+/// How far the pieces reach, whatever the pose; rounded up.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct Reach {
+    /// No point of the compound, swept radii included, is farther from its origin.
+    pub lever: f64,
+    /// The lengths that go into the places of pieces that are not at the identity, at most; 0 where all are.
+    pub placing: f64,
+    /// The largest entry of |RᵀR − I| of a piece's pose.
+    pub skew: f64,
+}
+
+impl Compound {
+    /// From pieces, which may overlap.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] without pieces, [`Error::Limit`] for more than 2²⁰, [`Error::Pose`] for a pose that no query accepts,
+    /// with the number of the piece; [`Error::Memory`].
+    pub fn new(pieces: &[Piece]) -> Result<Compound> {
+        with_default(|| Compound::of_pieces(collected(pieces.iter().cloned())?))
+    }
+
+    /// From the convex pieces into which [`decompose`] cuts the surface of a mesh; vertices keep the mesh's numbers, and so do
+    /// triangles where faces are triangles. A body wholly inside the mesh may touch no piece.
+    ///
+    /// # Errors
+    /// Same as [`decompose`] and [`Shape::from_mesh`].
+    pub fn from_mesh(mesh: &PolygonMesh, tolerance: f64, progress: &mut Progress) -> Result<Compound> {
+        let found = decompose(mesh, tolerance, &mut progress.part(0.0, 0.5))?;
+        let options = ShapeOptions { input: InputPolicy::Patch, ..ShapeOptions::default() };
+        let progress = &mut progress.part(0.5, 1.0);
+        let count = found.piece_count();
+        let mut pieces = with_capacity(count)?;
+        for k in 0..count {
+            progress.report(k as f64 / count as f64)?;
+            let corners = collected(found.piece(k).iter().copied().flatten())?;
+            let patch = PolygonMesh::new(copied(&mesh.vertices)?, corners, None)?;
+            let shape = Shape::from_mesh(&patch, &options).map_err(|error| error.about(&format!("piece {k}")))?;
+            push(&mut pieces, Piece { shape: Arc::new(shape), pose: Pose::IDENTITY })?;
+        }
+        progress.report(1.0)?;
+        with_default(|| Compound::of_pieces(pieces))
+    }
+
+    fn of_pieces(pieces: Vec<Piece>) -> Result<Compound> {
+        if pieces.is_empty() {
+            return Err(Error::Argument("a compound needs at least one piece".into()));
+        }
+        if pieces.len() > MOST_PIECES {
+            return Err(Error::Limit(format!("{} pieces, more than the limit of {MOST_PIECES}", pieces.len())));
+        }
+        for (k, piece) in pieces.iter().enumerate() {
+            piece.pose.check(ROTATION_LIMIT).map_err(|error| error.about(&format!("piece {k}")))?;
+        }
+        let mut points: Vec<Vec<Vector>> = with_capacity(pieces.len())?;
+        for Piece { shape, pose } in &pieces {
+            let vertices = (0..shape.polyhedron().vertices.len() as u32).map(|v| shape.polyhedron().local_position(v));
+            let is_placed = *pose != Pose::IDENTITY;
+            points.push(collected(vertices.map(|point| if is_placed { pose.transform(&point) } else { point }))?);
+        }
+        let mut reach = Reach { lever: 0.0, placing: 0.0, skew: 0.0 };
+        let mut leaves = with_capacity(pieces.len())?;
+        for (piece, points) in pieces.iter().zip(&points) {
+            // A vertex is centre + position, off by u of that. R·v + T is off by 8u·(|R||v| + |T|), ‖|R|‖ ≤ √3·1.015.
+            let lengths = 2.0 * piece.shape.extent().lever + piece.pose.translation().lp_norm(1);
+            let swept = piece.shape.swept_radius();
+            let farthest = points.iter().map(|point| point.norm()).fold(0.0, f64::max) * (1.0 + 8.0 * U);
+            let margin = swept + 32.0 * U * lengths;
+            leaves.push(Leaf { points, margin, reach: farthest, shape: &piece.shape });
+            reach.lever = reach.lever.max((farthest + margin) * (1.0 + 4.0 * U));
+            if piece.pose != Pose::IDENTITY {
+                reach.skew = reach.skew.max(piece.pose.rotation_defect());
+                reach.placing = reach.placing.max(lengths);
+            }
+        }
+        let tree = Tree::new(&leaves)?;
+        drop(leaves);
+        Ok(Compound { pieces, tree, reach })
+    }
+
+    /// Its pieces.
+    #[inline(always)]
+    pub fn pieces(&self) -> &[Piece] {
+        &self.pieces
+    }
+
+    /// The number of its pieces.
+    #[inline(always)]
+    pub fn piece_count(&self) -> usize {
+        self.pieces.len()
+    }
+
+    /// Memory held, in bytes; shapes do not count: others share them.
+    pub fn bytes(&self) -> usize {
+        size_of::<Compound>() + size_of_val(&self.pieces[..]) + self.tree.heap_bytes()
+    }
+
+    /// Whether a piece is not at the identity.
+    #[inline(always)]
+    pub(super) fn has_placed_pieces(&self) -> bool {
+        self.reach.placing > 0.0
+    }
+}

@@ -1,0 +1,53 @@
+//! Where two compounds meet: a manifold for each two pieces that do.
+
+use super::PlacedCompound;
+use super::answer::{CompoundContact, CompoundContacts};
+use super::between::{Between, Reaches};
+use super::queries::with_pieces;
+use super::walk::{Aim, Pair, walk};
+use crate::base::error::Result;
+use crate::base::math::ROTATION_LIMIT;
+use crate::base::memory::push;
+use crate::base::simd::environment::with_default;
+use crate::pair::{ManifoldCache, ManifoldConfig, Outcome, SignedDistance, add_points, manifold_into};
+
+/// The manifolds of all pairs of pieces up to `config.max_distance` apart, in order of the pieces, as [`crate::pair::manifold`] finds
+/// each with a cold cache. Pieces overlap where they join, so a body that rests on two of them may have points twice.
+///
+/// # Errors
+/// As of [`crate::pair::manifold`], and of [`distance`](super::distance) for poses; then `found` holds nothing.
+pub fn contacts(bodies: [PlacedCompound; 2], config: &ManifoldConfig, found: &mut CompoundContacts) -> Result<()> {
+    found.contacts.clear();
+    found.points.clear();
+    let done = with_default(|| find(&bodies, config, found));
+    if done.is_err() {
+        found.contacts.clear();
+        found.points.clear();
+    }
+    done
+}
+
+fn find(bodies: &[PlacedCompound; 2], config: &ManifoldConfig, found: &mut CompoundContacts) -> Result<()> {
+    config.check()?;
+    let between = Between::new(bodies, &Reaches::new(bodies, config.rotation_limit)?);
+    let config = ManifoldConfig { rotation_limit: ROTATION_LIMIT, ..*config };
+    let mut near = Vec::new();
+    let trees = bodies.map(|body| &body.compound.tree);
+    walk(Pair { trees, between: &between, aim: Aim::Distance }, config.max_distance, |pieces| {
+        push(&mut near, pieces)?;
+        Ok(Some(config.max_distance))
+    })?;
+    near.sort_unstable();
+    for pieces in near {
+        let first_point = found.points.len() as u32;
+        let (mut cache, mut distance) = (ManifoldCache::default(), SignedDistance::default());
+        let manifold = with_pieces(bodies, pieces, |placed| {
+            add_points(&mut found.points, |sink| manifold_into(placed, &mut cache, &config, sink, &mut distance))
+        })??;
+        if manifold.outcome != Outcome::Beyond {
+            let [piece1, piece2] = pieces;
+            push(&mut found.contacts, CompoundContact { manifold, first_point, piece1, piece2 })?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,157 @@
+//! The walk down two trees at once: depth first, of each two pairs of nodes that with the lesser bound first. So a verdict comes to
+//! the deepest overlap of boxes first, a distance to the nearest.
+
+use super::between::{Between, opened};
+use super::tree::{DEEPEST, Tree};
+use crate::base::error::Result;
+use crate::base::simd::{self, Kernel, Lanes};
+
+/// A pair of nodes is replaced by two, one of which is opened next: one waits for each step down either tree.
+const ROOM: usize = 2 * DEEPEST + 2;
+
+/// What a walk wants to know of boxes.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Aim {
+    /// Whether they are apart.
+    Verdict,
+    /// How far.
+    Distance,
+}
+
+/// Two nodes that are to be looked at.
+#[derive(Clone, Copy)]
+struct Waiting {
+    /// The signed distance of all in them is at least this.
+    bound: f64,
+    nodes: [u32; 2],
+}
+
+/// Two trees, and what is asked of them.
+#[derive(Clone, Copy)]
+pub(super) struct Pair<'a> {
+    pub trees: [&'a Tree; 2],
+    pub between: &'a Between,
+    pub aim: Aim,
+}
+
+/// Calls `ask` for each pair of pieces that boxes do not show to be farther apart than `enough`. It returns what is enough from
+/// then on, or `None` to end the walk. The signed distance of all that was not asked is at least what is returned.
+///
+/// # Errors
+/// Those of `ask`.
+#[inline(always)]
+pub(super) fn walk(pair: Pair, enough: f64, ask: impl FnMut([u32; 2]) -> Result<Option<f64>>) -> Result<f64> {
+    let root = simd::dispatch(&mut Roots { pair: &pair });
+    // Before there is room for a walk in memory: bodies that are far apart need none.
+    if root > enough { Ok(root) } else { descend(pair, root, enough, ask) }
+}
+
+#[inline(never)]
+fn descend(pair: Pair, root: f64, enough: f64, mut ask: impl FnMut([u32; 2]) -> Result<Option<f64>>) -> Result<f64> {
+    let waiting = [Waiting { bound: root, nodes: [0; 2] }; ROOM];
+    let mut walk = Walk { pair, enough, passed: f64::INFINITY, waiting, count: 1 };
+    while let Some(pieces) = simd::dispatch(&mut Descent { walk: &mut walk }) {
+        match ask(pieces)? {
+            Some(enough) => walk.enough = enough,
+            None => break,
+        }
+    }
+    Ok(walk.passed)
+}
+
+/// A walk.
+struct Walk<'a> {
+    pair: Pair<'a>,
+    /// Pairs that are farther apart are passed by.
+    enough: f64,
+    /// All that has been passed by is at least this far apart.
+    passed: f64,
+    waiting: [Waiting; ROOM],
+    count: usize,
+}
+
+impl Walk<'_> {
+    /// Keeps a pair of nodes in mind, or passes it by.
+    #[inline(always)]
+    fn push(&mut self, waiting: Waiting) {
+        // False for a NaN, which rules nothing out.
+        if waiting.bound > self.enough {
+            self.pass(waiting.bound);
+        } else {
+            self.waiting[self.count] = waiting;
+            self.count += 1;
+        }
+    }
+
+    #[inline(always)]
+    fn pass(&mut self, bound: f64) {
+        if bound < self.passed {
+            self.passed = bound;
+        }
+    }
+}
+
+/// The bound of all pieces together.
+struct Roots<'a> {
+    pair: &'a Pair<'a>,
+}
+
+impl Kernel for Roots<'_> {
+    type Output = f64;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> f64 {
+        let Pair { trees: [a, b], between, .. } = self.pair;
+        between.in_lanes::<L>().of_fitted(&a.nodes[0].fitted, &b.nodes[0].fitted)
+    }
+}
+
+/// Down to the next pair of pieces.
+struct Descent<'a, 'b> {
+    walk: &'a mut Walk<'b>,
+}
+
+impl Kernel for Descent<'_, '_> {
+    type Output = Option<[u32; 2]>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Option<[u32; 2]> {
+        let walk = &mut *self.walk;
+        if walk.count == 0 {
+            return None;
+        }
+        let Pair { trees, between, aim } = walk.pair;
+        let between = between.in_lanes::<L>();
+        let [tree_a, tree_b] = trees;
+        let crosses = aim == Aim::Verdict;
+        while walk.count > 0 {
+            walk.count -= 1;
+            let Waiting { bound, nodes } = walk.waiting[walk.count];
+            if bound > walk.enough {
+                walk.pass(bound);
+                continue;
+            }
+            let Some(pairs) = opened(trees, nodes) else {
+                let pieces = [tree_a.nodes[nodes[0] as usize].piece(), tree_b.nodes[nodes[1] as usize].piece()];
+                let [Some(a), Some(b)] = pieces else { continue };
+                return Some([a, b]);
+            };
+            let mut bounds = [0.0; 2];
+            for (bound, pair) in bounds.iter_mut().zip(&pairs) {
+                let [a, b] = [pair[0] as usize, pair[1] as usize];
+                let fitted = between.of_fitted(&tree_a.nodes[a].fitted, &tree_b.nodes[b].fitted);
+                *bound = fitted;
+                if !(fitted > walk.enough) {
+                    let oriented = between.of_oriented(&tree_a.oriented[a], &tree_b.oriented[b], crosses);
+                    if oriented > fitted {
+                        *bound = oriented;
+                    }
+                }
+            }
+            let first = usize::from(bounds[1] < bounds[0]);
+            walk.push(Waiting { bound: bounds[1 - first], nodes: pairs[1 - first] });
+            walk.push(Waiting { bound: bounds[first], nodes: pairs[first] });
+        }
+        None
+    }
+}
