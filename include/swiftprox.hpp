@@ -17,6 +17,7 @@
 #define SWIFTPROX_HPP
 
 #include "swiftprox/batch.hpp"
+#include "swiftprox/compound.hpp"
 #include "swiftprox/gradient.hpp"
 #include "swiftprox/ground.hpp"
 #include "swiftprox/library.hpp"

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
-const SOURCES: [&str; 29] = [
+const SOURCES: [&str; 31] = [
     "src/tables/options.rs",
     "src/levels/hierarchy/mod.rs",
     "src/shape/mod.rs",
@@ -27,6 +27,8 @@ const SOURCES: [&str; 29] = [
     "src/ray/query.rs",
     "src/ray/answer.rs",
     "src/point/answer.rs",
+    "src/compound/answer.rs",
+    "src/compound/body.rs",
     "src/scene/world/object.rs",
     "src/scene/search/query.rs",
     "src/scene/search/statistics.rs",

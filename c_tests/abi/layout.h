@@ -501,6 +501,49 @@ MEMBER(swiftprox_gradient, object1, 0, 48)
 MEMBER(swiftprox_gradient, object2, 48, 48)
 MEMBER(swiftprox_gradient, is_unique, 96, 4)
 
+STRUCT(swiftprox_compound_info, 16, 8)
+MEMBER(swiftprox_compound_info, piece_count, 0, 8)
+MEMBER(swiftprox_compound_info, bytes, 8, 8)
+
+STRUCT(swiftprox_placed_compound, 16, 8)
+MEMBER(swiftprox_placed_compound, compound, 0, 8)
+MEMBER(swiftprox_placed_compound, pose, 8, 8)
+
+STRUCT(swiftprox_compound_cache, 13312, 4)
+MEMBER(swiftprox_compound_cache, words, 0, 13312)
+
+STRUCT(swiftprox_compound_answer, 240, 8)
+MEMBER(swiftprox_compound_answer, answer, 0, 232)
+MEMBER(swiftprox_compound_answer, piece1, 232, 4)
+MEMBER(swiftprox_compound_answer, piece2, 236, 4)
+
+STRUCT(swiftprox_compound_signed_distance_answer, 184, 8)
+MEMBER(swiftprox_compound_signed_distance_answer, distance, 0, 176)
+MEMBER(swiftprox_compound_signed_distance_answer, piece1, 176, 4)
+MEMBER(swiftprox_compound_signed_distance_answer, piece2, 180, 4)
+
+STRUCT(swiftprox_compound_contact, 72, 8)
+MEMBER(swiftprox_compound_contact, manifold, 0, 56)
+MEMBER(swiftprox_compound_contact, first_point, 56, 4)
+MEMBER(swiftprox_compound_contact, piece1, 60, 4)
+MEMBER(swiftprox_compound_contact, piece2, 64, 4)
+
+STRUCT(swiftprox_compound_contacts, 48, 8)
+MEMBER(swiftprox_compound_contacts, contacts, 0, 8)
+MEMBER(swiftprox_compound_contacts, contact_capacity, 8, 8)
+MEMBER(swiftprox_compound_contacts, points, 16, 8)
+MEMBER(swiftprox_compound_contacts, point_capacity, 24, 8)
+MEMBER(swiftprox_compound_contacts, contact_count, 32, 8)
+MEMBER(swiftprox_compound_contacts, point_count, 40, 8)
+
+STRUCT(swiftprox_compound_ray_answer, 88, 8)
+MEMBER(swiftprox_compound_ray_answer, answer, 0, 80)
+MEMBER(swiftprox_compound_ray_answer, piece, 80, 4)
+
+STRUCT(swiftprox_compound_point_answer, 120, 8)
+MEMBER(swiftprox_compound_point_answer, answer, 0, 112)
+MEMBER(swiftprox_compound_point_answer, piece, 112, 4)
+
 STRUCT(swiftprox_replay_step_info, 32, 8)
 MEMBER(swiftprox_replay_step_info, struct_size, 0, 8)
 MEMBER(swiftprox_replay_step_info, has_step, 8, 4)

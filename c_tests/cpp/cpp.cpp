@@ -207,6 +207,26 @@ static void pairs()
     CHECK(swiftprox::Ground::try_from_triangles(swiftprox::Range<const double>(heights),
                                                 swiftprox::Range<const std::uint32_t>(two_corners))
               .status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    const std::array<const swiftprox_shape *, 2> parts{box.get(), box.get()};
+    const std::array<Pose, 2> places{Pose::at(-2, 0, 0), Pose::at(2, 0, 0)};
+    const auto pair_of_boxes = swiftprox::Compound::try_from_shapes(swiftprox::Range<const swiftprox_shape *const>(parts),
+                                                                    swiftprox::Range<const Pose>(places));
+    CHECK(pair_of_boxes && pair_of_boxes.value.try_info().value.piece_count == 2);
+    CHECK(pair_of_boxes.value.try_piece(1).value && pair_of_boxes.value.try_piece_pose(1).value.rows() == places[1].rows());
+    swiftprox::CompoundCache compound_cache;
+    const swiftprox::PlacedCompound pair_here{pair_of_boxes.value, here}, pair_above{pair_of_boxes.value, Pose::at(0, 0, 3)};
+    const auto compounds = swiftprox::try_compound_distance(pair_here, pair_above, compound_cache);
+    CHECK(compounds && compounds.value.answer.outcome == SWIFTPROX_OUTCOME_SEPARATED && compounds.value.piece1 < 2);
+    CHECK_OK(swiftprox::try_compound_verify(pair_here, pair_above, compounds.value).status);
+    const auto met = swiftprox::try_compound_intersection(pair_here, pair_here, compound_cache);
+    CHECK(met && met.value.answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING);
+    const auto deepest = swiftprox::try_compound_signed_distance(pair_here, pair_here, compound_cache);
+    CHECK(deepest && deepest.value.distance.upper < 0);
+    std::array<swiftprox_compound_contact, 4> compound_contacts;
+    const auto touching = swiftprox::try_compound_contacts(pair_here, pair_here, compound_contacts, points);
+    CHECK(touching && touching.value.contact_count >= 2);
+    CHECK(swiftprox::try_compound_cast_ray(pair_here, {{-9, 0, 0}, {1, 0, 0}, 99}).value.piece == 0);
+    CHECK(swiftprox::try_compound_locate_point(pair_here, {2, 0, 0}).value.piece == 1);
     const auto top = box.try_find_face(0);
     CHECK(top && box.try_face(top.value).value.corners.size() == 4 && box.try_face(top.value).value.labels[0] == 0);
     CHECK(box.try_face(6).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);

@@ -11,8 +11,8 @@ use crate::base::memory::push;
 use crate::base::simd::environment::with_default;
 use crate::pair::{ManifoldCache, ManifoldConfig, Outcome, SignedDistance, add_points, manifold_into};
 
-/// The manifolds of all pairs of pieces up to `config.max_distance` apart, in order of the pieces, as [`crate::pair::manifold`] finds
-/// each with a cold cache. Pieces overlap where they join, so a body that rests on two of them may have points twice.
+/// The manifolds of all pairs of pieces up to `config.max_distance` apart, in order of the pieces, as [`crate::pair::manifold`]
+/// finds each with a cold cache. Pieces overlap where they join, so a body that rests on two of them may have points twice.
 ///
 /// # Errors
 /// As of [`crate::pair::manifold`], and of [`distance`](super::distance) for poses; then `found` holds nothing.

@@ -43,6 +43,7 @@ pub mod listener;
 pub mod object_set;
 pub mod scene_ground;
 pub mod pair_batch;
+pub mod compound;
 pub mod record;
 
 pub use failure::StatusCode;

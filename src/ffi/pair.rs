@@ -298,7 +298,18 @@ unsafe fn read_answer<'a>(answer: *const PairAnswer) -> Checked<&'a PairAnswer> 
     if answer.is_null() {
         return Err(Failure::null("answer"));
     }
-    // SAFETY: not null, readable by the caller; read as integers, whatever they hold.
+    // SAFETY: not null, readable by the caller.
+    unsafe { check_enumerators(answer, "answer") }?;
+    // SAFETY: its enumerators are valid, and any other bytes are.
+    Ok(unsafe { &*answer })
+}
+
+/// Refuses an answer of the caller's with an unknown enumerator; `name` is what the header calls it.
+///
+/// # Safety
+/// `answer` is not null, and readable by the caller.
+pub(super) unsafe fn check_enumerators(answer: *const PairAnswer, name: &str) -> Checked<()> {
+    // SAFETY: by the caller; read as integers, whatever they hold.
     let [outcome, decided_by, kind1, kind2] = unsafe {
         [
             (&raw const (*answer).outcome).cast::<i32>().read(),
@@ -307,12 +318,11 @@ unsafe fn read_answer<'a>(answer: *const PairAnswer) -> Checked<&'a PairAnswer> 
             (&raw const (*answer).feature2.kind).cast::<i32>().read(),
         ]
     };
-    read_enumerator::<Outcome>(outcome, "answer->outcome", "swiftprox_outcome")?;
-    read_enumerator::<DecidedBy>(decided_by, "answer->decided_by", "swiftprox_decided_by")?;
-    read_enumerator::<FeatureKind>(kind1, "answer->feature1.kind", "swiftprox_feature_kind")?;
-    read_enumerator::<FeatureKind>(kind2, "answer->feature2.kind", "swiftprox_feature_kind")?;
-    // SAFETY: its enumerators are valid, and any other bytes are.
-    Ok(unsafe { &*answer })
+    read_enumerator::<Outcome>(outcome, &format!("{name}->outcome"), "swiftprox_outcome")?;
+    read_enumerator::<DecidedBy>(decided_by, &format!("{name}->decided_by"), "swiftprox_decided_by")?;
+    read_enumerator::<FeatureKind>(kind1, &format!("{name}->feature1.kind"), "swiftprox_feature_kind")?;
+    read_enumerator::<FeatureKind>(kind2, &format!("{name}->feature2.kind"), "swiftprox_feature_kind")?;
+    Ok(())
 }
 
 #[cfg(test)]

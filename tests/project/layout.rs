@@ -8,7 +8,11 @@ use std::mem::{align_of, offset_of, size_of};
 use std::path::Path;
 use std::process::Command;
 
+use swiftprox::compound::{
+    CompoundAnswer, CompoundContact, CompoundPointAnswer, CompoundRayAnswer, CompoundSignedDistance,
+};
 use swiftprox::ffi::arrays::CMesh;
+use swiftprox::ffi::compound::{CCompoundCache, CCompoundContacts, CPlacedCompound, CompoundInfo};
 use swiftprox::ffi::decomposition::CDecomposition;
 use swiftprox::ffi::depth::{CDepthCache, CDepthConfig, CManifoldCache, CManifoldConfig, CManifoldRoom};
 use swiftprox::ffi::ground::{CGroundRoom, CPlacedGround, GroundCount, GroundInfo};
@@ -195,6 +199,17 @@ fn layouts() -> Vec<Layout> {
         swiftprox_point_answer = PointAnswer { location, feature, distance, lower, upper, local, world, normal },
         swiftprox_support_vertex = SupportVertex { vertex, exact, local, world, height },
         swiftprox_gradient = Gradient { object1, object2, is_unique },
+        swiftprox_compound_info = CompoundInfo { piece_count, bytes },
+        swiftprox_placed_compound = CPlacedCompound { compound, pose },
+        swiftprox_compound_cache = CCompoundCache { words },
+        swiftprox_compound_answer = CompoundAnswer { answer, piece1, piece2 },
+        swiftprox_compound_signed_distance_answer = CompoundSignedDistance { distance, piece1, piece2 },
+        swiftprox_compound_contact = CompoundContact { manifold, first_point, piece1, piece2 },
+        swiftprox_compound_contacts = CCompoundContacts {
+            contacts, contact_capacity, points, point_capacity, contact_count, point_count
+        },
+        swiftprox_compound_ray_answer = CompoundRayAnswer { answer, piece },
+        swiftprox_compound_point_answer = CompoundPointAnswer { answer, piece },
         swiftprox_replay_step_info = CReplayStep {
             struct_size, has_step, has_query, kind, cut_off, fraction
         },

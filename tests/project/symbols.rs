@@ -7,8 +7,9 @@ use std::path::{Path, PathBuf};
 use std::process::Command;
 
 /// The nouns of the C interface.
-const NOUNS: [&str; 16] = [
+const NOUNS: [&str; 17] = [
     "library",
+    "compound",
     "mesh",
     "shape",
     "pose",
