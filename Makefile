@@ -22,6 +22,7 @@
 # make casts                  casts beside parry3d, FCL, Bullet and samples, rays beside parry3d: benches/results/casts.csv, the chart and
 #                             tables of docs/motions.md
 # make grounds                contacts of 1,000 bodies with 20,000 triangles beside parry3d: benches/results/grounds.csv
+# make compounds              verdicts and distances of bodies of many pieces beside parry3d: benches/results/compounds.csv
 # make python-bench           the Python package beside coal, python-fcl and MuJoCo: the table of docs/python.md
 # make hard-motions           casts MOTIONS=800000 adversarial motions and judges each: examples/hard_motions.rs, twenty minutes
 # make engines                scenes in MuJoCo, Bullet and DART, with their colliders and with swiftprox: docs/engines.md, its tables,
@@ -62,12 +63,13 @@ QUICK =
 FIGURES = benches/results/figures
 CASTS = benches/results/casts.csv
 GROUNDS = benches/results/grounds.csv
+COMPOUNDS = benches/results/compounds.csv
 ENGINES = benches/results/engines.csv
 MOTIONS = 800000
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo check test lint test-rust test-c test-fuzz test-proofs proofs fuzz asan tsan miri loom valgrind bench figures stability crowds bodies depths casts grounds python-bench hard-motions engines steps charts cases hard legacy-bench docs packages cross clean
+.PHONY: build demo check test lint test-rust test-c test-fuzz test-proofs proofs fuzz asan tsan miri loom valgrind bench figures stability crowds bodies depths casts grounds compounds python-bench hard-motions engines steps charts cases hard legacy-bench docs packages cross clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -219,6 +221,11 @@ grounds:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++
 	cargo build --locked --release --manifest-path benches/compare/Cargo.toml
 	$(TIMED) benches/compare/target/release/compare --grounds --count 10000 --passes 5 --csv $(GROUNDS)
+
+compounds:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++
+	cargo build --locked --release --manifest-path benches/compare/Cargo.toml
+	$(TIMED) benches/compare/target/release/compare --compounds --count 720 --passes 5 --csv $(COMPOUNDS)
 
 # Where pip cannot have one of the others, it is left out.
 python-bench:

@@ -6,6 +6,7 @@ mod bodies;
 mod build_time;
 mod callgrind;
 mod cast;
+mod compound;
 mod crowd;
 mod depth;
 mod distance;
@@ -55,6 +56,8 @@ fn main() -> ! {
             resting::run(&options)
         } else if options.grounds {
             ground::run(&options)
+        } else if options.compounds {
+            compound::run(&options)
         } else if options.depth {
             depth::run(&options)
         } else {

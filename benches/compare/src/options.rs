@@ -44,6 +44,8 @@ usage: compare [options]
                     parry-hc
   --grounds         time contacts of 1,000 bodies at rest and sliding on a ground of 20,000 triangles instead; --count is rounded up to
                     thousands, --methods of swiftprox, parry, parry-fixed
+  --compounds       time verdicts and distances of bodies of 80 to 500 pieces beside parry's compounds instead; --count is the
+                    number of poses of each motion
   --casts LIST      time casts of the scenes whose names begin so, or all, beside parry, FCL, Bullet and samples instead, and
                     rays; --count is the number of motions a scene, a quarter of that of rays
   --build           time the building of shapes instead
@@ -72,6 +74,7 @@ pub struct Options {
     pub workload: Option<PathBuf>,
     pub resting: bool,
     pub grounds: bool,
+    pub compounds: bool,
     pub build: bool,
     /// Numbers of bodies.
     pub crowd: Option<Vec<usize>>,
@@ -113,6 +116,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
         workload: None,
         resting: false,
         grounds: false,
+        compounds: false,
         build: false,
         crowd: None,
         motions: Vec::new(),
@@ -156,6 +160,7 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Options, Str
             "--motions" => options.motions = list(&value()?).map(str::to_string).collect(),
             "--resting" => options.resting = true,
             "--grounds" => options.grounds = true,
+            "--compounds" => options.compounds = true,
             "--casts" => {
                 options.casts = Some(list(&value()?).filter(|name| *name != "all").map(str::to_string).collect())
             }
