@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that sentences and tables of docs/benchmarks.md, docs/choosing.md and docs/grounds.md that have numbers say what the CSV files of benches/results say.
+"""Checks that sentences and tables of docs/benchmarks.md, docs/choosing.md, docs/grounds.md and docs/compounds.md that have numbers say what the CSV files of benches/results say.
 Each is made anew here, and the page has to have it word for word."""
 import os
 import sys
@@ -10,6 +10,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 
 
 SPEED, BUILD, CROWDS, GROUNDS = "2026-11-22-intel-xeon.csv", "figures-build.csv", "crowds.csv", "grounds.csv"
+COMPOUNDS = "compounds.csv"
 
 
 def rows_of(name):
@@ -105,6 +106,24 @@ def ground_table():
     return "\n".join(lines)
 
 
+COMPOUND_MOTIONS = {"random": "random", "near": "near", "orbit": "1°", "slow": "0.1°", "far": "far", "linked": "linked"}
+
+
+def compound_table():
+    """Geometric means over the bodies of verdicts and distances, and how many times as long parry takes."""
+    times = {}
+    for row in rows_of(COMPOUNDS):
+        times.setdefault((row["motion"], row["asked"], row["method"]), []).append(float(row["best_ns"]))
+    lines = ["| motion | verdict, ns (parry) | distance, ns (parry) |", "|---|--:|--:|"]
+    for motion, name in COMPOUND_MOTIONS.items():
+        def cell(asked):
+            ours, theirs = (geometric_mean(times[motion, asked, method]) for method in ("swiftprox", "parry"))
+            return f"{ours:,.0f} ({theirs / ours:.2f})"
+
+        lines.append(f"| {name} | {cell('verdict')} | {cell('distance')} |")
+    return "\n".join(lines)
+
+
 def commits():
     """Tables and meshes are of the same commit as queries."""
     if commit_of(BUILD) != commit_of(SPEED):
@@ -124,6 +143,8 @@ def main():
     queries = f"<!-- table: queries -->\n{speed_table()}\n<!-- end -->"
     check("docs/benchmarks.md", (queries, *commits(), table_times(), mesh_times(), second_thread()))
     check("docs/grounds.md", (f"<!-- table: grounds -->\n{ground_table()}\n<!-- end -->", f"at {commit_of(GROUNDS)}"))
+    check("docs/compounds.md",
+          (f"<!-- table: compounds -->\n{compound_table()}\n<!-- end -->", f"at {commit_of(COMPOUNDS)}"))
     check("docs/choosing.md", (f"<!-- table: queries -->\n{query_table()}\n<!-- end -->", f"<!-- table: depths -->\n{depth_table()}\n<!-- end -->"))
 
 
