@@ -14,7 +14,7 @@
 #include "check.h"
 #include "oracle.h"
 
-/* What the peers promise of a distance at the scale of the scenes, which is 1: FCL's default max_distance. */
+/* What the peers promise of a distance at the scale of the scenes, which is 1: FCL's default distance_tolerance. */
 static const double PEER_TOLERANCE = 1e-6;
 
 /* A peer has this many seconds for a pose. */

@@ -81,7 +81,7 @@ void query(const peer *peer, const body *body1, const double *pose1, const body 
         fcl::DistanceRequestd distance_request;
         distance_request.enable_nearest_points = true;
         distance_request.gjk_solver_type = solver;
-        distance_request.max_distance = peer->tolerance;
+        distance_request.distance_tolerance = peer->tolerance;
         fcl::DistanceResultd distance;
         fcl::distance(first, at1, second, at2, distance_request, distance);
         answer->outcome = PEER_SEPARATED;

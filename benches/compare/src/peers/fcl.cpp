@@ -85,7 +85,7 @@ peer *fcl_peer_create(const peer_mesh *meshes, double tolerance)
         for (int k = 0; k < 2; ++k) {
             made->convex[k].reset(convex(meshes[k]));
         }
-        made->solver.max_distance = made->solver.collision_tolerance = tolerance;
+        made->solver.distance_tolerance = made->solver.collision_tolerance = tolerance;
         made->own.gjk_tolerance = tolerance;
         made->own.enable_cached_guess = true;
         return made.release();
