@@ -18,6 +18,7 @@ pub fn outlines_of(polyhedron: &Polyhedron) -> Result<Outlines> {
     }
     let sum: Vector = polyhedron.vertices.iter().map(|vertex| vertex.position).sum();
     outlines.middle = sum / polyhedron.vertices.len() as f64;
+    outlines.shortest = polyhedron.edges.iter().map(|edge| edge.length).fold(f64::INFINITY, f64::min);
     for (face, record) in (0..).zip(&polyhedron.faces) {
         push(&mut outlines.starts, outlines.vertices.len() as u32)?;
         let fours = (0..record.side_count)

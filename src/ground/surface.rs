@@ -203,7 +203,7 @@ impl Ground {
         self.triangles.vertices.len()
     }
 
-    /// Memory held, in bytes: less than 200 for each triangle where there are no more vertices than triangles.
+    /// Memory held, in bytes: less than 8,192, and 200 for each triangle where there are no more vertices than triangles.
     pub fn bytes(&self) -> usize {
         let Ground { triangles, tree, covers, shape, .. } = self;
         size_of::<Ground>() + shape.shown().bytes() + triangles.heap_bytes() + tree.heap_bytes() + covers.heap_bytes()

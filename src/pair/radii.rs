@@ -97,17 +97,25 @@ fn inverted(pose: &Pose, normal: &Vector) -> Vector {
 /// a + b, rounded down: at most the largest double where both are finite; infinite or NaN only if a or b is.
 pub fn sum_below(a: f64, b: f64) -> f64 {
     let sum = two_sum(a, b);
-    if sum.hi == f64::INFINITY && a < f64::INFINITY && b < f64::INFINITY {
-        return f64::MAX;
+    if !sum.hi.is_finite() {
+        return beyond([a, b], sum.hi, f64::MAX);
     }
-    if sum.hi.is_finite() && sum.lo < 0.0 { sum.hi.next_down() } else { sum.hi }
+    if sum.lo < 0.0 { sum.hi.next_down() } else { sum.hi }
 }
 
 /// a + b, rounded up: the same of the other side.
 pub fn sum_above(a: f64, b: f64) -> f64 {
     let sum = two_sum(a, b);
-    if sum.hi == f64::NEG_INFINITY && a > f64::NEG_INFINITY && b > f64::NEG_INFINITY {
-        return f64::MIN;
+    if !sum.hi.is_finite() {
+        return beyond([a, b], sum.hi, f64::MIN);
     }
-    if sum.hi.is_finite() && sum.lo > 0.0 { sum.hi.next_up() } else { sum.hi }
+    if sum.lo > 0.0 { sum.hi.next_up() } else { sum.hi }
+}
+
+/// A sum that is no finite double, rounded away from the infinity that has the sign of `last`: the last double before it where both
+/// terms are finite.
+#[cold]
+fn beyond(terms: [f64; 2], sum: f64, last: f64) -> f64 {
+    let has_overflowed = terms.iter().all(|term| term.is_finite()) && sum * last > 0.0;
+    if has_overflowed { last } else { sum }
 }

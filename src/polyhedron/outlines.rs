@@ -5,12 +5,14 @@ use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::copied;
 
-/// The corners of the faces of a body with an interior and at most [`MOST_IN_BLOCKS`](super::MOST_IN_BLOCKS) vertices; of others nothing. About 28 bytes a
-/// corner of a face.
+/// The corners of the faces of a body with an interior and at most [`MOST_IN_BLOCKS`](super::MOST_IN_BLOCKS) vertices; of others
+/// nothing. About 28 bytes a corner of a face.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Outlines {
     /// The mean of the vertices, in centred coordinates: each of its sums is rounded.
     pub middle: Vector,
+    /// The length of the shortest side.
+    pub shortest: f64,
     /// The first block of each face, and the end; empty where there are none.
     pub starts: Vec<u32>,
     /// Positions of a face's corners in the order of its sides; its last block repeats its last corner.
@@ -27,6 +29,7 @@ impl Outlines {
     pub(super) fn copy(&self) -> Result<Outlines> {
         Ok(Outlines {
             middle: self.middle,
+            shortest: self.shortest,
             starts: copied(&self.starts)?,
             blocks: copied(&self.blocks)?,
             vertices: copied(&self.vertices)?,

@@ -311,7 +311,8 @@ impl AtRest<'_, '_> {
         let polyhedra = frame.polyhedra();
         let corners = [Corners::of(polyhedra[0], facing[0])?, Corners::of(polyhedra[1], facing[1])?];
         let size = frame.size + frame.separation;
-        if polyhedra[0].radius.min(polyhedra[1].radius) <= COINCIDENT * size {
+        // Outlines make one of corners that are nearer; seen along the normal a side is no shorter than by the cosine of its face.
+        if polyhedra[0].outlines.shortest.min(polyhedra[1].outlines.shortest) * STEEPEST <= COINCIDENT * size {
             return None;
         }
         let out = if reference == 0 { proved.direction } else { proved.direction.negate() };
