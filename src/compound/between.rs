@@ -368,7 +368,7 @@ mod tests {
             let reaches = Reaches::new(&placed, ROTATION_LIMIT).unwrap();
             let between = Between::new(&placed, &reaches);
             let trees = [&bodies[0].tree, &bodies[1].tree];
-            let mut truth = vec![[0.0; 5]; 5];
+            let mut truth = [[0.0; 5]; 5];
             for (i, j) in (0..25).map(|n| (n / 5, n % 5)) {
                 let mut found = SignedDistance::default();
                 with_pieces(&placed, [i as u32, j as u32], |pieces| {

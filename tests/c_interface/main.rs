@@ -37,9 +37,9 @@ fn last_message() -> String {
 /// A tetrahedron with one share, the caller's.
 fn tetrahedron() -> *const Shape {
     let mut shape = null();
-    // SAFETY: arrays of the sizes that are given, and room for the shape.
     let mesh =
         CMesh { vertices: CORNERS.as_ptr(), vertex_count: 4, indices: FACES.as_ptr(), valences: null(), face_count: 4 };
+    // SAFETY: arrays of the sizes that are given, and room for the shape.
     let status = unsafe { swiftprox_shape_create_from_mesh(mesh, null(), &mut shape) };
     assert_eq!(status, StatusCode::Ok, "{}", last_message());
     shape
