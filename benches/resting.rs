@@ -5,8 +5,9 @@ use std::time::Instant;
 
 use nalgebra::UnitQuaternion;
 use swiftprox::error::Result;
+use swiftprox::manifold::manifold;
+use swiftprox::manifold::{ManifoldCache, ManifoldConfig, ManifoldPoint};
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::{ManifoldCache, ManifoldConfig, ManifoldPoint, manifold};
 use swiftprox::shape::Shape;
 use testkit::models;
 use testkit::random::Random;

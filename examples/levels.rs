@@ -5,9 +5,9 @@
 
 use std::time::Instant;
 
-use swiftprox::build::assembly::build;
+use swiftprox::body::build::assembly::build;
+use swiftprox::body::polyhedron::Polyhedron;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
-use swiftprox::polyhedron::Polyhedron;
 use swiftprox::progress::Progress;
 use testkit::models::{ELLIPSOIDS, ellipsoid};
 

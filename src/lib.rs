@@ -26,21 +26,19 @@
 
 #[doc(hidden)]
 pub mod base;
-pub mod mesh;
 #[doc(hidden)]
-pub mod polyhedron;
+pub mod body;
 #[doc(hidden)]
-pub mod build;
+pub mod placed;
 #[doc(hidden)]
-pub mod decomposition;
-#[doc(hidden)]
-pub mod tables;
-#[doc(hidden)]
-pub mod solve;
-#[doc(hidden)]
-pub mod levels;
+pub mod distance;
 pub mod shape;
+mod answer;
+#[doc(hidden)]
+pub mod depth;
 pub mod pair;
+pub mod manifold;
+pub mod verify;
 pub mod motion;
 pub mod ray;
 pub mod point;
@@ -51,11 +49,11 @@ pub mod scene;
 pub mod ffi;
 
 pub use base::{error, files, math, progress};
-pub use levels::hierarchy;
-pub use mesh::io as mesh_io;
-pub use pair::verify;
+pub use body::mesh;
+pub use body::mesh::io as mesh_io;
 pub use scene::object;
 pub use shape::file as shape_file;
+pub use shape::levels::hierarchy;
 
 // Unit tests draw from the generator of the testkit, which knows this crate by its name. They cannot link the testkit: it would
 // bring another copy of this crate, with the same C functions.

@@ -9,14 +9,14 @@ use std::process::{Command, Output};
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
 const SOURCES: [&str; 31] = [
-    "src/tables/options.rs",
-    "src/levels/hierarchy/mod.rs",
+    "src/body/tables/options.rs",
+    "src/shape/levels/hierarchy/mod.rs",
     "src/shape/mod.rs",
-    "src/pair/answer.rs",
-    "src/pair/config.rs",
-    "src/pair/depth/answer.rs",
+    "src/answer/pair_answer.rs",
+    "src/answer/config.rs",
+    "src/depth/answer.rs",
     "src/pair/signed_distance.rs",
-    "src/pair/manifold/answer.rs",
+    "src/manifold/answer.rs",
     "src/pair/half_space.rs",
     "src/pair/gradient.rs",
     "src/ground/surface.rs",

@@ -13,14 +13,15 @@ use std::sync::Arc;
 use swiftprox::error::{Error, Result};
 use swiftprox::ground::{Ground, GroundContacts, HeightGrid, ground_contacts, ground_distance};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
+use swiftprox::manifold::{ManifoldCache, ManifoldConfig, ManifoldPoint};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::mesh_io::{parse_mesh, read_mesh};
 use swiftprox::motion::{self, CastAnswer, CastConfig, Clearance, ClearanceConfig, Motion, Moving, verify_cast};
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::{
-    self, DepthAnswer, DepthCache, DepthConfig, HalfSpace, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome,
-    PairAnswer, PairCache, PairConfig, Placed, SignedDistance, SignedDistanceCache,
+    self, DepthAnswer, DepthCache, DepthConfig, HalfSpace, Outcome, PairAnswer, PairCache, PairConfig, Placed,
+    SignedDistance, SignedDistanceCache,
 };
 use swiftprox::point::locate_point;
 use swiftprox::progress::Progress;
@@ -667,7 +668,7 @@ fn every_block_of_pairs() {
         refusals += refuse_every_block(&format!("the signed distance of {kind}"), Default::default, signed);
         let manifold = |cache: &mut ManifoldCache| {
             let mut points = [ManifoldPoint::default(); 16];
-            let asked = pair::manifold(bodies, cache, &ManifoldConfig::default(), &mut points);
+            let asked = swiftprox::manifold::manifold(bodies, cache, &ManifoldConfig::default(), &mut points);
             if asked.is_err() {
                 assert!(points.iter().all(|point| point.id == 0), "points are as they were");
             }
@@ -687,7 +688,7 @@ fn every_block_of_pairs() {
         let manifold = |(): &mut ()| {
             let mut points = [ManifoldPoint::default(); 16];
             let config = ManifoldConfig::default();
-            let asked = pair::half_space_manifold(cube.at(&above), &half_space, &config, &mut points);
+            let asked = swiftprox::manifold::half_space_manifold(cube.at(&above), &half_space, &config, &mut points);
             if asked.is_err() {
                 assert!(points.iter().all(|point| point.id == 0), "points are as they were");
             }
@@ -703,7 +704,7 @@ fn every_block_of_pairs() {
         verify(bodies, &answer)?;
         let (mut cache, config) = (ManifoldCache::default(), ManifoldConfig::default());
         let mut points = [ManifoldPoint::default(); 16];
-        let found = pair::manifold(bodies, &mut cache, &config, &mut points)?;
+        let found = swiftprox::manifold::manifold(bodies, &mut cache, &config, &mut points)?;
         verify_manifold(bodies, &cache, &config, &found, &points)?;
         let deep = [poses[0], Pose::new(&poses[1].rotation(), &Vector::new(0.3, 0.2, 1.9))];
         let bodies = [cube.at(&deep[0]), cube.at(&deep[1])];

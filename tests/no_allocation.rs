@@ -5,9 +5,10 @@ use std::sync::Arc;
 
 use swiftprox::ground::{Ground, GroundContacts, HeightGrid, ground_contacts};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
+use swiftprox::manifold::ManifoldConfig;
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::pair::{self, Levels, ManifoldConfig, PairAnswer, PairCache, PairConfig};
+use swiftprox::pair::{self, Levels, PairAnswer, PairCache, PairConfig};
 use swiftprox::progress::Progress;
 use swiftprox::scene::{GroupFilter, Scene, SceneOptions, SceneQuery, SetScratch};
 use swiftprox::shape::{Shape, ShapeOptions};

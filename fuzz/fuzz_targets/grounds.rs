@@ -10,8 +10,9 @@ use swiftprox::error::Error;
 use swiftprox::ground::{
     Ground, GroundContacts, GroundDistance, HeightGrid, PlacedGround, ground_contacts, ground_distance,
 };
+use swiftprox::manifold::ManifoldConfig;
 use swiftprox::math::{Pose, ROTATION_LIMIT, Vector};
-use swiftprox::pair::{ManifoldConfig, Outcome, PairAnswer, PairCache, PairConfig, Placed, Query, distance};
+use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, Placed, Query, distance};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox_fuzz::geometry::{any_number, any_points, inside, last_is_environment, points, poses};
 use testkit::cases::Case;

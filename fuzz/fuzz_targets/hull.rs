@@ -4,12 +4,12 @@
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use libfuzzer_sys::fuzz_target;
-use swiftprox::build::check::check_hull;
-use swiftprox::build::hull::{Hull, convex_hull};
+use swiftprox::body::build::check::check_hull;
+use swiftprox::body::build::hull::{Hull, convex_hull};
+use swiftprox::body::polyhedron::Polyhedron;
 use swiftprox::error::Error;
 use swiftprox::math::Vector;
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::polyhedron::Polyhedron;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox_fuzz::geometry::any_points;
 

@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use libfuzzer_sys::fuzz_target;
 use swiftprox::base::predicates::ExactPoints;
-use swiftprox::decomposition::decompose;
+use swiftprox::body::decomposition::decompose;
 use swiftprox::error::Error;
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::mesh_io::{Format, parse_mesh};

@@ -12,8 +12,9 @@ use libfuzzer_sys::fuzz_target;
 use swiftprox::base::simd::environment::Environment;
 use swiftprox::error::Error;
 use swiftprox::math::{ROTATION_LIMIT, Vector};
+use swiftprox::pair::contact;
 use swiftprox::pair::{
-    Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, approximate, contact, distance, intersection,
+    Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, approximate, distance, intersection,
 };
 use swiftprox::shape::Shape;
 use swiftprox::verify::verify;

@@ -7,11 +7,12 @@ use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use libfuzzer_sys::fuzz_target;
 use swiftprox::base::simd::environment::Environment;
 use swiftprox::error::Error;
+use swiftprox::manifold::{ManifoldConfig, ManifoldPoint, half_space_manifold};
 use swiftprox::math::{Pose, ROTATION_LIMIT, Vector};
+use swiftprox::pair::contact;
 use swiftprox::pair::{
-    HalfSpace, ManifoldConfig, ManifoldPoint, Outcome, PairAnswer, PairCache, PairConfig, Placed, SignedDistance,
-    SignedDistanceCache, approximate, contact, distance, half_space_distance, half_space_manifold, intersection,
-    signed_distance,
+    HalfSpace, Outcome, PairAnswer, PairCache, PairConfig, Placed, SignedDistance, SignedDistanceCache, approximate,
+    distance, half_space_distance, intersection, signed_distance,
 };
 use swiftprox::shape::{InputPolicy, LARGEST_SWEPT_RADIUS, Shape, ShapeOptions};
 use swiftprox::verify::verify;

@@ -3,11 +3,10 @@
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use swiftprox::base::simd::environment::Environment;
 use swiftprox::error::Error;
+use swiftprox::manifold::manifold;
+use swiftprox::manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use swiftprox::math::Vector;
-use swiftprox::pair::{
-    DepthAnswer, DepthCache, DepthConfig, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome, PairAnswer,
-    Placed, depth, manifold,
-};
+use swiftprox::pair::{DepthAnswer, DepthCache, DepthConfig, Outcome, PairAnswer, Placed, depth};
 use swiftprox::verify::{verify, verify_depth, verify_manifold};
 use testkit::forgery;
 use testkit::manifolds::Gaps;

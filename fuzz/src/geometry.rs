@@ -4,11 +4,11 @@
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use nalgebra::{Quaternion, UnitQuaternion};
 use swiftprox::base::simd::environment::Environment;
+use swiftprox::body::tables::{LookupKind, LookupOptions};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::PairCache;
 use swiftprox::shape::{InputPolicy, ShapeOptions};
-use swiftprox::tables::{LookupKind, LookupOptions};
 
 /// What doubles do badly.
 const SPECIAL: [f64; 16] = [

@@ -207,7 +207,7 @@ fn difference() -> Found {
     })
 }
 
-/// [`Body::rotate_back`](swiftprox::solve::frame::Body::rotate_back): RᵀU.
+/// [`Body::rotate_back`](swiftprox::placed::frame::Body::rotate_back): RᵀU.
 fn rotate_back() -> Found {
     in_frame(|frame, random, found| {
         let u = vector("U", random.vector());
@@ -256,7 +256,7 @@ fn certificate() -> Found {
         let projection = Symbol(known(u.dot(d))) * inverse;
         let distance = Symbol(known(d.dot(d))).sqrt();
         // As `certificate::reciprocal_length` and its callers compute them.
-        assert_eq!(value(inverse.0), swiftprox::solve::certificate::reciprocal_length(u.dot(u)));
+        assert_eq!(value(inverse.0), swiftprox::distance::certificate::reciprocal_length(u.dot(u)));
         found.counted("projection", projection.0, &[]).counted("distance", distance.0, &[]);
     })
 }

@@ -8,25 +8,25 @@ pub use swiftprox::base::predicates::{
 };
 pub use swiftprox::base::scalar::{Scalar, determinant, dot};
 pub use swiftprox::base::simd::{Lanes, Portable, Work};
-pub use swiftprox::build::assembly::build;
-pub use swiftprox::build::slack::{HEIGHT, height_and_magnitude};
-pub use swiftprox::motion::bound::{LEAST_BETWEEN, OF_ANGLE, OF_TURN, least_within};
-pub use swiftprox::motion::turn::{axis_and_speed, cosine, half_angle, reduced, rotation_of, sine};
-pub use swiftprox::pair::verify::{CLEAR, ERROR, over_both, plus_difference, turned};
-pub use swiftprox::polyhedron::PlaneBlock;
-pub use swiftprox::polyhedron::Polyhedron;
-pub use swiftprox::polyhedron::fan::PointBlock;
-pub use swiftprox::ray::SIDE;
-pub use swiftprox::solve::certificate::{DIRECTION_ERROR, REMAINDER, RIGID_MISFIT, beside, beside_one, ends};
-pub use swiftprox::solve::enclosure::{determinant_error, encloses_origin, length_above};
-pub use swiftprox::solve::facets::placed::PlacedFan;
-pub use swiftprox::solve::facets::{NODE, NORMAL, ON_ARC, SUPPORT};
-pub use swiftprox::solve::frame::{
-    Frame, RIGID, RIGID_DEFECT, RIGID_TOGETHER, difference_error, separation, sum_of, tolerance,
-};
-pub use swiftprox::solve::gjk::{COMBINATION, EXCESS, height_over, plus_weighted};
-pub use swiftprox::solve::marching::{
+pub use swiftprox::body::build::assembly::build;
+pub use swiftprox::body::build::slack::{HEIGHT, height_and_magnitude};
+pub use swiftprox::body::polyhedron::PlaneBlock;
+pub use swiftprox::body::polyhedron::Polyhedron;
+pub use swiftprox::body::polyhedron::fan::PointBlock;
+pub use swiftprox::depth::facets::placed::PlacedFan;
+pub use swiftprox::depth::facets::{NODE, NORMAL, ON_ARC, SUPPORT};
+pub use swiftprox::depth::polytope::{HEIGHTS, Polytope, Pyramid, Rounding, evaluate, heights, rounding};
+pub use swiftprox::distance::certificate::{DIRECTION_ERROR, REMAINDER, RIGID_MISFIT, beside, beside_one, ends};
+pub use swiftprox::distance::enclosure::{determinant_error, encloses_origin, length_above};
+pub use swiftprox::distance::gjk::{COMBINATION, EXCESS, height_over, plus_weighted};
+pub use swiftprox::distance::marching::{
     between_feet, correction, error_along, from_foot, misfit_across_edge, misfit_between_edges, projected,
 };
-pub use swiftprox::solve::polytope::{HEIGHTS, Polytope, Pyramid, Rounding, evaluate, heights, rounding};
-pub use swiftprox::solve::voronoi::{plane_slopes, plane_values};
+pub use swiftprox::motion::bound::{LEAST_BETWEEN, OF_ANGLE, OF_TURN, least_within};
+pub use swiftprox::motion::turn::{axis_and_speed, cosine, half_angle, reduced, rotation_of, sine};
+pub use swiftprox::placed::frame::{
+    Frame, RIGID, RIGID_DEFECT, RIGID_TOGETHER, difference_error, separation, sum_of, tolerance,
+};
+pub use swiftprox::placed::voronoi::{plane_slopes, plane_values};
+pub use swiftprox::ray::SIDE;
+pub use swiftprox::verify::{CLEAR, ERROR, over_both, plus_difference, turned};

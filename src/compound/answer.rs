@@ -1,6 +1,7 @@
 //! Answers on two compounds: plain data, laid out for C.
 
-use crate::pair::{Manifold, ManifoldPoint, PairAnswer, SignedDistance};
+use crate::manifold::{Manifold, ManifoldPoint};
+use crate::pair::{PairAnswer, SignedDistance};
 use crate::point::PointAnswer;
 use crate::ray::RayAnswer;
 

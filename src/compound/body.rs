@@ -8,8 +8,8 @@ use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
 use crate::base::memory::{collected, copied, push, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
-use crate::decomposition::decompose;
-use crate::mesh::PolygonMesh;
+use crate::body::decomposition::decompose;
+use crate::body::mesh::PolygonMesh;
 use crate::shape::{InputPolicy, Shape, ShapeOptions};
 
 /// The largest number of pieces.

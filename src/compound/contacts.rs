@@ -9,13 +9,14 @@ use crate::base::error::Result;
 use crate::base::math::ROTATION_LIMIT;
 use crate::base::memory::push;
 use crate::base::simd::environment::with_default;
-use crate::pair::{ManifoldCache, ManifoldConfig, Outcome, SignedDistance, add_points, manifold_into};
+use crate::manifold::{ManifoldCache, ManifoldConfig, add_points, manifold_into};
+use crate::pair::{Outcome, SignedDistance};
 
-/// The manifolds of all pairs of pieces up to `config.max_distance` apart, in order of the pieces, as [`crate::pair::manifold`]
+/// The manifolds of all pairs of pieces up to `config.max_distance` apart, in order of the pieces, as [`crate::manifold::manifold`]
 /// finds each with a cold cache. Pieces overlap where they join, so a body that rests on two of them may have points twice.
 ///
 /// # Errors
-/// As of [`crate::pair::manifold`], and of [`distance`](super::distance) for poses; then `found` holds nothing.
+/// As of [`crate::manifold::manifold`], and of [`distance`](super::distance) for poses; then `found` holds nothing.
 pub fn contacts(bodies: [PlacedCompound; 2], config: &ManifoldConfig, found: &mut CompoundContacts) -> Result<()> {
     found.contacts.clear();
     found.points.clear();

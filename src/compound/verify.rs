@@ -10,8 +10,8 @@ use super::walk::{Aim, Pair, walk};
 use crate::base::error::{Error, Result};
 use crate::base::math::ROTATION_LIMIT;
 use crate::base::simd::environment::with_default;
-use crate::pair::verify::verify as verify_pair;
 use crate::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed};
+use crate::verify::verify as verify_pair;
 
 /// Re-checks an answer of [`distance`](super::distance) or [`intersection`](super::intersection) for the same compounds and poses.
 ///

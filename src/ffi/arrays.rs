@@ -7,8 +7,8 @@ use super::failure::{Checked, Failure, StatusCode};
 use super::pointers::{array, string};
 use crate::base::math::Vector;
 use crate::base::memory::{collected, copied};
-use crate::mesh::PolygonMesh;
-use crate::polyhedron::Polyhedron;
+use crate::body::mesh::PolygonMesh;
+use crate::body::polyhedron::Polyhedron;
 
 /// Copies vertices in the local frame.
 ///

@@ -18,7 +18,8 @@ use crate::compound::{
     self, Compound, CompoundAnswer, CompoundCache, CompoundContact, CompoundContacts, CompoundPointAnswer,
     CompoundRayAnswer, CompoundSignedDistance, Piece, PlacedCompound,
 };
-use crate::pair::{ManifoldPoint, PairConfig};
+use crate::manifold::ManifoldPoint;
+use crate::pair::PairConfig;
 use crate::ray::Ray;
 use crate::shape::Shape;
 

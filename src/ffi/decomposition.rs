@@ -6,7 +6,7 @@ use super::arrays::{CMesh, check_capacity, read_mesh};
 use super::failure::{Failure, StatusCode};
 use super::guard::guard;
 use super::shape_options::{ProgressCallback, in_steps};
-use crate::decomposition::decompose;
+use crate::body::decomposition::decompose;
 
 /// Output of swiftprox_mesh_decompose: the triangles of a surface, piece by piece. The caller owns the arrays.
 #[derive(Debug, Clone, Copy)]

@@ -7,11 +7,9 @@ use super::pair::{CPairConfig, CPlaced, bodies, read_config};
 use super::pointers::{array, exclusive, input, output};
 use super::structs::{Versioned, read_struct};
 use crate::base::math::ROTATION_LIMIT;
-use crate::pair::verify::{verify_depth, verify_manifold};
-use crate::pair::{
-    self, DepthAnswer, DepthCache, DepthConfig, DepthEnding, FeatureKind, Fill, Manifold, ManifoldCache,
-    ManifoldConfig, ManifoldPoint, Outcome, SignedDistance, Sink, manifold_into,
-};
+use crate::manifold::{Fill, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Sink, manifold_into};
+use crate::pair::{self, DepthAnswer, DepthCache, DepthConfig, DepthEnding, FeatureKind, Outcome, SignedDistance};
+use crate::verify::{verify_depth, verify_manifold};
 use std::ffi::c_char;
 
 // --- Depth ---------------------------------------------------------------------------------------------------------------

@@ -75,9 +75,9 @@ pub type RayHitsNumber = i32;
 pub type PointLocationNumber = i32;
 /// An [`InputPolicy`].
 pub type InputNumber = i32;
-/// A [`HierarchyKind`](crate::levels::hierarchy::HierarchyKind).
+/// A [`HierarchyKind`](crate::shape::levels::hierarchy::HierarchyKind).
 pub type HierarchyNumber = i32;
-/// A [`LookupKind`](crate::tables::LookupKind).
+/// A [`LookupKind`](crate::body::tables::LookupKind).
 pub type LookupNumber = i32;
 /// A [`Start`].
 pub type StartNumber = i32;

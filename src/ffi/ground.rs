@@ -14,7 +14,7 @@ use crate::base::memory::with_capacity;
 use crate::ground::{
     Ground, GroundContact, GroundContacts, GroundDistance, HeightGrid, PlacedGround, ground_contacts, ground_distance,
 };
-use crate::pair::ManifoldPoint;
+use crate::manifold::ManifoldPoint;
 
 /// Creates a ground from triangles. The caller owns it and gives it back with swiftprox_ground_release. The arrays are copied.
 ///

@@ -5,9 +5,8 @@ use super::failure::StatusCode;
 use super::guard::guard;
 use super::pair::{CPlaced, body};
 use super::pointers::{input, output};
-use crate::pair::{
-    Fill, HalfSpace, Manifold, ManifoldPoint, SignedDistance, Sink, half_space_distance, half_space_manifold_into,
-};
+use crate::manifold::{Fill, Manifold, ManifoldPoint, Sink, half_space_manifold_into};
+use crate::pair::{HalfSpace, SignedDistance, half_space_distance};
 
 /// Computes the signed distance of a shape (object 1) from a half-space (object 2), as swiftprox_pair_signed_distance does. The
 /// interval is guaranteed for the exact shape and plane; integers decide touching. The normal is the half-space's, of unit length.

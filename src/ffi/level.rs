@@ -8,7 +8,7 @@ use super::shape::create;
 use super::shape_options::{CShapeOptions, read_options};
 use super::structs::{Versioned, write_struct};
 use crate::base::memory::with_capacity;
-use crate::polyhedron::Polyhedron;
+use crate::body::polyhedron::Polyhedron;
 use crate::shape::Shape;
 
 /// Properties of a level of detail. Set struct_size to sizeof(swiftprox_level_info) before the call.

@@ -9,8 +9,8 @@ use super::guard::{call_out, guard};
 use super::pointers::{exclusive, string};
 use crate::base::error::{Error, Result};
 use crate::base::memory::{extend, reserve, with_capacity};
-use crate::mesh::io::{register_mesh_reader, unregister_mesh_reader};
-use crate::mesh::{PolygonMesh, check_vertex};
+use crate::body::mesh::io::{register_mesh_reader, unregister_mesh_reader};
+use crate::body::mesh::{PolygonMesh, check_vertex};
 
 /// Receives the mesh that a swiftprox_mesh_reader_callback reads. It is valid only during the callback, in its thread.
 #[derive(Default)]

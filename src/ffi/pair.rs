@@ -11,9 +11,9 @@ use super::structs::{Versioned, view_struct};
 use super::tuning::{CPairTuning, PairTuning, read_pair_tuning};
 use crate::base::error::Result;
 use crate::base::math::{Pose, ROTATION_LIMIT};
-use crate::pair::verify::verify;
 use crate::pair::{self, DecidedBy, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Placed};
 use crate::shape::Shape;
+use crate::verify::verify;
 
 /// Options of a pair query. Initialise with SWIFTPROX_PAIR_CONFIG_DEFAULT.
 #[derive(Debug, Clone, Copy)]

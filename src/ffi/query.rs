@@ -9,7 +9,8 @@ use super::structs::{Versioned, view_struct};
 use super::tuning::{CPairTuning, PairTuning, read_pair_tuning};
 use std::mem::MaybeUninit;
 
-use crate::pair::{ManifoldPoint, SignedDistance};
+use crate::manifold::ManifoldPoint;
+use crate::pair::SignedDistance;
 use crate::scene::{
     Contact, ContactDetail, PairResult, Scene, SceneAnswer, SceneContacts, SceneQuery, SceneStatistics,
 };

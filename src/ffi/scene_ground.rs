@@ -8,7 +8,8 @@ use super::pointers::{exclusive, input, output};
 use super::scene::{SceneHandle, look};
 use super::structs::{Versioned, read_struct};
 use crate::ground::PlacedGround;
-use crate::pair::{HalfSpace, ManifoldConfig, ManifoldPoint};
+use crate::manifold::{ManifoldConfig, ManifoldPoint};
+use crate::pair::HalfSpace;
 use crate::scene::{GroupFilter, SceneGroundContact, SceneGroundContacts, SetScratch};
 
 /// Contacts of objects of a scene with a ground or a half-space. Owned by the scratch and valid until its next use.

@@ -9,7 +9,7 @@ use super::guard::{guard, keep_panics_quiet};
 use super::pointers::{input, output};
 use super::shape_options::{CShapeOptions, ProgressCallback, in_steps, read_options};
 use super::structs::{Versioned, write_struct};
-use crate::build::hull::check_points;
+use crate::body::build::hull::check_points;
 use crate::shape::file as shape_file;
 use crate::shape::{Shape, precision_tolerance};
 

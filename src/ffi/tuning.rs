@@ -7,11 +7,11 @@ use super::failure::{Checked, StatusCode};
 use super::guard::guard;
 use super::pointers::input;
 use super::structs::{Versioned, read_struct, view_struct, write_struct};
-use crate::levels::hierarchy::{HierarchyKind, HierarchyOptions};
+use crate::body::polyhedron::lookup::Plan;
+use crate::body::tables::{LookupKind, LookupOptions};
 use crate::pair::{Levels, PairConfig, Refinement, Start};
-use crate::polyhedron::lookup::Plan;
 use crate::shape::Shape;
-use crate::tables::{LookupKind, LookupOptions};
+use crate::shape::levels::hierarchy::{HierarchyKind, HierarchyOptions};
 
 // --- How shapes are made -------------------------------------------------------------------------------------------------
 

@@ -7,11 +7,12 @@ use super::lowest::{is_inside, local_point};
 use super::normals::TILT;
 use super::reach::Reach;
 use super::vertices::Vertices;
+use crate::answer::{feature_of_vertices, label};
 use crate::base::math::{Matrix, UNIT_ROUNDOFF, Vector};
-use crate::pair::{Feature, FeatureKind, Outcome, Placed, SignedDistance, feature_of_vertices, label};
-use crate::polyhedron::Face;
+use crate::body::polyhedron::Face;
+use crate::pair::{Feature, FeatureKind, Outcome, Placed, SignedDistance};
+use crate::placed::state::FeatureId;
 use crate::shape::Triangle;
-use crate::solve::state::FeatureId;
 
 /// So many directions are tried across a side. A round body of 10,000 vertices takes some 20.
 const MOST_TRIED: usize = 64;

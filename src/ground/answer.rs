@@ -1,7 +1,7 @@
 //! The answer for a body that meets a ground.
 
 use super::room::Room;
-use crate::pair::{Manifold, ManifoldPoint};
+use crate::manifold::{Manifold, ManifoldPoint};
 
 /// One contact of a body, which is object 1, with a ground: points with one normal.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]

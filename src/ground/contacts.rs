@@ -16,10 +16,8 @@ use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::push;
 use crate::base::simd::environment::with_default;
-use crate::pair::{
-    self, ManifoldConfig, ManifoldPoint, Outcome, PairAnswer, PairCache, PairConfig, Placed, SignedDistance,
-    SignedDistanceCache, add_points, manifold_along, witness,
-};
+use crate::manifold::{ManifoldConfig, ManifoldPoint, add_points, manifold_along, witness};
+use crate::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed, SignedDistance, SignedDistanceCache};
 use crate::shape::{Triangle, TriangleShape};
 
 /// Finds the contacts of a body, which is object 1, with a ground that it meets or is up to `config.max_distance` apart from.
@@ -36,7 +34,7 @@ use crate::shape::{Triangle, TriangleShape};
 /// anew each time.
 ///
 /// # Errors
-/// Same as [`pair::manifold`]; then `found` is empty. [`Error::Memory`](crate::base::error::Error::Memory).
+/// Same as `manifold::manifold`; then `found` is empty. [`Error::Memory`](crate::base::error::Error::Memory).
 pub fn ground_contacts(
     body: Placed,
     ground: PlacedGround,

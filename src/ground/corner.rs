@@ -4,11 +4,12 @@
 use super::PlacedGround;
 use super::lowest::{Limit, Lowest, local_point};
 use super::tree::Bounds;
+use crate::answer::label;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
-use crate::pair::{Feature, FeatureKind, Placed, SignedDistance, label};
-use crate::polyhedron::{NONE, Polyhedron};
+use crate::body::polyhedron::{NONE, Polyhedron};
+use crate::pair::{Feature, FeatureKind, Placed, SignedDistance};
+use crate::placed::state::FeatureId;
 use crate::shape::Triangle;
-use crate::solve::state::FeatureId;
 
 /// Rotations with no entry of RᵀR − I above this are taken for rigid, and their transpose for the inverse.
 const RIGID: f64 = 16.0 * U;

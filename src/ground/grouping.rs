@@ -6,7 +6,8 @@ use super::room::{Grouping, Joined, Room, Touch};
 use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::{extend, push};
-use crate::pair::{ManifoldPoint, Outcome, four_of_points};
+use crate::manifold::{ManifoldPoint, four_of_points};
+use crate::pair::Outcome;
 
 /// A bound of the error of a point's gap along a normal that is turned by [`TILT`], relative to the gap: 1 − cos of the angle is
 /// at most half its square, and rounding is less than the rest.

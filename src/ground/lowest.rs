@@ -4,8 +4,9 @@
 use super::PlacedGround;
 use super::reach::Reach;
 use super::vertices::Vertices;
+use crate::answer::Radii;
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp};
-use crate::pair::{Feature, FeatureKind, Outcome, Placed, Radii, SignedDistance};
+use crate::pair::{Feature, FeatureKind, Outcome, Placed, SignedDistance};
 use crate::shape::Triangle;
 
 /// The vertex of the polyhedron that is lowest, up to an excess that counts in `lower`.

@@ -4,8 +4,8 @@ use super::PlacedGround;
 use super::tree::Bounds;
 use crate::base::error::{Error, Result};
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF, Vector, is_unit};
+use crate::distance::certificate::of_vertex;
 use crate::pair::Placed;
-use crate::solve::certificate::of_vertex;
 
 /// The least and, inverted, the greatest factor by which an accepted rotation changes lengths: where no entry of RᵀR − I exceeds
 /// d, |R·v|² is within 3d·|v|² of |v|², and √(1 − x) ≥ 1 − x for x from 0 to 1.

@@ -1,7 +1,7 @@
 //! Room to find contacts in, kept from query to query. No answer depends on its contents.
 
-use crate::pair::{Manifold, ManifoldPoint};
-use crate::polyhedron::fan::PointBlock;
+use crate::body::polyhedron::fan::PointBlock;
+use crate::manifold::{Manifold, ManifoldPoint};
 use crate::shape::TriangleShape;
 
 /// The room.

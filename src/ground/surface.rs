@@ -11,7 +11,7 @@ use crate::base::math::{ROTATION_LIMIT, Vector};
 use crate::base::memory::{collected, in_integers, with_capacity};
 use crate::base::normal::{area_vector, normal_of};
 use crate::base::simd::environment::with_default;
-use crate::polyhedron::{LARGEST, SMALLEST};
+use crate::body::polyhedron::{LARGEST, SMALLEST};
 use crate::shape::{Triangle, TriangleShape};
 
 /// Half-edges are numbers of 32 bits, three of each triangle.

@@ -3,10 +3,10 @@
 use crate::base::error::Result;
 use crate::base::math::{Pose, Vector, is_unit};
 use crate::base::memory::push;
+use crate::body::polyhedron::Polyhedron;
+use crate::body::polyhedron::fan::PointBlock;
+use crate::distance::certificate::of_vertex;
 use crate::pair::Placed;
-use crate::polyhedron::Polyhedron;
-use crate::polyhedron::fan::PointBlock;
-use crate::solve::certificate::of_vertex;
 
 /// Looking at so many vertices takes no longer than a climb.
 const MOST_PLACED: usize = 64;

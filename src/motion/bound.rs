@@ -26,7 +26,7 @@ use super::turn::{LARGEST_ANGLE, Turn};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, STRETCH, UNIT_ROUNDOFF as U, Vector};
 use crate::base::scalar::{Scalar, constant};
-use crate::polyhedron::LARGEST;
+use crate::body::polyhedron::LARGEST;
 
 /// Times are of at most this, 2¹⁰⁰, so that products with them stay far inside the doubles.
 pub(super) const LARGEST_TIME: f64 = f64::from_bits((1023 + 100) << 52);

@@ -4,9 +4,10 @@ use super::carried::Moving;
 use super::config::{check_times, shortest_step};
 use super::moving::{Moment, MovingPair};
 use super::sweep::{Ahead, Sweep, Wanted, upper_bound};
+use crate::answer::check_accuracy;
 use crate::base::error::Result;
 use crate::base::simd::environment::with_default;
-use crate::pair::{Outcome, PairCache, check_accuracy};
+use crate::pair::{Outcome, PairCache};
 
 /// How a clearance is asked for.
 #[derive(Debug, Clone, Copy, PartialEq)]

@@ -2,9 +2,9 @@
 
 use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::polyhedron::Polyhedron;
-use crate::solve::exact::VertexPair;
-use crate::solve::frame::Frame;
+use crate::body::polyhedron::Polyhedron;
+use crate::placed::exact::VertexPair;
+use crate::placed::frame::Frame;
 
 /// Two placed bodies, and vertex pairs whose differences may hold the origin.
 pub(super) struct EnclosedBall<'a> {

@@ -6,8 +6,8 @@ use super::gap::Heights;
 use super::moving::Moment;
 use crate::base::math::{Pose, Vector};
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::polyhedron::{NONE, Polyhedron};
-use crate::solve::exact::VertexPair;
+use crate::body::polyhedron::{NONE, Polyhedron};
+use crate::placed::exact::VertexPair;
 
 /// Most vertices of a body that may tie, and most pairs of them, of which all threes are tried: a quad with an edge makes 8.
 const MOST_TIED: usize = 6;

@@ -3,13 +3,13 @@
 use super::bound::UNDERFLOW;
 use crate::base::math::{Pose, ROTATION_LIMIT, STRETCH, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::polyhedron::Polyhedron;
-use crate::polyhedron::fan::PointBlock;
-use crate::solve::certificate::{by_all_vertices, interval, of_vertex, reciprocal_length};
-use crate::solve::frame::Frame;
-use crate::solve::gjk::towards;
-use crate::solve::voronoi::climb;
-use crate::tables;
+use crate::body::polyhedron::Polyhedron;
+use crate::body::polyhedron::fan::PointBlock;
+use crate::body::tables;
+use crate::distance::certificate::{by_all_vertices, interval, of_vertex, reciprocal_length};
+use crate::distance::gjk::towards;
+use crate::placed::frame::Frame;
+use crate::placed::voronoi::climb;
 
 /// Bodies along a direction.
 pub(super) struct Along<'a> {
@@ -55,7 +55,7 @@ impl Along<'_> {
 impl Kernel for Along<'_> {
     type Output = f64;
 
-    /// Climbing proposes vertices; what they prove holds whichever they are (`solve/certificate/`).
+    /// Climbing proposes vertices; what they prove holds whichever they are (`distance/certificate/`).
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> f64 {
         let frame = Frame::<L>::new(self.polyhedra, self.poses, ROTATION_LIMIT);

@@ -6,10 +6,11 @@ use super::enclosed_ball::EnclosedBall;
 use super::gap::Along;
 use super::kinds::Motion;
 use super::turn::Turn;
+use crate::answer::{Radii, sum_below};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
-use crate::pair::{PairCache, Placed, Radii, sum_below};
-use crate::polyhedron::Polyhedron;
+use crate::body::polyhedron::Polyhedron;
+use crate::pair::{PairCache, Placed};
 
 /// A pair that moves.
 pub(super) struct MovingPair<'a> {

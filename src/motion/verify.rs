@@ -7,9 +7,11 @@ use super::cast::wanted;
 use super::config::{CastConfig, shortest_step};
 use super::moving::{Moment, MovingPair};
 use super::sweep::{Ahead, FreeStep, MOST_DOUBLINGS, Sweep, Wanted, after, depth_at, is_contact, upper_bound};
+use crate::answer::sum_above;
 use crate::base::error::{Error, Result};
-use crate::pair::verify::{Bounds, holds_ball, in_default, verify, verify_depth};
-use crate::pair::{DepthCache, Outcome, PairAnswer, PairCache, PairConfig, contact, sum_above};
+use crate::pair::contact;
+use crate::pair::{DepthCache, Outcome, PairAnswer, PairCache, PairConfig};
+use crate::verify::{Bounds, holds_ball, in_default, verify, verify_depth};
 
 /// Steps after which a proof is given up.
 const MOST_STEPS: u32 = 1_000_000;
@@ -33,7 +35,7 @@ const MOST_STEPS: u32 = 1_000_000;
 ///
 /// # Errors
 /// [`Error::Unverified`] with what does not hold, or could not be proved; [`Error::Argument`] for an answer that holds no outcome;
-/// else as [`super::cast`] and [`crate::pair::verify::verify`].
+/// else as [`super::cast`] and [`crate::verify::verify`].
 pub fn verify_cast(bodies: [Moving; 2], config: &CastConfig, answer: &CastAnswer) -> Result<()> {
     in_default(|| {
         config.check()?;

@@ -1,13 +1,13 @@
 //! Many pairs at once: each is treated as a single one, with the memory of those that follow requested ahead.
 
-use super::answer::PairAnswer;
 use super::cache::PairCache;
-use super::config::{PairConfig, Query};
-use super::placed::Placed;
 use super::queries::{approximate, contact, distance, intersection};
+use crate::answer::PairAnswer;
+use crate::answer::{PairConfig, Query};
 use crate::base::error::{Error, Result};
 use crate::base::simd::prefetch;
 use crate::base::workers::Workers;
+use crate::shape::Placed;
 
 /// A pair to query, and its cache.
 #[derive(Debug)]

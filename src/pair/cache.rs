@@ -13,15 +13,15 @@
 //! Beside all but an enclosure, the last vertex pair records how the axis lay, and by which way approximate queries answer.
 
 use crate::base::math::Vector;
+use crate::body::polyhedron::Polyhedron;
+use crate::depth::polytope::Pyramid;
+use crate::distance::decide::Pairs;
+use crate::distance::separating_axis::Axis;
 use crate::pair::habit::Habit;
 use crate::pair::levels::{LevelState, Leveled};
-use crate::polyhedron::Polyhedron;
-use crate::solve::decide::Pairs;
-use crate::solve::exact::VertexPair;
-use crate::solve::frame::Marker;
-use crate::solve::polytope::Pyramid;
-use crate::solve::separating_axis::Axis;
-use crate::solve::state::State;
+use crate::placed::exact::VertexPair;
+use crate::placed::frame::Marker;
+use crate::placed::state::State;
 
 /// What a pair remembers from its last query (that its bounding spheres did not answer). Any bytes are safe; all zero is cold.
 /// It changes how fast an answer comes, never the verdict.

@@ -5,12 +5,12 @@
 //! (J. M. Danskin, "The theory of max-min, with applications", 1966). Where other points are as near, the derivative along a
 //! motion is the least of all pairs of nearest points.
 
-use super::answer::Outcome;
-use super::placed::Placed;
 use super::signed_distance::SignedDistance;
+use crate::answer::Outcome;
 use crate::base::error::{Error, Result};
 use crate::base::math::{ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
-use crate::polyhedron::Polyhedron;
+use crate::body::polyhedron::Polyhedron;
+use crate::shape::Placed;
 
 /// The derivative of a signed distance by the motions of both objects. Each has six numbers: by the linear velocity along the
 /// world's axes, then by the angular velocity about these axes, in lengths per radian. The object turns about its reference point

@@ -1,19 +1,19 @@
 //! A body and a half-space, such as a level ground: how far the body is from it or how deep in it, by its lowest vertex, which
 //! integers find.
 
-use super::answer::{Feature, Outcome};
-use super::contact::{PlacedPoints, label, normalised, placed_points};
-use super::placed::Placed;
-use super::radii::{Radii, moved};
 use super::signed_distance::SignedDistance;
 use super::swept::sign;
+use crate::answer::{Feature, Outcome};
+use crate::answer::{PlacedPoints, label, normalised, placed_points};
+use crate::answer::{Radii, moved};
 use crate::base::error::{Error, Result};
 use crate::base::math::{ROTATION_LIMIT, UNIT_ROUNDOFF, Vector, clamp};
 use crate::base::memory::in_integers;
 use crate::base::simd::environment::with_default;
-use crate::solve::exact::{self, Height};
-use crate::solve::state::FeatureId;
-use crate::tables;
+use crate::body::tables;
+use crate::placed::exact::{self, Height};
+use crate::placed::state::FeatureId;
+use crate::shape::Placed;
 
 /// The points x of the world with `normal` · x ≤ `offset`.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -80,7 +80,7 @@ pub fn half_space_distance(body: Placed, half_space: &HalfSpace) -> Result<Signe
 ///
 /// # Panics
 /// Fails where integers get no memory, same as [`in_integers`].
-pub(super) fn of_lowest(body: Placed, half_space: &HalfSpace) -> SignedDistance {
+pub(crate) fn of_lowest(body: Placed, half_space: &HalfSpace) -> SignedDistance {
     let (polyhedron, pose) = (body.shape.polyhedron(), body.pose);
     let &HalfSpace { normal, offset } = half_space;
     let up = normalised(&normal.into());
@@ -112,7 +112,7 @@ pub(super) fn of_lowest(body: Placed, half_space: &HalfSpace) -> SignedDistance 
 }
 
 /// Whether a vertex with a ball about it is above a plane, and an interval of its height less the radius.
-pub(super) fn above_plane(height: &Height, radii: &Radii) -> (bool, [f64; 2]) {
+pub(crate) fn above_plane(height: &Height, radii: &Radii) -> (bool, [f64; 2]) {
     let interval = radii.off(height.bounds());
     let [lower, upper] = interval;
     // A height beyond the doubles may be one of them less the radius.
@@ -124,7 +124,7 @@ pub(super) fn above_plane(height: &Height, radii: &Radii) -> (bool, [f64; 2]) {
 }
 
 /// A finite number of an interval that holds one, its middle where that is finite.
-pub(super) fn middle([lower, upper]: [f64; 2]) -> f64 {
+pub(crate) fn middle([lower, upper]: [f64; 2]) -> f64 {
     debug_assert!(lower <= upper, "{lower:e} {upper:e}");
     clamp(clamp(0.5 * lower + 0.5 * upper, lower, upper), -f64::MAX, f64::MAX)
 }

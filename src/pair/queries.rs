@@ -1,18 +1,18 @@
 //! The queries of a pair.
 
-use super::answer::PairAnswer;
 use super::cache::PairCache;
-use super::config::{PairConfig, Query};
-use super::depth::{DepthAnswer, DepthCache, DepthConfig, of_polyhedra};
 use super::ladder::{self, Glances};
-use super::placed::Placed;
-use super::radii::Radii;
 use super::signed_distance::{self, SignedDistance, SignedDistanceCache};
 use super::swept;
 #[cfg(doc)]
 use super::{DecidedBy, Outcome};
+use crate::answer::PairAnswer;
+use crate::answer::Radii;
+use crate::answer::{PairConfig, Query};
 use crate::base::error::Result;
 use crate::base::simd::environment::with_default;
+use crate::depth::{DepthAnswer, DepthCache, DepthConfig, of_polyhedra};
+use crate::shape::Placed;
 
 /// Exact distance with its interval, witness points, normal and features.
 ///

@@ -1,20 +1,20 @@
 //! Pairs of points and segments, of which spheres and capsules are made: the nearest points in closed form (Ericson 2005, §5.1.9).
 //! The supports of the four ends prove them, whatever they are.
 
-use super::answer::{DecidedBy, Feature, Outcome, PairAnswer, Statistics};
-#[cfg(doc)]
-use super::config::PairConfig;
-use super::config::Query;
-use super::contact::{fill_nothing, label};
-use super::placed::Placed;
-use super::radii::{Radii, turned_back};
 use super::signed_distance::SignedDistance;
+#[cfg(doc)]
+use crate::answer::PairConfig;
+use crate::answer::Query;
+use crate::answer::{DecidedBy, Feature, Outcome, PairAnswer, Statistics};
+use crate::answer::{Radii, turned_back};
+use crate::answer::{fill_nothing, label};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::base::simd::{self, Kernel, Lanes, Portable};
-use crate::polyhedron::Polyhedron;
-use crate::solve::certificate::{Interval, reciprocal_length};
-use crate::solve::frame::{Frame, RIGID_TOGETHER, are_acceptable};
-use crate::solve::state::FeatureId;
+use crate::body::polyhedron::Polyhedron;
+use crate::distance::certificate::{Interval, reciprocal_length};
+use crate::placed::frame::{Frame, RIGID_TOGETHER, are_acceptable};
+use crate::placed::state::FeatureId;
+use crate::shape::Placed;
 
 /// Where the surfaces of an answer go.
 struct Surface<'a> {
@@ -224,7 +224,7 @@ impl<L: Lanes> Nearest<L> {
         let tails = seen1.sub(rotated2);
         let nowhere = L::splat(0.0);
         // Of each the way to its head in the world, if it has one.
-        let way = |i: usize, ends: &[crate::polyhedron::Vertex], tail: L| match ends.get(1) {
+        let way = |i: usize, ends: &[crate::body::polyhedron::Vertex], tail: L| match ends.get(1) {
             Some(head) => frame.bodies[i].rotate(&head.position).sub(tail),
             None => nowhere,
         };
@@ -275,7 +275,7 @@ impl<L: Lanes> Nearest<L> {
             }
         }
         let interval = interval(distance, least * inverse, frame.size, frame.separation);
-        let point = |ends: &[crate::polyhedron::Vertex], tail: L, share: f64| match ends.get(1) {
+        let point = |ends: &[crate::body::polyhedron::Vertex], tail: L, share: f64| match ends.get(1) {
             Some(head) => L::from_vector(&(head.position - ends[0].position)).mul_add(L::splat(share), tail),
             None => tail,
         };

@@ -1,16 +1,17 @@
 //! How far apart two objects are, or how deep in each other, as one number: the distance where they are apart, minus the depth
 //! where they overlap. One interval goes through zero; so do the normal and the witness points.
 
-use super::answer::{Feature, Outcome, PairAnswer};
 use super::cache::PairCache;
-use super::config::{PairConfig, Query};
-use super::depth::{self, DepthAnswer, DepthCache, DepthConfig, DepthPlaces};
 use super::ladder::{self, Glances};
-use super::placed::Placed;
+use crate::answer::{Feature, Outcome, PairAnswer};
+use crate::answer::{PairConfig, Query};
 use crate::base::error::Result;
 use crate::base::simd::Lanes;
-use crate::solve::facets::Proved;
-use crate::solve::frame::Frame;
+use crate::depth;
+use crate::depth::facets::Proved;
+use crate::depth::{DepthAnswer, DepthCache, DepthConfig, DepthPlaces};
+use crate::placed::frame::Frame;
+use crate::shape::Placed;
 
 /// What a pair remembers of its signed distance. Any bytes are safe; all zero is cold. It changes how fast an answer comes, and
 /// which of several least directions is said; never the verdict.
@@ -23,12 +24,12 @@ pub struct SignedDistanceCache {
 
 impl SignedDistanceCache {
     /// The cached depth.
-    pub(super) fn depth(&self) -> &DepthCache {
+    pub(crate) fn depth(&self) -> &DepthCache {
         &self.depth
     }
 
     /// The same, to keep what was found.
-    pub(super) fn depth_mut(&mut self) -> &mut DepthCache {
+    pub(crate) fn depth_mut(&mut self) -> &mut DepthCache {
         &mut self.depth
     }
 }
@@ -100,7 +101,7 @@ impl From<&DepthAnswer> for SignedDistance {
 
 /// The signed distance of a pair whose depth a facet proves: that of the depth's answer.
 #[inline(always)]
-pub(super) fn fill_at_rest<L: Lanes>(answer: &mut SignedDistance, frame: &Frame<L>, proved: &Proved<L>) {
+pub(crate) fn fill_at_rest<L: Lanes>(answer: &mut SignedDistance, frame: &Frame<L>, proved: &Proved<L>) {
     answer.outcome = Outcome::Intersecting;
     (answer.lower, answer.distance, answer.upper) = (-proved.upper, -proved.depth, -proved.lower);
     let SignedDistance { local1, local2, world1, world2, normal, feature1, feature2, .. } = answer;
@@ -112,7 +113,7 @@ pub(super) fn fill_at_rest<L: Lanes>(answer: &mut SignedDistance, frame: &Frame<
 ///
 /// # Errors
 /// As of [`signed_distance`](crate::pair::signed_distance).
-pub(super) fn of_polyhedra(
+pub(crate) fn of_polyhedra(
     bodies: &[Placed; 2],
     cache: &mut SignedDistanceCache,
     config: &PairConfig,

@@ -1,21 +1,22 @@
 //! Queries of bodies over which balls are swept (`ShapeOptions::swept_radius`): those of the polyhedra, and the radii off what
 //! they answer. If the interval does not tell on which side of 0 or of the tolerance the rest is, integers do.
 
-use super::answer::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer};
 use super::cache::PairCache;
-use super::config::{PairConfig, Query};
-use super::contact::{PlacedPoints, fill_nothing};
-use super::depth::{self, DepthAnswer, DepthCache, DepthConfig, DepthEnding, DepthStatistics};
 use super::ladder::{self, Glances};
-use super::placed::Placed;
-use super::radii::{Radii, moved};
 use super::round::{Place, Round, are_round};
 use super::signed_distance::{SignedDistance, SignedDistanceCache, of_polyhedra};
+use crate::answer::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer};
+use crate::answer::{PairConfig, Query};
+use crate::answer::{PlacedPoints, fill_nothing};
+use crate::answer::{Radii, moved};
 use crate::base::error::Result;
 use crate::base::math::{Vector, clamp};
 use crate::base::memory::in_integers;
 use crate::base::simd::environment::{self, with_default};
-use crate::solve::exact::{self, ExactDistance};
+use crate::depth;
+use crate::depth::{DepthAnswer, DepthCache, DepthConfig, DepthEnding, DepthStatistics};
+use crate::placed::exact::{self, ExactDistance};
+use crate::shape::Placed;
 use std::cmp::Ordering;
 
 const NOWHERE: [f64; 3] = [f64::NAN; 3];

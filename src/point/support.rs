@@ -2,16 +2,17 @@
 
 use super::answer::SupportVertex;
 use super::check_finite;
+use crate::answer::{moved, normalised, placed_points};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
 use crate::base::memory::in_integers;
 use crate::base::simd::environment::with_default;
 use crate::base::simd::{Lanes, Portable};
-use crate::pair::{Placed, moved, normalised, placed_points};
-use crate::polyhedron::{LARGEST, Polyhedron, SMALLEST};
-use crate::solve::exact::body::Body;
-use crate::solve::exact::dyadic::DyadicVector;
-use crate::solve::polytope::farthest;
+use crate::body::polyhedron::{LARGEST, Polyhedron, SMALLEST};
+use crate::depth::polytope::farthest;
+use crate::pair::Placed;
+use crate::placed::exact::body::Body;
+use crate::placed::exact::dyadic::DyadicVector;
 
 /// The support vertex of a body along a direction of the world, of any length but 0: guaranteed, whatever the magnitudes. For a
 /// body with a swept radius, place and height are those of the ball about the vertex.

@@ -11,14 +11,14 @@ use dashu_int::IBig;
 
 use super::line::{Line, Side};
 use super::{Ray, RayAnswer, RayOutcome};
+use crate::answer::{label, normalised};
 use crate::base::math::{Pose, Vector};
-use crate::pair::{label, normalised};
-use crate::polyhedron::Polyhedron;
-use crate::solve::exact::body::Body;
-use crate::solve::exact::dyadic::{
+use crate::body::polyhedron::Polyhedron;
+use crate::placed::exact::body::Body;
+use crate::placed::exact::dyadic::{
     DyadicVector, IntVector, bounds_of_quotient_by_root, cross, decode, dot, leading_bits,
 };
-use crate::solve::state::FeatureId;
+use crate::placed::state::FeatureId;
 
 /// A place on the line: numerator / denominator · 2^exponent, with a positive denominator.
 #[derive(Debug, Clone)]

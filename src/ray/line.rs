@@ -4,7 +4,7 @@
 use super::Ray;
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::base::scalar::determinant;
-use crate::polyhedron::{Face, LARGEST, Polyhedron, SMALLEST};
+use crate::body::polyhedron::{Face, LARGEST, Polyhedron, SMALLEST};
 
 /// No rotation that is accepted lengthens a vector by more: |RᵀR − I| ≤ 3·10⁻² as a norm.
 const LARGEST_STRETCH: f64 = 1.02;

@@ -3,12 +3,12 @@
 use super::line::{Crossing, Line};
 use super::walk::{End, Ended, LocalLine};
 use super::{Ray, RayAnswer, RayOutcome, exact};
+use crate::answer::{label, normalised};
 use crate::base::error::Result;
 use crate::base::math::Pose;
 use crate::base::memory::in_integers;
-use crate::pair::{label, normalised};
-use crate::polyhedron::{NONE, Polyhedron};
-use crate::solve::state::FeatureId;
+use crate::body::polyhedron::{NONE, Polyhedron};
+use crate::placed::state::FeatureId;
 
 /// Corners of a face that a proof takes; for a face with more, some around the place.
 const MOST_CORNERS: usize = 8;

@@ -13,12 +13,12 @@ use super::line::{Chord, Line};
 use super::rounded::{Beside, Corner, Touch, nearest_beside, sooner_touch};
 use super::search::fill;
 use super::{Ray, RayAnswer, RayOutcome, swept_exact};
+use crate::answer::{feature_of_vertices, label};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, is_unit};
 use crate::base::simd::{Lanes, Portable};
-use crate::pair::{feature_of_vertices, label};
-use crate::polyhedron::Polyhedron;
-use crate::solve::polytope::farthest;
-use crate::solve::state::FeatureId;
+use crate::body::polyhedron::Polyhedron;
+use crate::depth::polytope::farthest;
+use crate::placed::state::FeatureId;
 
 /// Most vertices that are looked at for one end; mostly there are a few.
 const MOST_STEPS: u32 = 64;

@@ -9,12 +9,12 @@ use std::cmp::Ordering;
 use dashu_int::IBig;
 
 use super::{Ray, RayAnswer, RayOutcome};
+use crate::answer::{feature_of_vertices, label, normalised};
 use crate::base::math::{Pose, Vector};
 use crate::base::predicates::mantissa_and_exponent;
-use crate::pair::{feature_of_vertices, label, normalised};
-use crate::polyhedron::Polyhedron;
-use crate::solve::exact::dyadic::bounds_of_quotient_by_root;
-use crate::solve::exact::{BesideLine, Place};
+use crate::body::polyhedron::Polyhedron;
+use crate::placed::exact::dyadic::bounds_of_quotient_by_root;
+use crate::placed::exact::{BesideLine, Place};
 
 /// Casts the ray anew; `guess` is where doubles have both ends, or NaN.
 pub(super) fn cast(

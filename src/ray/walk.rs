@@ -2,9 +2,9 @@
 
 use super::line::Line;
 use crate::base::math::Vector;
-use crate::polyhedron::lookup::Table;
-use crate::polyhedron::{Edge, Face, NONE, PlaneBlock, Polyhedron};
-use crate::tables::table;
+use crate::body::polyhedron::lookup::Table;
+use crate::body::polyhedron::{Edge, Face, NONE, PlaneBlock, Polyhedron};
+use crate::body::tables::table;
 
 /// Which of the two places is looked for.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]

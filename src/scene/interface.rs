@@ -244,7 +244,7 @@ impl Scene {
     /// ([`pair::contact`]).
     ///
     /// With a [`SceneQuery::detail`] the answers are those of [`Scene::query_distance`], and [`SceneAnswer::contacts`] reports
-    /// how deep each pair is, and where its objects meet: the results of [`pair::depth()`] and [`pair::manifold()`].
+    /// how deep each pair is, and where its objects meet: results as of [`pair::depth()`] and `manifold::manifold`.
     ///
     /// # Errors
     /// As [`Scene::query_intersection`], for a `detail` as well; and [`Error::Memory`] when that for depths and points is not

@@ -5,8 +5,9 @@ use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
 use crate::base::simd::environment::with_default;
 use crate::ground::PlacedGround;
+use crate::manifold::ManifoldConfig;
 use crate::motion::{CastConfig, Motion};
-use crate::pair::{self, HalfSpace, ManifoldConfig, PairAnswer, PairConfig, PairQuestion, Query};
+use crate::pair::{self, HalfSpace, PairAnswer, PairConfig, PairQuestion, Query};
 use crate::ray::Ray;
 use crate::scene::door::Scene;
 use crate::scene::sets::casts::{self, SceneCastAnswer};
@@ -191,10 +192,10 @@ impl Scene {
     }
 
     /// The same for a half-space: a contact for each piece that is within `max_distance`, as
-    /// [`half_space_manifold`](crate::pair::half_space_manifold) gives it.
+    /// [`half_space_manifold`](crate::manifold::half_space_manifold) gives it.
     ///
     /// # Errors
-    /// As [`Scene::ground_contacts`] and [`half_space_manifold`](crate::pair::half_space_manifold).
+    /// As [`Scene::ground_contacts`] and [`half_space_manifold`](crate::manifold::half_space_manifold).
     pub fn half_space_contacts<'a>(
         &self,
         set: Option<&ObjectSet>,

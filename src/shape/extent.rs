@@ -5,7 +5,7 @@ use crate::base::error::Result;
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
 use crate::base::memory::with_capacity;
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::polyhedron::Polyhedron;
+use crate::body::polyhedron::Polyhedron;
 
 const U: f64 = UNIT_ROUNDOFF;
 

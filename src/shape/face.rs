@@ -1,6 +1,6 @@
 //! The faces of a shape, for reading: the meaning of a face's id in an answer.
 
-use crate::polyhedron::Polyhedron;
+use crate::body::polyhedron::Polyhedron;
 use crate::shape::Shape;
 
 /// A face of a shape's hull: all coplanar triangles, a convex polygon.

@@ -17,16 +17,16 @@ use crate::base::math::Vector;
 use crate::base::memory::{collected, copied, in_integers, push};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
-use crate::build::assembly::{Labels, build_in_steps};
-use crate::build::check::check_hull_in_steps;
-use crate::build::contact_faces::find_contact_faces;
-use crate::build::hull::{Hull, convex_hull_in_steps};
-use crate::levels::hierarchy::{Hierarchy, HierarchyKind, Links};
-use crate::polyhedron::Polyhedron;
-use crate::polyhedron::lookup::Plan;
+use crate::body::build::assembly::{Labels, build_in_steps};
+use crate::body::build::check::check_hull_in_steps;
+use crate::body::build::contact_faces::find_contact_faces;
+use crate::body::build::hull::{Hull, convex_hull_in_steps};
+use crate::body::polyhedron::Polyhedron;
+use crate::body::polyhedron::lookup::Plan;
+use crate::body::tables::{LookupKind, LookupOptions, plan_lookup};
+use crate::placed::state::FeatureId;
+use crate::shape::levels::hierarchy::{Hierarchy, HierarchyKind, Links};
 use crate::shape::{LARGEST_SWEPT_RADIUS, Shape};
-use crate::solve::state::FeatureId;
-use crate::tables::{LookupKind, LookupOptions, plan_lookup};
 
 /// The first bytes of a shape file. The last one keeps it from passing for text.
 const MAGIC: [u8; 8] = *b"SWFTPRX\x1a";

@@ -1,5 +1,7 @@
 //! A shape: geometry that any number of objects, scenes and threads share.
 
+#[doc(hidden)]
+pub mod levels;
 pub(crate) mod extent;
 mod transform;
 mod patch;
@@ -7,6 +9,7 @@ mod face;
 mod solids;
 mod triangle;
 pub mod file;
+mod placed;
 
 use std::path::Path;
 
@@ -16,24 +19,25 @@ use crate::base::math::{Matrix, Vector};
 use crate::base::memory::{OnNeed, copied, found, in_integers, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
-use crate::build::assembly::build_in_steps;
-use crate::build::check::{
+use crate::body::build::assembly::build_in_steps;
+use crate::body::build::check::{
     FLAT_HINT, HULL_HINT, check_convexity, check_mesh_in_steps, check_surface, is_inside_out, vertex_of_no_face,
 };
-use crate::build::contact_faces::{default_noise, find_contact_faces};
-use crate::build::hull::{check_points, convex_hull_in_steps};
-use crate::build::mass::inertia;
-use crate::levels::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions, LEAST_VERTICES_FOR_LEVELS};
-use crate::mesh::io::read_mesh;
-use crate::mesh::{Numbers, PolygonMesh, coordinate_unit};
-use crate::polyhedron::Polyhedron;
-use crate::tables::support_map::SupportMap;
-pub use crate::tables::{LookupKind, LookupOptions};
-use crate::tables::{insist_on_table, plan_lookup};
+use crate::body::build::contact_faces::{default_noise, find_contact_faces};
+use crate::body::build::hull::{check_points, convex_hull_in_steps};
+use crate::body::build::mass::inertia;
+use crate::body::mesh::io::read_mesh;
+use crate::body::mesh::{Numbers, PolygonMesh, coordinate_unit};
+use crate::body::polyhedron::Polyhedron;
+use crate::body::tables::support_map::SupportMap;
+pub use crate::body::tables::{LookupKind, LookupOptions};
+use crate::body::tables::{insist_on_table, plan_lookup};
+use crate::shape::levels::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions, LEAST_VERTICES_FOR_LEVELS};
 use extent::Extent;
 pub use face::Face;
 pub use patch::NO_FACE;
 use patch::hull_of_patch;
+pub use placed::Placed;
 use transform::{InputTransform, transformed};
 pub(crate) use triangle::{Triangle, TriangleShape};
 

@@ -4,10 +4,10 @@ use crate::base::error::{Error, Result};
 use crate::base::locality::along_curve;
 use crate::base::memory::collected;
 use crate::base::progress::Progress;
-use crate::build::assembly::build_in_steps;
-use crate::build::hull::{check_points, convex_hull_in_steps};
-use crate::mesh::{Numbers, PolygonMesh};
-use crate::polyhedron::Polyhedron;
+use crate::body::build::assembly::build_in_steps;
+use crate::body::build::hull::{check_points, convex_hull_in_steps};
+use crate::body::mesh::{Numbers, PolygonMesh};
+use crate::body::polyhedron::Polyhedron;
 
 /// The label of a face of a patch's hull on which none of the caller's faces lies: UINT32_MAX.
 pub const NO_FACE: u32 = u32::MAX;

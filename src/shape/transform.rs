@@ -5,7 +5,7 @@ use crate::base::error::{Error, Result};
 use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use crate::base::memory::{copied, with_capacity};
 use crate::base::progress::Progress;
-use crate::mesh::check_vertex;
+use crate::body::mesh::check_vertex;
 
 /// Stored vertex = scale·(rotation·v) + translation.
 #[derive(Debug, Clone, Copy)]

@@ -3,9 +3,9 @@
 use super::{InputPolicy, LookupKind, LookupOptions, Shape, ShapeOptions};
 use crate::base::error::Result;
 use crate::base::math::Vector;
-use crate::build::assembly::{move_inner, move_outline};
-use crate::levels::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
-use crate::polyhedron::Polyhedron;
+use crate::body::build::assembly::{move_inner, move_outline};
+use crate::body::polyhedron::Polyhedron;
+use crate::shape::levels::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 
 /// A triangle as a shape, to be moved to others' places.
 #[derive(Debug, PartialEq)]
@@ -58,7 +58,7 @@ impl TriangleShape {
     }
 
     /// The shape of a triangle that is not on a line, whose coordinates are within the range that
-    /// [`move_outline`](crate::build::assembly::move_outline) says.
+    /// [`move_outline`](crate::body::build::assembly::move_outline) says.
     pub fn of(&mut self, triangle: &Triangle) -> &Shape {
         self.show(triangle);
         self.complete()

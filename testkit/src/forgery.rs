@@ -1,6 +1,7 @@
 //! Intervals that exclude the truth by one double.
 
-use swiftprox::pair::{DepthAnswer, Manifold, Outcome, PairAnswer};
+use swiftprox::manifold::Manifold;
+use swiftprox::pair::{DepthAnswer, Outcome, PairAnswer};
 
 use crate::swept::Length;
 

@@ -3,8 +3,9 @@
 use std::cmp::Ordering;
 
 use dashu_ratio::RBig;
+use swiftprox::manifold::ManifoldPoint;
 use swiftprox::math::{Pose, Vector};
-use swiftprox::pair::{ManifoldPoint, Placed};
+use swiftprox::pair::Placed;
 
 use crate::any_size::integers::place;
 use crate::any_size::nearest::nearest;

@@ -1,6 +1,6 @@
 //! Models: convex polyhedra as polygon meshes, outward faces counter-clockwise.
 
-use swiftprox::build::hull::convex_hull;
+use swiftprox::body::build::hull::convex_hull;
 use swiftprox::error::Result;
 use swiftprox::math::Vector;
 use swiftprox::mesh::PolygonMesh;

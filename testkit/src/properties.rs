@@ -4,8 +4,9 @@ use std::fmt;
 use std::ops::AddAssign;
 
 use swiftprox::math::{Pose, UNIT_ROUNDOFF as U, Vector};
+use swiftprox::pair::contact;
 use swiftprox::pair::{
-    DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, contact, distance, intersection,
+    DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, distance, intersection,
 };
 use swiftprox::shape::Shape;
 use swiftprox::verify::verify;

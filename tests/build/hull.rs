@@ -4,8 +4,8 @@
 use std::collections::BTreeSet;
 
 use swiftprox::base::predicates::ExactPoints;
-use swiftprox::build::check::check_hull;
-use swiftprox::build::hull::{Hull, convex_hull};
+use swiftprox::body::build::check::check_hull;
+use swiftprox::body::build::hull::{Hull, convex_hull};
 use swiftprox::math::Vector;
 use testkit::random::Random;
 

@@ -1,7 +1,7 @@
 //! What `check_mesh` accepts, and that it says where the rest is wrong.
 
-use swiftprox::build::check::check_mesh;
-use swiftprox::build::hull::convex_hull;
+use swiftprox::body::build::check::check_mesh;
+use swiftprox::body::build::hull::convex_hull;
 use swiftprox::error::Error;
 use swiftprox::math::Vector;
 use swiftprox::mesh::PolygonMesh;

@@ -3,8 +3,8 @@
 
 use std::f64::consts::TAU;
 
-use swiftprox::build::check::check_hull;
-use swiftprox::build::hull::{convex_hull, convex_hull_in_steps};
+use swiftprox::body::build::check::check_hull;
+use swiftprox::body::build::hull::{convex_hull, convex_hull_in_steps};
 use swiftprox::error::Error;
 use swiftprox::math::Vector;
 use swiftprox::progress::Progress;

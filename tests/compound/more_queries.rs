@@ -6,11 +6,10 @@ use swiftprox::compound::{
     contacts, distance, intersection, locate_point, signed_distance, verify,
 };
 use swiftprox::error::Error;
+use swiftprox::manifold::{ManifoldCache, ManifoldConfig, ManifoldPoint};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::{
-    self, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome, PairConfig, SignedDistance, SignedDistanceCache,
-};
+use swiftprox::pair::{self, Outcome, PairConfig, SignedDistance, SignedDistanceCache};
 use swiftprox::point::PointLocation;
 use swiftprox::progress::Progress;
 use swiftprox::ray::{Ray, RayOutcome};
@@ -84,7 +83,8 @@ fn contacts_are_the_manifolds_of_all_near_pairs() {
         let mut rest = found.contacts.iter();
         for_each_pair(bodies, |pieces, placed| {
             let mut points = [ManifoldPoint::default(); 64];
-            let manifold = pair::manifold(placed, &mut ManifoldCache::default(), &config, &mut points).unwrap();
+            let manifold =
+                swiftprox::manifold::manifold(placed, &mut ManifoldCache::default(), &config, &mut points).unwrap();
             if manifold.outcome == Outcome::Beyond {
                 return;
             }

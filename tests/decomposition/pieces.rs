@@ -3,7 +3,7 @@
 use std::f64::consts::TAU;
 
 use swiftprox::base::predicates::ExactPoints;
-use swiftprox::decomposition::{Decomposition, decompose};
+use swiftprox::body::decomposition::{Decomposition, decompose};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{self, PairAnswer, PairCache, PairConfig, Placed};

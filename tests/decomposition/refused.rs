@@ -1,6 +1,6 @@
 //! What is no surface is refused with a message that says where.
 
-use swiftprox::decomposition::decompose;
+use swiftprox::body::decomposition::decompose;
 use swiftprox::error::Error;
 use swiftprox::math::Vector;
 use swiftprox::mesh::PolygonMesh;

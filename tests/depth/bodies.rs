@@ -1,8 +1,9 @@
 //! Random and adversarial pairs against the independent check.
 
 use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::pair::contact;
 use swiftprox::pair::{
-    DepthAnswer, DepthCache, DepthConfig, DepthEnding, Outcome, PairAnswer, PairCache, PairConfig, contact, depth,
+    DepthAnswer, DepthCache, DepthConfig, DepthEnding, Outcome, PairAnswer, PairCache, PairConfig, depth,
 };
 use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};

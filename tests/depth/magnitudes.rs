@@ -1,13 +1,13 @@
 //! Depths of bodies of any magnitude, and of any two.
 
 use swiftprox::base::simd::Portable;
-use swiftprox::build::assembly::build;
+use swiftprox::body::build::assembly::build;
+use swiftprox::body::polyhedron::Vertex;
+use swiftprox::depth::polytope::{Pyramid, Rounding};
 use swiftprox::math::{Pose, ROTATION_LIMIT, Vector};
 use swiftprox::pair::{DepthAnswer, DepthCache, Outcome};
-use swiftprox::polyhedron::Vertex;
+use swiftprox::placed::frame::Frame;
 use swiftprox::shape::Shape;
-use swiftprox::solve::frame::Frame;
-use swiftprox::solve::polytope::{Pyramid, Rounding};
 use swiftprox::verify::verify_depth;
 use testkit::shapes::hull;
 

@@ -2,8 +2,9 @@
 
 use swiftprox::error::Error;
 use swiftprox::ground::{Ground, GroundContacts, HeightGrid, ground_contacts, ground_distance};
+use swiftprox::manifold::ManifoldConfig;
 use swiftprox::math::{Pose, Vector};
-use swiftprox::pair::{self, ManifoldConfig, Outcome, PairAnswer, PairCache, PairConfig, Query};
+use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Query};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use testkit::random::Random;
 

@@ -2,8 +2,9 @@
 
 use super::{hills, level};
 use swiftprox::ground::{Ground, GroundContacts, ground_contacts};
+use swiftprox::manifold::ManifoldConfig;
 use swiftprox::math::{Pose, Vector};
-use swiftprox::pair::{ManifoldConfig, Outcome};
+use swiftprox::pair::Outcome;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use testkit::oracle::{rational, transform};
 use testkit::random::Random;

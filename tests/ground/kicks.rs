@@ -102,7 +102,7 @@ fn four_points_hold_up_a_body() {
             let pose = Pose::new(&rotation(&Vector::z(), random.uniform(0.0, 3.0)), &place);
             let all = contacts(&cuboid([0.5, 0.4, 0.25]), &pose, &ground, 0.02, false);
             let few = contacts(&cuboid([0.5, 0.4, 0.25]), &pose, &ground, 0.02, true);
-            let deepest = |points: &[swiftprox::pair::ManifoldPoint]| {
+            let deepest = |points: &[swiftprox::manifold::ManifoldPoint]| {
                 points.iter().map(|point| point.gap_upper).fold(f64::INFINITY, f64::min)
             };
             assert!(few.points.len() <= 4, "{}", few.points.len());

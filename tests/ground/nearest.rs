@@ -3,10 +3,9 @@
 
 use super::contacts::bodies;
 use swiftprox::ground::{Ground, GroundContacts, PlacedGround, ground_contacts};
+use swiftprox::manifold::ManifoldConfig;
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::{
-    ManifoldConfig, Outcome, PairConfig, Placed, SignedDistance, SignedDistanceCache, signed_distance,
-};
+use swiftprox::pair::{Outcome, PairConfig, Placed, SignedDistance, SignedDistanceCache, signed_distance};
 use swiftprox::shape::Shape;
 use testkit::random::{Random, rotation};
 use testkit::shapes::hull;

@@ -3,12 +3,11 @@
 
 use std::cell::OnceCell;
 
+use swiftprox::body::tables::{LookupKind, LookupOptions};
 use swiftprox::math::{Pose, Vector};
-use swiftprox::pair::{
-    DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, Placed, Start, contact, distance, intersection,
-};
+use swiftprox::pair::contact;
+use swiftprox::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, Placed, Start, distance, intersection};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
-use swiftprox::tables::{LookupKind, LookupOptions};
 use swiftprox::verify::verify;
 
 use crate::truth::ExactPair;

@@ -3,8 +3,9 @@
 
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::Pose;
+use swiftprox::pair::contact;
 use swiftprox::pair::{
-    DecidedBy, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, approximate, contact, distance,
+    DecidedBy, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, approximate, distance,
     intersection,
 };
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};

@@ -4,6 +4,7 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
+use swiftprox::body::tables::{LookupKind, LookupOptions};
 use swiftprox::error::Error;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
@@ -12,7 +13,6 @@ use swiftprox::pair::{self, DecidedBy, Levels, Outcome, PairAnswer, PairCache, P
 use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, to_bytes};
-use swiftprox::tables::{LookupKind, LookupOptions};
 use swiftprox::verify::verify;
 use testkit::caches::{WORDS, cache_of_words};
 use testkit::models::{cuboid, ellipsoid, prism, random_hull};

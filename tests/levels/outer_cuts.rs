@@ -2,13 +2,13 @@
 //! bodies, the work they take, cancelling. What holds for levels of every kind is in `tests/levels/hierarchy`.
 
 use swiftprox::base::predicates::ExactPoints;
-use swiftprox::build::assembly::build;
+use swiftprox::body::build::assembly::build;
+use swiftprox::body::polyhedron::Polyhedron;
 use swiftprox::error::Error;
-use swiftprox::levels::outer_cuts::outer_cuts;
-use swiftprox::levels::point_distance::PointDistance;
 use swiftprox::math::Vector;
-use swiftprox::polyhedron::Polyhedron;
 use swiftprox::progress::Progress;
+use swiftprox::shape::levels::outer_cuts::outer_cuts;
+use swiftprox::shape::levels::point_distance::PointDistance;
 use testkit::models::{ELLIPSOIDS, ellipsoid, random_hull, spiral};
 use testkit::random::{Random, rotation};
 
@@ -185,7 +185,9 @@ fn a_body_whose_first_block_rounding_opens_has_no_levels_or_sound_ones() {
     let body = hull(&points);
     for counts in [&[6][..], &[4, 8, 12], &[60]] {
         assert!(
-            levels(&body, counts).iter().all(|level| swiftprox::levels::containment::contains(level, &body).unwrap())
+            levels(&body, counts)
+                .iter()
+                .all(|level| swiftprox::shape::levels::containment::contains(level, &body).unwrap())
         );
     }
 }

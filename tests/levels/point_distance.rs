@@ -1,10 +1,10 @@
 //! Distances of points from polyhedra against integer arithmetic.
 
-use swiftprox::build::assembly::build;
-use swiftprox::levels::point_distance::PointDistance;
+use swiftprox::body::build::assembly::build;
+use swiftprox::body::polyhedron::Polyhedron;
 use swiftprox::math::{Pose, Vector};
-use swiftprox::polyhedron::Polyhedron;
-use swiftprox::solve::exact;
+use swiftprox::placed::exact;
+use swiftprox::shape::levels::point_distance::PointDistance;
 use testkit::models::{ELLIPSOIDS, cuboid, ellipsoid, prism, random_hull};
 use testkit::random::Random;
 

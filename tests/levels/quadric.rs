@@ -3,13 +3,13 @@
 
 use std::collections::HashSet;
 
-use swiftprox::build::assembly::build;
+use swiftprox::body::build::assembly::build;
+use swiftprox::body::polyhedron::Polyhedron;
 use swiftprox::error::Error;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
-use swiftprox::levels::quadric::{Simplified, simplify};
 use swiftprox::math::Vector;
-use swiftprox::polyhedron::Polyhedron;
 use swiftprox::progress::Progress;
+use swiftprox::shape::levels::quadric::{Simplified, simplify};
 use testkit::models::{ELLIPSOIDS, ellipsoid, prism};
 use testkit::random::Random;
 

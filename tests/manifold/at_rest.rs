@@ -2,10 +2,11 @@
 //! check, and whatever bytes stand where the facet does.
 
 use super::{ALL, FOUR, check, ids, query};
+use swiftprox::manifold::ManifoldCache;
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::verify::verify_manifold;
-use swiftprox::pair::{ManifoldCache, Outcome};
+use swiftprox::pair::Outcome;
 use swiftprox::shape::Shape;
+use swiftprox::verify::verify_manifold;
 use testkit::models::prism;
 use testkit::random::{Random, rotation};
 use testkit::shapes::{cuboid, hull};

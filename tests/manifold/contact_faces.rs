@@ -2,12 +2,12 @@
 
 use super::{ALL, query};
 use std::fs;
+use swiftprox::body::polyhedron::FacePart;
+use swiftprox::manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::{
-    DepthAnswer, DepthCache, DepthConfig, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome, PairAnswer,
-    PairCache, PairConfig, depth, distance,
+    DepthAnswer, DepthCache, DepthConfig, Outcome, PairAnswer, PairCache, PairConfig, depth, distance,
 };
-use swiftprox::polyhedron::FacePart;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, to_bytes};
 use testkit::models;

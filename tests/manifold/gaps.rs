@@ -1,10 +1,11 @@
 //! Gaps of points against exact rationals over all vertices, where corners of two faces are nearly in one place.
 
 use super::{ALL, FOUR, query};
+use swiftprox::manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::verify::verify_manifold;
-use swiftprox::pair::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome};
+use swiftprox::pair::Outcome;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use swiftprox::verify::verify_manifold;
 use testkit::manifolds::Gaps;
 use testkit::random::{Random, rotation};
 use testkit::shapes::{at, cuboid, hull};

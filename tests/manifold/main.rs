@@ -7,11 +7,10 @@ mod reduction;
 mod signed_distance;
 mod verify;
 
+use swiftprox::manifold::manifold;
+use swiftprox::manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::{
-    DepthAnswer, DepthCache, DepthConfig, FeatureKind, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome,
-    depth, manifold,
-};
+use swiftprox::pair::{DepthAnswer, DepthCache, DepthConfig, FeatureKind, Outcome, depth};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use testkit::random::{Random, rotation};
 use testkit::shapes::{at, cuboid, hull};

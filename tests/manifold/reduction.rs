@@ -1,8 +1,8 @@
 //! Ids that stay while nothing moves by more than what stacks at rest do, of all points and of four.
 
 use super::{ALL, FOUR, check, ids, query};
+use swiftprox::manifold::{ManifoldCache, ManifoldConfig};
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::{ManifoldCache, ManifoldConfig};
 use swiftprox::shape::Shape;
 use testkit::random::{Random, rotation};
 use testkit::shapes::{cuboid, hull};

@@ -1,10 +1,11 @@
 //! Signed distances are those of distance and depth, to the bit, whatever the cache held.
 
 use super::query;
+use swiftprox::manifold::{ManifoldCache, ManifoldConfig};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{
-    DepthAnswer, DepthCache, DepthConfig, ManifoldCache, ManifoldConfig, Outcome, PairAnswer, PairCache, PairConfig,
-    SignedDistance, SignedDistanceCache, depth, distance, signed_distance,
+    DepthAnswer, DepthCache, DepthConfig, Outcome, PairAnswer, PairCache, PairConfig, SignedDistance,
+    SignedDistanceCache, depth, distance, signed_distance,
 };
 use swiftprox::shape::Shape;
 use testkit::random::Random;

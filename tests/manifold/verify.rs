@@ -2,13 +2,11 @@
 
 use super::{ALL, FOUR, query, stacked};
 use swiftprox::error::Error;
+use swiftprox::manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::verify::{verify_depth, verify_manifold};
-use swiftprox::pair::{
-    DepthAnswer, DepthCache, DepthConfig, FeatureKind, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome,
-    Placed, depth,
-};
+use swiftprox::pair::{DepthAnswer, DepthCache, DepthConfig, FeatureKind, Outcome, Placed, depth};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
+use swiftprox::verify::{verify_depth, verify_manifold};
 use testkit::models::{prism, random_hull};
 use testkit::random::Random;
 use testkit::shapes::{at, cuboid, hull};
@@ -112,7 +110,7 @@ fn what_queries_say_holds() {
         let mut few = vec![ManifoldPoint::default(); room];
         let cache = &mut ManifoldCache::default();
         let bodies = [case.shapes[0].at(&case.poses[0]), case.shapes[1].at(&case.poses[1])];
-        let said = swiftprox::pair::manifold(bodies, cache, &case.config, &mut few).unwrap();
+        let said = swiftprox::manifold::manifold(bodies, cache, &case.config, &mut few).unwrap();
         let held = verify_manifold(bodies, cache, &case.config, &said, &few);
         assert!(held.is_ok(), "{round}: {held:?} {said:?} {few:?}");
     }

@@ -2,9 +2,10 @@
 
 use swiftprox::error::Error;
 use swiftprox::math::Pose;
+use swiftprox::pair::contact;
 use swiftprox::pair::{
-    self, Outcome, PairAnswer, PairCache, PairConfig, PairQuestion, Placed, Query, approximate, batch, contact,
-    distance, intersection,
+    self, Outcome, PairAnswer, PairCache, PairConfig, PairQuestion, Placed, Query, approximate, batch, distance,
+    intersection,
 };
 use swiftprox::scene::Workers;
 use swiftprox::shape::{Shape, ShapeOptions};

@@ -2,9 +2,9 @@
 //! that no doubles could narrow, on every case of every family, from any start.
 
 use dashu_ratio::RBig;
-use swiftprox::build::assembly::build;
-use swiftprox::polyhedron::Polyhedron;
-use swiftprox::solve::exact::{ExactAnswer, VertexPair, encloses_origin, solve};
+use swiftprox::body::build::assembly::build;
+use swiftprox::body::polyhedron::Polyhedron;
+use swiftprox::placed::exact::{ExactAnswer, VertexPair, encloses_origin, solve};
 use testkit::cases::{Case, FAMILIES, Random, coordinates, row_major};
 use testkit::certificate::{dot, proved_by};
 use testkit::oracle::{Truth, rational, transform};

@@ -3,7 +3,7 @@
 
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, distance};
-use swiftprox::solve::exact::solve;
+use swiftprox::placed::exact::solve;
 use testkit::caches::cache_of_features;
 use testkit::random::Random;
 use testkit::shapes::hull;

@@ -5,7 +5,8 @@ use std::sync::Barrier;
 
 use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, contact, distance, intersection};
+use swiftprox::pair::contact;
+use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, distance, intersection};
 use swiftprox::shape::{Shape, ShapeOptions};
 use testkit::cases::{Case, FAMILIES, Random};
 use testkit::retold::{extent, mirror, mirrored, product, reframed, renumbered, shifted_exactly, shuffled};

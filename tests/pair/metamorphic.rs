@@ -2,12 +2,11 @@
 //! vertices permuted and duplicated, bodies swapped, moved in their own frames and in the world without rounding. The verdict
 //! stays, intervals have a point in common, and every label names the vertex or face that it did.
 
-use swiftprox::build::hull::convex_hull;
+use swiftprox::body::build::hull::convex_hull;
 use swiftprox::math::{Matrix, Pose, Vector, power_of_two};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::{
-    Levels, Outcome, PairAnswer, PairCache, PairConfig, approximate, contact, distance, intersection,
-};
+use swiftprox::pair::contact;
+use swiftprox::pair::{Levels, Outcome, PairAnswer, PairCache, PairConfig, approximate, distance, intersection};
 use swiftprox::shape::{Shape, ShapeOptions};
 use testkit::models::spiral;
 use testkit::random::Random;

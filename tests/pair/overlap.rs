@@ -2,12 +2,13 @@
 //! not so, touching ones get the normal of a plane that separates them, and what a cache holds never changes a verdict.
 
 use swiftprox::base::simd::Portable;
+use swiftprox::distance::enclosure::encloses_origin;
 use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
-use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, contact, distance, intersection};
+use swiftprox::pair::contact;
+use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, distance, intersection};
+use swiftprox::placed::exact;
+use swiftprox::placed::frame::Frame;
 use swiftprox::shape::Shape;
-use swiftprox::solve::enclosure::encloses_origin;
-use swiftprox::solve::exact;
-use swiftprox::solve::frame::Frame;
 use testkit::random::Random;
 use testkit::shapes::{cuboid, hull};
 

@@ -2,7 +2,8 @@
 //! promised for hard cases, on every case of every family, with a cold cache and with one that another pair has filled.
 
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, Placed, contact, distance, intersection};
+use swiftprox::pair::contact;
+use swiftprox::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, Placed, distance, intersection};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::verify::verify;
 use testkit::cases::{Case, FAMILIES, Random};

@@ -4,8 +4,9 @@
 use swiftprox::error::Error;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
+use swiftprox::pair::contact;
 use swiftprox::pair::{
-    DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, Placed, approximate, contact, distance, intersection,
+    DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, Placed, approximate, distance, intersection,
 };
 use swiftprox::shape::{Shape, ShapeOptions};
 use swiftprox::verify::verify;

@@ -7,16 +7,17 @@
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, Ordering};
 
+use swiftprox::body::polyhedron::Polyhedron;
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, contact, distance, intersection};
-use swiftprox::polyhedron::Polyhedron;
+use swiftprox::pair::contact;
+use swiftprox::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, distance, intersection};
+use swiftprox::placed::exact::{ExactAnswer, solve};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
-use swiftprox::solve::exact::{ExactAnswer, solve};
 use swiftprox::verify::verify;
 use testkit::caches::cache_of_features;
 use testkit::random::Random;
 
-/// Of the first 4,189 pairs two find the hole that `slack_of_leaning` closes (src/build/assembly/layout.rs).
+/// Of the first 4,189 pairs two find the hole that `slack_of_leaning` closes (src/body/build/assembly/layout.rs).
 const COUNT: u64 = 16_000;
 
 /// Pairs of features forced on each pair of bodies.

@@ -2,14 +2,14 @@
 //! Integers tell the truth, and `verify` proves every answer.
 
 use swiftprox::base::simd::{Portable, Twins};
+use swiftprox::body::polyhedron::Polyhedron;
+use swiftprox::body::tables::support_map::{Choice, Grid, SupportMap};
+use swiftprox::distance::support_search::look_up;
 use swiftprox::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector};
 use swiftprox::pair::{self, DecidedBy, Levels, Outcome, PairAnswer, PairCache, PairConfig};
-use swiftprox::polyhedron::Polyhedron;
+use swiftprox::placed::exact;
 use swiftprox::progress::Progress;
 use swiftprox::shape::{LookupKind, LookupOptions, Shape, ShapeOptions};
-use swiftprox::solve::exact;
-use swiftprox::solve::support_search::look_up;
-use swiftprox::tables::support_map::{Choice, Grid, SupportMap};
 use swiftprox::verify::verify;
 use testkit::caches::{WORDS, cache_of_words};
 use testkit::models::{cuboid, ellipsoid, prism};

@@ -3,7 +3,8 @@
 
 use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, contact, distance};
+use swiftprox::pair::contact;
+use swiftprox::pair::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, distance};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::verify::verify;
 use testkit::shapes::at;

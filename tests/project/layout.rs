@@ -32,11 +32,11 @@ use swiftprox::ffi::shape::{CFace, CFaceRoom, ShapeInfo};
 use swiftprox::ffi::shape_options::CShapeOptions;
 use swiftprox::ffi::tuning::{CPairTuning, CShapeTuning, TuningInfo};
 use swiftprox::ground::{GroundContact, GroundDistance};
+use swiftprox::manifold::{Manifold, ManifoldPoint};
 use swiftprox::motion::{CastAnswer, Clearance};
 use swiftprox::object::ObjectId;
 use swiftprox::pair::{
-    DepthAnswer, DepthStatistics, Feature, Gradient, HalfSpace, Manifold, ManifoldPoint, PairAnswer, SignedDistance,
-    Statistics,
+    DepthAnswer, DepthStatistics, Feature, Gradient, HalfSpace, PairAnswer, SignedDistance, Statistics,
 };
 use swiftprox::point::{PointAnswer, SupportVertex};
 use swiftprox::ray::{Ray, RayAnswer};

@@ -4,11 +4,12 @@
 use std::sync::Arc;
 
 use swiftprox::error::Error;
+use swiftprox::manifold::manifold;
+use swiftprox::manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::{
-    DecidedBy, DepthAnswer, DepthCache, DepthConfig, DepthEnding, Manifold, ManifoldCache, ManifoldConfig,
-    ManifoldPoint, Outcome, Placed, Query, SignedDistance, depth, manifold,
+    DecidedBy, DepthAnswer, DepthCache, DepthConfig, DepthEnding, Outcome, Placed, Query, SignedDistance, depth,
 };
 use swiftprox::scene::{Contact, ContactDetail, PairResult, Scene, SceneAnswer, SceneOptions, SceneQuery, Workers};
 use swiftprox::shape::Shape;

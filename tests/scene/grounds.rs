@@ -4,9 +4,10 @@ use std::sync::Arc;
 
 use swiftprox::error::Error;
 use swiftprox::ground::{Ground, GroundContacts, HeightGrid, PlacedGround, ground_contacts};
+use swiftprox::manifold::{ManifoldConfig, ManifoldPoint, half_space_manifold};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::pair::{HalfSpace, ManifoldConfig, ManifoldPoint, Outcome, half_space_manifold};
+use swiftprox::pair::{HalfSpace, Outcome};
 use swiftprox::scene::{GroupFilter, ObjectSet, Scene, SceneGroundContact, SceneOptions, SetScratch};
 use swiftprox::shape::Shape;
 use testkit::models::prism;

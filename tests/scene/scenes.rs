@@ -6,8 +6,8 @@ use swiftprox::error::Error;
 use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::{FeatureKind, Outcome, PairAnswer};
+use swiftprox::placed::exact::solve;
 use swiftprox::scene::{PairResult, Scene, SceneOptions, SceneQuery};
-use swiftprox::solve::exact::solve;
 use testkit::random_scene::{Random, cuboid, random_pose};
 use testkit::shapes::at;
 

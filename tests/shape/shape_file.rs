@@ -4,7 +4,8 @@ use std::collections::BTreeSet;
 use std::fs;
 use std::path::Path;
 
-use swiftprox::build::assembly::Labels;
+use swiftprox::body::build::assembly::Labels;
+use swiftprox::body::tables::{LookupKind, LookupOptions};
 use swiftprox::error::Error;
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::Vector;
@@ -12,7 +13,6 @@ use swiftprox::mesh::PolygonMesh;
 use swiftprox::progress::Progress;
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, from_bytes_in_steps, load, load_in_steps, save, to_bytes};
-use swiftprox::tables::{LookupKind, LookupOptions};
 use testkit::models::{cuboid, ellipsoid, prism, random_hull};
 use testkit::random::Random;
 
@@ -238,7 +238,9 @@ fn forged_files_give_a_sound_shape_or_an_error() {
             Ok(shape) => {
                 accepted += 1;
                 for level in &shape.hierarchy().levels {
-                    assert!(swiftprox::levels::containment::contains(&level.polyhedron, shape.polyhedron()).unwrap());
+                    assert!(
+                        swiftprox::shape::levels::containment::contains(&level.polyhedron, shape.polyhedron()).unwrap()
+                    );
                 }
                 assert_eq!(from_bytes(&to_bytes(&shape).unwrap()).unwrap(), shape);
                 let labels = &shape.polyhedron().vertex_labels;

@@ -412,7 +412,8 @@ fn large_meshes_keep_their_numbers() {
     }
 
     let message = |mesh: &PolygonMesh| Shape::from_mesh(mesh, &ShapeOptions::default()).unwrap_err().to_string();
-    let as_given = |mesh: &PolygonMesh| swiftprox::build::check::check_mesh(mesh, 2e-9, false).unwrap_err().to_string();
+    let as_given =
+        |mesh: &PolygonMesh| swiftprox::body::build::check::check_mesh(mesh, 2e-9, false).unwrap_err().to_string();
     let before_tolerance = |message: String| message.split(" (allowed").next().unwrap().to_string();
     mesh.indices[3 * 1234..3 * 1235].reverse();
     assert!(message(&mesh).contains("runs in the same direction in face") && message(&mesh).contains("1234"));

@@ -3,11 +3,10 @@
 use crate::{capsule, sphere, swept};
 use std::sync::Arc;
 use swiftprox::error::Error;
+use swiftprox::manifold::{Manifold, ManifoldConfig, ManifoldPoint, half_space_manifold};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::ObjectOptions;
-use swiftprox::pair::{
-    HalfSpace, Manifold, ManifoldConfig, ManifoldPoint, Outcome, half_space_distance, half_space_manifold,
-};
+use swiftprox::pair::{HalfSpace, Outcome, half_space_distance};
 use swiftprox::scene::{GroupFilter, Scene, SceneOptions, SetScratch};
 use swiftprox::shape::Shape;
 use testkit::random::Random;

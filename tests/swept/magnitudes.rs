@@ -2,11 +2,13 @@
 
 use crate::swept;
 use swiftprox::error::Error;
+use swiftprox::manifold::manifold;
+use swiftprox::manifold::{ManifoldCache, ManifoldConfig, ManifoldPoint, half_space_manifold};
 use swiftprox::math::{Pose, Vector};
+use swiftprox::pair::contact;
 use swiftprox::pair::{
-    HalfSpace, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome, PairAnswer, PairCache, PairConfig,
-    SignedDistance, SignedDistanceCache, approximate, contact, distance, half_space_distance, half_space_manifold,
-    manifold, signed_distance,
+    HalfSpace, Outcome, PairAnswer, PairCache, PairConfig, SignedDistance, SignedDistanceCache, approximate, distance,
+    half_space_distance, signed_distance,
 };
 use swiftprox::verify::{verify, verify_manifold};
 use testkit::cases::coordinates;

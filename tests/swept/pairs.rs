@@ -2,12 +2,14 @@
 
 use crate::{capsule, sphere, swept};
 use swiftprox::error::Error;
+use swiftprox::manifold::manifold;
+use swiftprox::manifold::{ManifoldCache, ManifoldConfig, ManifoldPoint};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::motion::{CastAnswer, CastConfig, CastOutcome, Motion, Moving, Screw, cast, verify_cast};
+use swiftprox::pair::contact;
 use swiftprox::pair::{
-    DepthAnswer, DepthCache, DepthConfig, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome, PairAnswer, PairCache,
-    PairConfig, Placed, SignedDistance, SignedDistanceCache, approximate, contact, depth, distance, intersection,
-    manifold, signed_distance,
+    DepthAnswer, DepthCache, DepthConfig, Outcome, PairAnswer, PairCache, PairConfig, Placed, SignedDistance,
+    SignedDistanceCache, approximate, depth, distance, intersection, signed_distance,
 };
 use swiftprox::shape::{InputPolicy, LARGEST_SWEPT_RADIUS, Shape, ShapeOptions};
 use swiftprox::verify::{verify, verify_depth};

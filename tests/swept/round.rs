@@ -2,9 +2,10 @@
 
 use crate::{capsule, sphere, swept};
 use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::pair::contact;
 use swiftprox::pair::{
     DecidedBy, DepthAnswer, DepthCache, DepthConfig, Outcome, PairAnswer, PairCache, PairConfig, SignedDistance,
-    SignedDistanceCache, contact, depth, distance, intersection, signed_distance,
+    SignedDistanceCache, depth, distance, intersection, signed_distance,
 };
 use swiftprox::shape::Shape;
 use swiftprox::verify::{verify, verify_depth};

@@ -3,11 +3,14 @@
 
 use crate::{sphere, swept};
 use swiftprox::error::Error;
+use swiftprox::manifold::manifold;
+use swiftprox::manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::motion::{CastAnswer, CastConfig, CastOutcome, Motion, Moving, cast, verify_cast};
+use swiftprox::pair::contact;
 use swiftprox::pair::{
-    DepthAnswer, DepthCache, DepthConfig, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome, PairAnswer,
-    PairCache, PairConfig, Placed, approximate, contact, depth, distance, intersection, manifold,
+    DepthAnswer, DepthCache, DepthConfig, Outcome, PairAnswer, PairCache, PairConfig, Placed, approximate, depth,
+    distance, intersection,
 };
 use swiftprox::shape::Shape;
 use swiftprox::verify::{verify, verify_depth, verify_manifold};

@@ -4,11 +4,11 @@ use std::hint::black_box;
 
 use parry3d_f64::math::Vector;
 use parry3d_f64::transformation::try_convex_hull;
+use swiftprox::body::polyhedron::lookup::Lookup;
+use swiftprox::body::tables::build_table;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
-use swiftprox::polyhedron::lookup::Lookup;
 use swiftprox::progress::Progress;
 use swiftprox::shape::{Shape, ShapeOptions};
-use swiftprox::tables::build_table;
 
 use crate::model;
 use crate::options::Options;

@@ -5,12 +5,12 @@
 use std::fmt::Write;
 use std::rc::Rc;
 
+use swiftprox::body::tables::{LookupKind, LookupOptions};
 use swiftprox::error::Result;
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{Levels, PairConfig, Refinement, Start};
 use swiftprox::shape::{Shape, ShapeOptions};
-use swiftprox::tables::{LookupKind, LookupOptions};
 
 use crate::marches::Marching;
 use crate::method::{Method, Reply, replies};

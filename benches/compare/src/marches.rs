@@ -4,15 +4,15 @@
 use std::rc::Rc;
 
 use swiftprox::base::simd::{self, Kernel, Lanes};
+use swiftprox::distance::certificate::{Certify, Gap, Minimum};
+use swiftprox::distance::marching::{self, March, step_limit};
 use swiftprox::math::{Pose, ROTATION_LIMIT};
 use swiftprox::pair::start::policy::StartFrom;
 use swiftprox::pair::start::start_pair;
+use swiftprox::placed::frame::Frame;
+use swiftprox::placed::state::State;
+use swiftprox::placed::voronoi::Rule;
 use swiftprox::shape::Shape;
-use swiftprox::solve::certificate::{Certify, Gap, Minimum};
-use swiftprox::solve::frame::Frame;
-use swiftprox::solve::marching::{self, March, step_limit};
-use swiftprox::solve::state::State;
-use swiftprox::solve::voronoi::Rule;
 
 use crate::method::{Method, Reply};
 use crate::setting::poses_of;

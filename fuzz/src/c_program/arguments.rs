@@ -199,7 +199,7 @@ pub struct Arrays {
 /// The hull of points as triangles, now and then with an index or a valence changed.
 pub fn mesh_arrays(u: &mut Unstructured) -> Result<Arrays> {
     let points = points(u, MOST_POINTS)?;
-    let hull = swiftprox::build::hull::convex_hull(&points).expect("finite points");
+    let hull = swiftprox::body::build::hull::convex_hull(&points).expect("finite points");
     let vertices: Vec<[f64; 3]> = hull.vertices.iter().map(|&v| points[v as usize].into()).collect();
     let place = |v: &u32| hull.vertices.binary_search(v).expect("corners are vertices") as u32;
     let mut indices: Vec<u32> = hull.triangles.iter().flatten().map(place).collect();

@@ -9,7 +9,8 @@ use swiftprox::ffi::ground::*;
 use swiftprox::ffi::half_space::*;
 use swiftprox::ffi::pair::CPlaced;
 use swiftprox::ground::{Ground, GroundContact, GroundDistance};
-use swiftprox::pair::{HalfSpace, Manifold, ManifoldPoint, Outcome, SignedDistance};
+use swiftprox::manifold::{Manifold, ManifoldPoint};
+use swiftprox::pair::{HalfSpace, Outcome, SignedDistance};
 
 use super::arguments::{Block, any_pose, array, options, or_null, pair_config, start};
 use super::{MOST_POINTS, Program, last_message};

@@ -1,16 +1,16 @@
 //! Which minima that marching finds are good enough for an answer, at a quick look or a closer one.
 
 use super::query::PairQuery;
+use crate::answer::Query;
+use crate::answer::contact;
+use crate::answer::{DecidedBy, Outcome};
 use crate::base::math::{ROTATION_LIMIT, divisor};
 use crate::base::simd::{Kernel, Lanes};
-use crate::pair::answer::{DecidedBy, Outcome};
-use crate::pair::config::Query;
-use crate::pair::contact;
-use crate::solve::certificate::{Certify, CloserLook, Gap, Minimum};
-use crate::solve::frame::Frame;
-use crate::solve::marching;
-use crate::solve::separating_axis::NUDGE;
-use crate::solve::state::State;
+use crate::distance::certificate::{Certify, CloserLook, Gap, Minimum};
+use crate::distance::marching;
+use crate::distance::separating_axis::NUDGE;
+use crate::placed::frame::Frame;
+use crate::placed::state::State;
 
 /// Accepts a minimum whose interval is good enough: answer and cache are then written.
 pub(super) struct Acceptance<'a, 'b> {

@@ -2,21 +2,21 @@
 
 use super::acceptance::{Acceptance, Closely};
 use super::query::{Attempt, PairQuery};
+use crate::answer::Query;
+use crate::answer::contact;
+use crate::answer::{DecidedBy, Outcome, Statistics};
 use crate::base::error::Result;
 use crate::base::math::ROTATION_LIMIT;
 use crate::base::memory::in_integers;
 use crate::base::simd::{self, Kernel, Lanes, Portable};
-use crate::pair::answer::{DecidedBy, Outcome, Statistics};
-use crate::pair::config::Query;
-use crate::pair::contact;
-use crate::pair::depth::{Pyramids, deepest};
+use crate::body::tables::tuning::TURNED_AWAY;
+use crate::depth::polytope::{Pyramid, Rounding};
+use crate::depth::{Pyramids, deepest};
+use crate::distance::decide::{self, Decision, Pairs};
+use crate::distance::enclosure::encloses_origin;
 use crate::pair::start::policy;
-use crate::solve::decide::{self, Decision, Pairs};
-use crate::solve::enclosure::encloses_origin;
-use crate::solve::frame::Frame;
-use crate::solve::polytope::{Pyramid, Rounding};
-use crate::solve::state::State;
-use crate::tables::tuning::TURNED_AWAY;
+use crate::placed::frame::Frame;
+use crate::placed::state::State;
 
 /// The place to go on from.
 #[derive(Clone, Copy)]

@@ -2,16 +2,16 @@
 //! the last time.
 
 use super::query::PairQuery;
+use crate::answer::Query;
+use crate::answer::contact;
+use crate::answer::{DecidedBy, Outcome, Statistics};
 use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::pair::answer::{DecidedBy, Outcome, Statistics};
-use crate::pair::config::Query;
-use crate::pair::contact;
-use crate::pair::placed::Placed;
-use crate::polyhedron::SMALLEST;
-use crate::solve::certificate::reciprocal_length;
-use crate::solve::frame::are_acceptable;
-use crate::solve::separating_axis::{self, AxisSearch, Trial};
+use crate::body::polyhedron::SMALLEST;
+use crate::distance::certificate::reciprocal_length;
+use crate::distance::separating_axis::{self, AxisSearch, Trial};
+use crate::placed::frame::are_acceptable;
+use crate::shape::Placed;
 
 impl PairQuery<'_> {
     /// Whether the bounding spheres are farther apart than is enough; the answer then reports that, and the cache stays as it is.

@@ -2,13 +2,13 @@
 
 use super::query::PairQuery;
 use super::support_glance;
+use crate::answer::{Accuracy, Levels, Query};
 use crate::base::error::Result;
 use crate::base::math::Pose;
-use crate::levels::hierarchy::HierarchyKind;
-use crate::pair::config::{Accuracy, Levels, Query};
+use crate::body::polyhedron::Polyhedron;
 use crate::pair::levels::{Descent, LevelBounds, LevelState, Leveled, TRIAL_STEPS};
-use crate::polyhedron::Polyhedron;
 use crate::shape::Shape;
+use crate::shape::levels::hierarchy::HierarchyKind;
 
 /// Whether there are levels that may answer to within an error, the finest being the tightest.
 #[inline(always)]

@@ -2,8 +2,8 @@
 //! nearest, and they suffice. A direct path to the answer of the search among the levels, to the last bit.
 
 use super::query::PairQuery;
+use crate::answer::DecidedBy;
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::pair::answer::DecidedBy;
 use crate::pair::levels::{LevelState, Leveled, try_first};
 
 impl PairQuery<'_> {

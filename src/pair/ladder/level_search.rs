@@ -3,22 +3,22 @@
 
 use super::marching::Leg;
 use super::query::{Attempt, Open, PairQuery};
+use crate::answer::Query;
+use crate::answer::contact;
+use crate::answer::{DecidedBy, Outcome, Statistics};
 use crate::base::error::Result;
 use crate::base::math::{Pose, ROTATION_LIMIT};
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::pair::answer::{DecidedBy, Outcome, Statistics};
-use crate::pair::config::Query;
-use crate::pair::contact;
+use crate::body::polyhedron::Polyhedron;
+use crate::distance::certificate::Interval;
+use crate::distance::gjk::{self, Nearest, Simplex};
+use crate::distance::marching::step_limit;
 use crate::pair::levels::{Descended, Descent, LevelBounds, LevelState, Leveled};
 use crate::pair::start::policy::StartFrom;
 use crate::pair::start::start_pair;
-use crate::polyhedron::Polyhedron;
-use crate::solve::certificate::Interval;
-use crate::solve::frame::Frame;
-use crate::solve::gjk::{self, Nearest, Simplex};
-use crate::solve::marching::step_limit;
-use crate::solve::state::State;
-use crate::solve::voronoi::climb;
+use crate::placed::frame::Frame;
+use crate::placed::state::State;
+use crate::placed::voronoi::climb;
 
 /// The result of a search among levels.
 pub(super) enum Searched<'a> {

@@ -3,15 +3,15 @@
 
 use super::acceptance::{Acceptance, AtFirst};
 use super::query::{Attempt, Open, PairQuery};
+use crate::answer::Statistics;
 use crate::base::simd::{self, Kernel, Lanes, Work};
-use crate::pair::answer::Statistics;
+use crate::body::polyhedron::Polyhedron;
+use crate::distance::marching::{self, March, Transition, step_limit};
 use crate::pair::levels::TRIAL_STEPS;
 use crate::pair::start::policy::{self, StartFrom};
 use crate::pair::start::{Guess, StartPair, start_pair};
-use crate::polyhedron::Polyhedron;
-use crate::solve::frame::Frame;
-use crate::solve::marching::{self, March, Transition, step_limit};
-use crate::solve::state::State;
+use crate::placed::frame::Frame;
+use crate::placed::state::State;
 
 impl PairQuery<'_> {
     /// Marching from the last features, for bodies that are [simple](PairQuery::is_simple).

@@ -1,28 +1,28 @@
 //! One query: the request, its bodies, and the destination of the answer.
 
+use crate::answer::{Accuracy, PairConfig, Query, Start};
+use crate::answer::{Outcome, PairAnswer};
 use crate::base::error::Result;
 use crate::base::math::{Pose, clamp};
 use crate::base::simd::Lanes;
-use crate::pair::answer::{Outcome, PairAnswer};
+use crate::body::polyhedron::Polyhedron;
+use crate::distance::certificate::Interval;
+use crate::distance::decide::Wanted;
 use crate::pair::cache::PairCache;
-use crate::pair::config::{Accuracy, PairConfig, Query, Start};
-use crate::pair::placed::Placed;
-use crate::polyhedron::Polyhedron;
-use crate::solve::certificate::Interval;
-use crate::solve::decide::Wanted;
-use crate::solve::frame::{Frame, Marker, RIGID_TOGETHER};
-use crate::solve::state::State;
+use crate::placed::frame::{Frame, Marker, RIGID_TOGETHER};
+use crate::placed::state::State;
+use crate::shape::Placed;
 
 /// Whether the rungs that need no marching are asked first: bounding spheres and the last separating axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(in crate::pair) enum Glances {
+pub(crate) enum Glances {
     Asked,
     /// For a figure of the paper, which knew neither.
     LeftOut,
 }
 
 /// One query, its configuration checked. The requested result is read only here and in [`level_choice`](super::level_choice).
-pub(in crate::pair) struct PairQuery<'a> {
+pub(crate) struct PairQuery<'a> {
     pub query: Query,
     /// Borrowed from the caller: a copy would load at once what has just been stored pointer by pointer, and wait for it (R1).
     pub bodies: &'a [Placed<'a>; 2],

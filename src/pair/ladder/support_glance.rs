@@ -1,17 +1,17 @@
 //! Approximate distances by look-ups of both bodies' support functions: an approximate query need not find the nearest features.
 
 use super::query::PairQuery;
+use crate::answer::contact;
+use crate::answer::{DecidedBy, Statistics};
+use crate::answer::{Levels, Query, Start};
 use crate::base::error::Result;
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::pair::answer::{DecidedBy, Statistics};
+use crate::body::tables::support_map::{Choice, Grids};
+use crate::distance::certificate::reciprocal_length;
+use crate::distance::support_search::SupportSearch;
 use crate::pair::cache::Lean;
-use crate::pair::config::{Levels, Query, Start};
-use crate::pair::contact;
+use crate::placed::frame::Frame;
 use crate::shape::Shape;
-use crate::solve::certificate::reciprocal_length;
-use crate::solve::frame::Frame;
-use crate::solve::support_search::SupportSearch;
-use crate::tables::support_map::{Choice, Grids};
 
 /// The square of an angle times the root of the vertices: pairs that move by less from query to query are answered faster by
 /// marching from their last features. For bodies of 1,002 vertices that is 2.2°, of 10,002 0.7°.

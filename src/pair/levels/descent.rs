@@ -6,14 +6,14 @@
 //! provably. The level pair P₀/P₀ is not looked at here; that is an ordinary query, for which the search has found a start.
 
 use super::leveled::{LevelState, Leveled};
+use crate::answer::{Accuracy, Refinement};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::{Kernel, Lanes};
-use crate::pair::config::{Accuracy, Refinement};
+use crate::distance::certificate::{Certify, CloserLook, Minimum};
+use crate::distance::marching::{self, March, Step, Transition, step_limit};
 use crate::pair::start::policy;
-use crate::solve::certificate::{Certify, CloserLook, Minimum};
-use crate::solve::frame::{Frame, Marker};
-use crate::solve::marching::{self, March, Step, Transition, step_limit};
-use crate::solve::state::State;
+use crate::placed::frame::{Frame, Marker};
+use crate::placed::state::State;
 
 /// The bounds that a pair of levels gives for its bodies.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -116,7 +116,7 @@ impl Kernel for Descent<'_> {
 }
 
 /// The beginning of a search alone, the trial at its first levels, for [simple](Polyhedron::simple) levels and a rotation limit
-/// of at least [`RIGID_TOGETHER`](crate::solve::frame::RIGID_TOGETHER): its result, if any, the number of steps, and the pair's
+/// of at least [`RIGID_TOGETHER`](crate::placed::frame::RIGID_TOGETHER): its result, if any, the number of steps, and the pair's
 /// frame. It is the result that the search would find.
 #[inline(always)]
 pub fn try_first<'a, L: Lanes>(

@@ -1,11 +1,11 @@
 //! Two placed shapes with their levels of detail, and the way from a pair of levels to finer and coarser ones.
 
+use crate::answer::Refinement;
 use crate::base::math::Pose;
-use crate::levels::hierarchy::Level;
-use crate::pair::config::Refinement;
-use crate::pair::placed::Placed;
-use crate::polyhedron::Polyhedron;
-use crate::solve::state::{FeatureId, State};
+use crate::body::polyhedron::Polyhedron;
+use crate::placed::state::{FeatureId, State};
+use crate::shape::Placed;
+use crate::shape::levels::hierarchy::Level;
 
 /// Two placed shapes with their levels; level 0 is the body itself, P₀.
 #[derive(Clone, Copy)]
@@ -145,9 +145,9 @@ impl<'a> Leveled<'a> {
 mod tests {
     use super::*;
     use crate::base::math::Vector;
-    use crate::levels::hierarchy::{HierarchyKind, HierarchyOptions};
+    use crate::placed::exact;
+    use crate::shape::levels::hierarchy::{HierarchyKind, HierarchyOptions};
     use crate::shape::{Shape, ShapeOptions};
-    use crate::solve::exact;
     use swiftprox::random::Random;
 
     /// An ellipsoid of 300 vertices with levels by quadric error, and in half its size one with outer cuts.

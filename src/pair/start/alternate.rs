@@ -3,8 +3,8 @@
 use super::start_pair::{Guess, StartPair};
 use crate::base::math::{Pose, Vector};
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::polyhedron::Polyhedron;
-use crate::tables::nearest_vertex::NearestVertex;
+use crate::body::polyhedron::Polyhedron;
+use crate::body::tables::nearest_vertex::NearestVertex;
 
 /// Projects on both bodies the other's centre of mass or last vertex, then the vertices that were found there, and so on, by the
 /// tables. Both at once: two chains of look-ups take the time of one, and three rounds lead to as good a start as one chain of four

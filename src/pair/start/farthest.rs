@@ -3,10 +3,10 @@
 use super::start_pair::{Guess, StartPair};
 use crate::base::math::{Pose, Vector};
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::polyhedron::Polyhedron;
-use crate::polyhedron::lookup::{Plan, Table};
-use crate::solve::voronoi::climb;
-use crate::tables::table;
+use crate::body::polyhedron::Polyhedron;
+use crate::body::polyhedron::lookup::{Plan, Table};
+use crate::body::tables::table;
+use crate::placed::voronoi::climb;
 
 /// The support vertices along the line of the bodies' origins, and whether the bodies are apart along it.
 #[inline(never)]

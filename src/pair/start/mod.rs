@@ -6,10 +6,10 @@ mod alternate;
 mod farthest;
 
 use crate::base::math::Pose;
-use crate::polyhedron::Polyhedron;
-use crate::polyhedron::lookup::{Plan, Table};
-use crate::tables::nearest_vertex::AllVertices;
-use crate::tables::table;
+use crate::body::polyhedron::Polyhedron;
+use crate::body::polyhedron::lookup::{Plan, Table};
+use crate::body::tables::nearest_vertex::AllVertices;
+use crate::body::tables::table;
 use alternate::LookUps;
 use farthest::farthest;
 use policy::{StartFrom, centre_of_mass};
@@ -67,8 +67,8 @@ fn look_up(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], last: [u32; 2], round
 mod tests {
     use super::*;
     use crate::base::math::Vector;
-    use crate::build::assembly::build;
-    use crate::tables::{LookupOptions, plan_lookup};
+    use crate::body::build::assembly::build;
+    use crate::body::tables::{LookupOptions, plan_lookup};
     use swiftprox::random::Random;
 
     /// Climbs on small bodies took half the time of their queries after a jump.

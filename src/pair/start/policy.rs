@@ -1,14 +1,14 @@
 //! The policy of starts: the start of a search depends on what has moved since the last query, by how much, and which tables
-//! there are. The numbers are in [`tuning`](crate::tables::tuning).
+//! there are. The numbers are in [`tuning`](crate::body::tables::tuning).
 
 use crate::base::math::{Pose, Vector};
 use crate::base::simd::Lanes;
-use crate::polyhedron::Polyhedron;
-use crate::polyhedron::lookup::{Plan, Table};
-use crate::solve::frame::{Frame, Marker};
-use crate::solve::state::State;
-use crate::tables::tables;
-use crate::tables::tuning::{COME_APART, FAR, ONE_ROUND, TWO_ROUNDS};
+use crate::body::polyhedron::Polyhedron;
+use crate::body::polyhedron::lookup::{Plan, Table};
+use crate::body::tables::tables;
+use crate::body::tables::tuning::{COME_APART, FAR, ONE_ROUND, TWO_ROUNDS};
+use crate::placed::frame::{Frame, Marker};
+use crate::placed::state::State;
 
 /// From what a search starts, if not from the features of the last query.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -17,7 +17,7 @@ pub enum StartFrom {
     LastVertices {
         /// One of each body.
         vertices: [u32; 2],
-        /// See [`Shells::rounds`](crate::polyhedron::lookup::Shells::rounds).
+        /// See [`Shells::rounds`](crate::body::polyhedron::lookup::Shells::rounds).
         rounds: u32,
     },
     /// The centres of mass, and as many rounds of look-ups as the bodies want.

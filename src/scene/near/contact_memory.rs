@@ -5,7 +5,8 @@ use std::sync::Mutex;
 use crate::base::error::Result;
 use crate::base::locks::{locked, unlocked};
 use crate::base::memory::{push, reserve, with_capacity};
-use crate::pair::{DepthCache, Reference};
+use crate::manifold::Reference;
+use crate::pair::DepthCache;
 
 /// The contact cache of each near pair, by its place among the caches. It is empty until contacts are asked for more than
 /// answers.

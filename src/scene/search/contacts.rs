@@ -2,10 +2,8 @@
 
 use crate::base::error::{Error, Result};
 use crate::base::memory::with_capacity;
-use crate::pair::{
-    self, DepthCache, DepthConfig, DepthEnding, Fill, Known, Manifold, ManifoldConfig, ManifoldPoint, Outcome,
-    PairAnswer, Placed, Query, Reference, Sink, manifold_of,
-};
+use crate::manifold::{Fill, Known, Manifold, ManifoldConfig, ManifoldPoint, Reference, Sink, manifold_of};
+use crate::pair::{self, DepthCache, DepthConfig, DepthEnding, Outcome, PairAnswer, Placed, Query};
 use crate::scene::search::query::{Contact, ContactDetail, SceneContacts, SceneQuery};
 use crate::scene::search::slots::{Run, Slots, Source};
 

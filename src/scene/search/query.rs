@@ -4,9 +4,8 @@ use std::borrow::Cow;
 
 use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
-use crate::pair::{
-    DepthAnswer, Levels, Manifold, ManifoldPoint, Outcome, PairAnswer, Refinement, SignedDistance, Start,
-};
+use crate::manifold::{Manifold, ManifoldPoint};
+use crate::pair::{DepthAnswer, Levels, Outcome, PairAnswer, Refinement, SignedDistance, Start};
 use crate::scene::world::object::ObjectId;
 
 /// The options of a query over a scene.

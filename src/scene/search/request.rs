@@ -14,7 +14,7 @@ pub(crate) type Solver = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairA
 #[cold]
 fn check(query: &SceneQuery) -> Result<()> {
     check_range("max_distance", query.max_distance, 0.0..=f64::INFINITY)?;
-    pair::check_accuracy(query.absolute_error, query.relative_error, query.step_budget)?;
+    crate::answer::check_accuracy(query.absolute_error, query.relative_error, query.step_budget)?;
     check_range("error_budget", query.error_budget, 0.0..=f64::INFINITY)
 }
 

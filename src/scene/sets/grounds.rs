@@ -5,7 +5,8 @@ use crate::base::error::Result;
 use crate::base::math::ROTATION_LIMIT;
 use crate::base::memory::push;
 use crate::ground::{GroundContact, GroundContacts, PlacedGround, add_contacts};
-use crate::pair::{HalfSpace, ManifoldConfig, ManifoldPoint, Outcome, Placed, add_points, half_space_manifold_into};
+use crate::manifold::{ManifoldConfig, ManifoldPoint, add_points, half_space_manifold_into};
+use crate::pair::{HalfSpace, Outcome, Placed};
 use crate::scene::near::tree::Branch;
 use crate::scene::sets::members::{self, Boxes, Member, ObjectSet};
 use crate::scene::sets::others::Others;
@@ -82,7 +83,7 @@ pub(crate) struct Room<'a> {
 /// Lists all contacts of all objects, those of objects in order of creation, or of the set in its order.
 ///
 /// # Errors
-/// As [`ground_contacts`](crate::ground::ground_contacts) and [`half_space_manifold`](crate::pair::half_space_manifold), and for
+/// As `ground::ground_contacts` and `manifold::half_space_manifold`, and for
 /// the set as [`members::list`].
 pub(crate) fn find(question: Question, room: &mut Room) -> Result<()> {
     let Question { others, set, floor, config, filter } = question;

@@ -14,7 +14,7 @@ mod scales;
 mod surfaces;
 mod threads;
 
-use swiftprox::build::hull::convex_hull;
+use swiftprox::body::build::hull::convex_hull;
 use swiftprox::mesh::PolygonMesh;
 
 use super::PosePair;

@@ -1,6 +1,6 @@
 //! Placing bodies in contact, a hair apart or a hair into each other, at spots of every kind.
 
-use swiftprox::build::hull::convex_hull;
+use swiftprox::body::build::hull::convex_hull;
 use swiftprox::math::{Matrix, Vector};
 use swiftprox::mesh::PolygonMesh;
 

@@ -5,10 +5,10 @@ mod solids;
 mod validate;
 
 use random::{ellipsoid, turned};
-use swiftprox::build::assembly::build;
+use swiftprox::body::build::assembly::build;
+use swiftprox::body::polyhedron::Polyhedron;
 use swiftprox::math::{UNIT_ROUNDOFF, Vector};
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::polyhedron::Polyhedron;
 use testkit::models;
 use testkit::random::Random;
 use validate::validate;

@@ -3,8 +3,8 @@
 use std::collections::HashMap;
 
 use dashu_ratio::RBig;
+use swiftprox::body::polyhedron::{Edge, Face, NONE, PlaneBlock, Polyhedron};
 use swiftprox::math::Vector;
-use swiftprox::polyhedron::{Edge, Face, NONE, PlaneBlock, Polyhedron};
 
 use testkit::random::Random;
 

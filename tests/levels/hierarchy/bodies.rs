@@ -1,9 +1,9 @@
 //! Bodies to make levels of: round and flat, thin and long, smooth and sharp.
 
-use swiftprox::build::assembly::build;
+use swiftprox::body::build::assembly::build;
+use swiftprox::body::polyhedron::Polyhedron;
 use swiftprox::math::Vector;
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::polyhedron::Polyhedron;
 
 use testkit::models::{ELLIPSOIDS, cuboid, ellipsoid, prism, random_hull};
 use testkit::random::Random;

@@ -4,11 +4,11 @@ mod bodies;
 mod validate;
 
 use bodies::{bodies, polyhedron};
+use swiftprox::body::polyhedron::Polyhedron;
 use swiftprox::error::Error;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, HierarchyOptions};
 use swiftprox::math::Vector;
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::polyhedron::Polyhedron;
 use swiftprox::progress::Progress;
 use swiftprox::shape::{Shape, ShapeOptions};
 use testkit::models::{cuboid, ellipsoid};

@@ -1,12 +1,12 @@
 //! What holds for every hierarchy, however made.
 
 use swiftprox::base::predicates::ExactPoints;
-use swiftprox::build::assembly::build;
+use swiftprox::body::build::assembly::build;
+use swiftprox::body::polyhedron::Polyhedron;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, Level, Links};
 use swiftprox::math::{Pose, Vector};
-use swiftprox::polyhedron::Polyhedron;
-use swiftprox::solve::exact;
-use swiftprox::solve::state::FeatureId;
+use swiftprox::placed::exact;
+use swiftprox::placed::state::FeatureId;
 
 /// Panics with `name` unless all is well.
 pub fn validate(name: &str, base: &Polyhedron, hierarchy: &Hierarchy) {
@@ -141,7 +141,7 @@ fn check_rays(name: &str, base: &Polyhedron, above: &Polyhedron, below: &Polyhed
 fn check_parents(name: &str, below: &Polyhedron, above: &Polyhedron, parents: &Links) {
     for (face, parent) in below.faces.iter().zip(&parents.faces) {
         let FeatureId::Vertex(parent) = *parent else { panic!("{name}: the parent of a face is {parent:?}") };
-        let height = |v: &swiftprox::polyhedron::Vertex| face.normal.dot(&v.position);
+        let height = |v: &swiftprox::body::polyhedron::Vertex| face.normal.dot(&v.position);
         let highest = above.vertices.iter().map(height).fold(f64::NEG_INFINITY, f64::max);
         assert!(height(&above.vertices[parent as usize]) >= highest - 1e-14 * above.radius, "{name}");
     }

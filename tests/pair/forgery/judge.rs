@@ -1,10 +1,10 @@
 //! What of an answer is false, by the oracle: in rational numbers, and with twice the allowance that `verify` states.
 
 use dashu_ratio::RBig;
+use swiftprox::body::polyhedron::Polyhedron;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer};
-use swiftprox::polyhedron::Polyhedron;
-use swiftprox::solve::exact;
+use swiftprox::placed::exact;
 
 use super::scenes::Scene;
 use testkit::cases::{coordinates, row_major};

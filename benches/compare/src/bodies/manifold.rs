@@ -6,9 +6,11 @@ use parry3d_f64::math::{Pose as ParryPose, Vector};
 use parry3d_f64::query::ContactManifold;
 use parry3d_f64::query::details::contact_manifold_pfm_pfm;
 use parry3d_f64::shape::ConvexPolyhedron;
+use swiftprox::manifold::manifold;
+use swiftprox::manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use swiftprox::math::Pose;
 use swiftprox::mesh::PolygonMesh;
-use swiftprox::pair::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Outcome, manifold};
+use swiftprox::pair::Outcome;
 use swiftprox::shape::Shape;
 
 use crate::method::{Method, Reply};

@@ -1,8 +1,8 @@
 //! This library's contacts of bodies with a ground.
 
 use swiftprox::ground::{Ground, GroundContacts, ground_contacts};
+use swiftprox::manifold::ManifoldConfig;
 use swiftprox::math::Pose;
-use swiftprox::pair::ManifoldConfig;
 use swiftprox::shape::Shape;
 
 use super::scenes::{BODIES, MARGIN};

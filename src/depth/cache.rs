@@ -1,0 +1,383 @@
+//! The pair's cache of its depth: the polytope that proved it, packed, or the nearest facet of two small bodies, and the pyramids
+//! of a pair at rest. Only this module packs and unpacks it.
+
+use crate::base::math::Vector;
+use crate::base::simd::Lanes;
+use crate::body::polyhedron::Polyhedron;
+use crate::depth::facets::Facet;
+use crate::depth::polytope::{Polytope, Pyramid, SearchStart};
+use crate::placed::exact::VertexPair;
+use crate::placed::frame::Frame;
+use crate::placed::state::FeatureId;
+
+/// Vertices of a polytope that is kept.
+const MOST_VERTICES: usize = 56;
+
+/// Triangles of a polytope that is kept: a closed surface of `MOST_VERTICES` vertices, without holes and handles, has no more.
+const MOST_TRIANGLES: usize = 108;
+
+/// What a pair remembers from its last depth query. Any bytes are safe; all zero is cold. It changes how fast an answer comes, and
+/// which of several least directions is said; never the verdict, and no depth beyond its interval.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[repr(C)]
+pub struct DepthCache {
+    /// In how many searches to come no pyramid is raised, unless the last one is worth it.
+    waits: u8,
+    /// How many pyramids in a row came to nothing.
+    failures: u8,
+    /// How many depths pyramids have proved since one was raised last.
+    proved: u16,
+    /// Where no polytope is kept, the single-precision bits of the direction of the least overlap, in body 1's axes.
+    direction: [u32; 3],
+    /// The facet of least overlap of a pair that seems to rest: its kind, 0 for none, and its indices. The bodies need not have it.
+    resting: [u32; 3],
+    /// What proved the depth where the pair rested and no facet did, the last one that did first.
+    pyramids: [KeptPyramid; PYRAMIDS],
+    /// The vertices. Coordinates are computed anew: what is stored could lie. Of a facet, the indices are the first pair, and the
+    /// next two have the bits of its direction in body 2's axes.
+    pairs: [VertexPair; MOST_VERTICES],
+    triangles: [PackedTriangle; MOST_TRIANGLES],
+    /// Numbers of vertices and triangles, the triangle of the least overlap, and how many triangles the last first polytope came
+    /// to. Where a facet is kept, which is where there are no triangles, the first is its kind, and the third says whether the
+    /// objects overlapped.
+    counts: [u8; 4],
+}
+
+/// Pyramids of a pair: where it rocks from one facet to another both stay. A third is rarely of use.
+pub const PYRAMIDS: usize = 2;
+
+/// Searches of a pair that seems to rest in which no pyramid is raised after one was, or two came to nothing, as where bodies touch
+/// along edges of both …
+const WAITS: u8 = 15;
+
+/// … unless the last has proved this many depths since: raising one takes about as long as three searches.
+const WORTH: u16 = 4;
+
+/// A pyramid, and which features held the witness points when it proved a depth.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(C)]
+struct KeptPyramid {
+    pyramid: Pyramid,
+    /// Indices of features; [`Pyramid::mark`] tells of which kinds, and in which triangle the points were.
+    features: [u32; 2],
+}
+
+/// Kinds of features in a mark, of two bits for each body; the triangle is above them. So a mark that is made is not 0.
+const VERTEX: u8 = 1;
+const EDGE: u8 = 2;
+const FACE: u8 = 3;
+
+/// Kinds of facets: fewer than the vertices of any polytope.
+const FACE_OF_FIRST: u8 = 1;
+const FACE_OF_SECOND: u8 = 2;
+const EDGES: u8 = 3;
+
+/// No vertex of the kept polytope.
+const NO_PLACE: u8 = u8::MAX;
+
+/// Three corners.
+type PackedTriangle = [u8; 3];
+
+impl Default for DepthCache {
+    fn default() -> Self {
+        DepthCache {
+            waits: 0,
+            failures: 0,
+            proved: 0,
+            direction: [0; 3],
+            resting: [0; 3],
+            pyramids: [KeptPyramid::default(); PYRAMIDS],
+            pairs: [[0; 2]; MOST_VERTICES],
+            triangles: [[0; 3]; MOST_TRIANGLES],
+            counts: [0; 4],
+        }
+    }
+}
+
+impl DepthCache {
+    /// Puts the kept polytope into an empty one, its positions computed for the pair's poses, and returns where to begin. The
+    /// polytope stays empty where none is kept, or what is kept has vertices that the bodies have not; it need not be a cycle.
+    #[inline(always)]
+    pub fn unpack<L: Lanes, const V: usize, const T: usize>(
+        &self,
+        frame: &Frame<L>,
+        polytope: &mut Polytope<V, T>,
+    ) -> SearchStart {
+        let [vertices, triangles, best, first_triangles] = self.counts.map(usize::from);
+        let mut start =
+            SearchStart { triangle: None, direction: self.direction(frame), first_triangles, only_known: false };
+        let is_kept = (4..=MOST_VERTICES).contains(&vertices) && (4..=MOST_TRIANGLES).contains(&triangles);
+        if !(is_kept && self.are_vertices(frame.polyhedra(), vertices)) {
+            return start;
+        }
+        if !self.unpack_triangles(polytope, vertices, triangles) {
+            return start;
+        }
+        polytope.vertex_count = vertices;
+        polytope.triangle_count = triangles;
+        let [vertices1, vertices2] = [&frame.bodies[0].polyhedron.vertices, &frame.bodies[1].polyhedron.vertices];
+        for (index, &[v, w]) in self.pairs[..vertices].iter().enumerate() {
+            let difference = frame.difference(&vertices1[v as usize].position, &vertices2[w as usize].position);
+            polytope.positions[index] = difference.to_array();
+        }
+        polytope.pairs[..vertices].copy_from_slice(&self.pairs[..vertices]);
+        start.triangle = Some(if best < triangles { best } else { 0 });
+        start
+    }
+
+    /// The direction of the least overlap when that was last searched for, in the world; `None` where none is kept.
+    #[inline(always)]
+    pub fn direction<L: Lanes>(&self, frame: &Frame<L>) -> Option<Vector> {
+        let direction = frame.bodies[0].rotate(&number(self.direction)).to_vector();
+        let square = direction.norm_squared();
+        // False for a NaN.
+        (square > 0.25 && square < 4.0).then_some(direction)
+    }
+
+    /// Whether the bodies have the vertices.
+    #[inline(always)]
+    fn are_vertices(&self, polyhedra: [&Polyhedron; 2], vertices: usize) -> bool {
+        let [count1, count2] = polyhedra.map(|polyhedron| polyhedron.vertices.len());
+        let largest = self.pairs[..vertices].iter().fold([0; 2], |[v, w], pair| [v.max(pair[0]), w.max(pair[1])]);
+        (largest[0] as usize) < count1 && (largest[1] as usize) < count2
+    }
+
+    /// Whether all corners are vertices.
+    #[inline(always)]
+    fn unpack_triangles<const V: usize, const T: usize>(
+        &self,
+        polytope: &mut Polytope<V, T>,
+        vertices: usize,
+        triangles: usize,
+    ) -> bool {
+        for (&[a, b, c], corners) in self.triangles[..triangles].iter().zip(&mut polytope.corners) {
+            *corners = [a, b, c, a];
+        }
+        let largest = polytope.corners[..triangles].as_flattened().iter().fold(0, |a, b| a.max(*b));
+        usize::from(largest) < vertices
+    }
+
+    /// The facet that was the nearest; the bodies need not have it.
+    #[inline(always)]
+    pub fn facet(&self) -> Option<Facet> {
+        let edges @ [first, _] = self.pairs[0];
+        match self.counts {
+            [FACE_OF_FIRST, 0, _, 0] => Some(Facet::Face(0, first)),
+            [FACE_OF_SECOND, 0, _, 0] => Some(Facet::Face(1, first)),
+            [EDGES, 0, _, 0] => Some(Facet::Edges(edges)),
+            _ => None,
+        }
+    }
+
+    /// Keeps the nearest facet and its direction, and no polytope.
+    #[inline(always)]
+    pub fn keep_facet<L: Lanes>(&mut self, frame: &Frame<L>, facet: Facet, direction: &Vector, overlap: bool) {
+        self.remember(frame, direction);
+        let [x, y, z] = bits(frame.bodies[1].rotate_vector_back(direction).to_vector());
+        let (kind, pair) = match facet {
+            Facet::Face(0, face) => (FACE_OF_FIRST, [face, 0]),
+            Facet::Face(_, face) => (FACE_OF_SECOND, [face, 0]),
+            Facet::Edges(edges) => (EDGES, edges),
+        };
+        (self.counts, self.pairs[0]) = ([kind, 0, u8::from(overlap), 0], pair);
+        (self.pairs[1], self.pairs[2]) = ([x, y], [z, 0]);
+    }
+
+    /// The direction of the least overlap in either body's axes, where a facet is kept; any numbers.
+    #[inline(always)]
+    pub fn facet_directions(&self) -> Option<[Vector; 2]> {
+        self.facet()?;
+        let ([x, y], [z, _]) = (self.pairs[1], self.pairs[2]);
+        Some([number(self.direction), number([x, y, z])])
+    }
+
+    /// The facet of least overlap of a pair that seems to rest; the bodies need not have it.
+    #[inline(always)]
+    pub fn resting(&self) -> Option<Facet> {
+        let [kind, first, second] = self.resting;
+        match u8::try_from(kind) {
+            Ok(FACE_OF_FIRST) => Some(Facet::Face(0, first)),
+            Ok(FACE_OF_SECOND) => Some(Facet::Face(1, first)),
+            Ok(EDGES) => Some(Facet::Edges([first, second])),
+            _ => None,
+        }
+    }
+
+    /// Keeps the facet of least overlap of a pair that seems to rest.
+    #[inline(always)]
+    pub fn rest_on(&mut self, facet: Facet) {
+        self.resting = match facet {
+            Facet::Face(0, face) => [u32::from(FACE_OF_FIRST), face, 0],
+            Facet::Face(_, face) => [u32::from(FACE_OF_SECOND), face, 0],
+            Facet::Edges([first, second]) => [u32::from(EDGES), first, second],
+        };
+    }
+
+    /// The pair does not seem to rest.
+    #[inline(always)]
+    pub fn rest_no_more(&mut self) {
+        self.resting = [0; 3];
+    }
+
+    /// Whether a search may raise a pyramid. It is asked once in each search of a pair that seems to rest.
+    #[inline(always)]
+    pub fn may_raise(&mut self) -> bool {
+        let may = self.waits == 0 || self.proved >= WORTH;
+        self.waits = self.waits.min(WAITS).saturating_sub(1);
+        may
+    }
+
+    /// A pyramid was raised, or the attempt failed. The other one stays behind it.
+    #[inline(always)]
+    pub fn raised(&mut self, pyramid: Option<&Pyramid>) {
+        self.failures = if pyramid.is_some() { 0 } else { self.failures.saturating_add(1) };
+        (self.waits, self.proved) = (if self.failures == 1 { 0 } else { WAITS }, 0);
+        if let Some(pyramid) = pyramid {
+            self.pyramids = [KeptPyramid { pyramid: *pyramid, features: [0; 2] }, self.pyramids[0]];
+        }
+    }
+
+    /// A kept pyramid proved a depth.
+    #[inline(always)]
+    pub fn has_proved(&mut self) {
+        self.proved = self.proved.saturating_add(1);
+    }
+
+    /// Whether a polytope is kept, of these bodies or of others.
+    #[inline(always)]
+    pub fn has_polytope(&self) -> bool {
+        self.counts[1] > 0
+    }
+
+    /// Whether a pyramid is kept, of these bodies or of others.
+    #[inline(always)]
+    pub fn has_pyramid(&self) -> bool {
+        self.pyramids[0].pyramid.is_there()
+    }
+
+    /// A kept pyramid; it need not be one of these bodies.
+    #[inline(always)]
+    pub fn pyramid(&self, place: usize) -> &Pyramid {
+        &self.pyramids[place].pyramid
+    }
+
+    /// Keeps a pyramid in the place of another.
+    pub fn replace_pyramid(&mut self, place: usize, pyramid: &Pyramid) {
+        self.pyramids[place] = KeptPyramid { pyramid: *pyramid, features: [0; 2] };
+    }
+
+    /// A kept pyramid comes first.
+    #[inline(always)]
+    pub fn put_first(&mut self, place: usize) {
+        if place > 0 {
+            self.pyramids.swap(0, place);
+        }
+    }
+
+    /// The features that held the points of the first pyramid in one of its triangles; the bodies need not have them.
+    #[inline(always)]
+    pub fn features(&self, triangle: u8) -> Option<[FeatureId; 2]> {
+        let KeptPyramid { pyramid: Pyramid { mark, .. }, features: [first, second] } = self.pyramids[0];
+        if mark >> 4 != triangle {
+            return None;
+        }
+        Some([feature(mark & 3, first)?, feature(mark >> 2 & 3, second)?])
+    }
+
+    /// Keeps the features that hold the points of the first pyramid in one of its triangles.
+    pub fn keep_features(&mut self, triangle: u8, features: [FeatureId; 2]) {
+        let [(kind1, first), (kind2, second)] = features.map(|feature| match feature {
+            FeatureId::Vertex(index) => (VERTEX, index),
+            FeatureId::Edge(index) => (EDGE, index),
+            FeatureId::Face(index) => (FACE, index),
+        });
+        let kept = &mut self.pyramids[0];
+        kept.features = [first, second];
+        kept.pyramid.mark = triangle << 4 | kind2 << 2 | kind1;
+    }
+
+    /// The polytope that it holds stays, with another direction of least overlap.
+    #[inline(always)]
+    pub fn keep<L: Lanes>(&mut self, frame: &Frame<L>, triangle: usize, direction: &Vector) {
+        self.remember(frame, direction);
+        self.counts[2] = triangle.min(255) as u8;
+    }
+
+    #[inline(always)]
+    fn remember<L: Lanes>(&mut self, frame: &Frame<L>, direction: &Vector) {
+        self.direction = bits(frame.bodies[0].rotate_vector_back(direction).to_vector());
+    }
+
+    /// Keeps a polytope, if it is small enough, else the direction of least overlap alone; `triangle` has its normal, about.
+    #[inline(always)]
+    pub fn pack<L: Lanes, const V: usize, const T: usize>(
+        &mut self,
+        frame: &Frame<L>,
+        polytope: &Polytope<V, T>,
+        triangle: usize,
+        direction: &Vector,
+        first_triangles: usize,
+    ) {
+        self.remember(frame, direction);
+        self.counts = [0; 4];
+        let triangles = polytope.triangle_count;
+        if !((4..=MOST_TRIANGLES).contains(&triangles) && triangle < triangles) {
+            return;
+        }
+        // Vertices that no triangle has any more are left out.
+        let (mut places, mut vertices) = ([NO_PLACE; V], 0);
+        for (packed, corners) in self.triangles.iter_mut().zip(&polytope.corners[..triangles]) {
+            for (own, corner) in packed.iter_mut().zip(corners) {
+                let corner = usize::from(*corner);
+                if places[corner] == NO_PLACE {
+                    if vertices == MOST_VERTICES {
+                        return;
+                    }
+                    self.pairs[vertices] = polytope.pairs[corner];
+                    places[corner] = vertices as u8;
+                    vertices += 1;
+                }
+                *own = places[corner];
+            }
+        }
+        self.counts = [vertices, triangles, triangle, first_triangles].map(|count| count.min(255) as u8);
+    }
+
+    /// Whether a polytope is kept, or a facet of objects that overlapped.
+    pub fn expects_overlap(&self) -> bool {
+        let [_, triangles, overlap, _] = self.counts;
+        triangles > 0 || (overlap == 1 && self.facet().is_some())
+    }
+
+    /// The objects were apart.
+    #[inline(always)]
+    pub fn expect_apart(&mut self) {
+        if self.has_polytope() {
+            self.counts = [0; 4];
+        }
+    }
+}
+
+/// A direction in single precision.
+#[inline(always)]
+fn bits(direction: Vector) -> [u32; 3] {
+    [(direction.x as f32).to_bits(), (direction.y as f32).to_bits(), (direction.z as f32).to_bits()]
+}
+
+/// A direction that was kept.
+#[inline(always)]
+fn number([x, y, z]: [u32; 3]) -> Vector {
+    let [x, y, z] = [f32::from_bits(x), f32::from_bits(y), f32::from_bits(z)];
+    Vector::new(x.into(), y.into(), z.into())
+}
+
+/// A feature by its kind and index.
+#[inline(always)]
+fn feature(kind: u8, index: u32) -> Option<FeatureId> {
+    match kind {
+        VERTEX => Some(FeatureId::Vertex(index)),
+        EDGE => Some(FeatureId::Edge(index)),
+        FACE => Some(FeatureId::Face(index)),
+        _ => None,
+    }
+}

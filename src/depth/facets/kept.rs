@@ -1,0 +1,446 @@
+//! How deep two bodies are in each other by one facet of C = {x − y} that was the least before, and one deep point.
+//!
+//! *Lemma.* Let a facet be at heights from l to t > 0 along a unit vector m, at all places up to r aside of the origin, and let q
+//! be a point of C at the height −h, a aside. If rh > at and (rh − at)² ≥ t²((r + a)² + (h + t)²), C holds the ball of radius l.
+//! For let u = c·e + s·m be a unit vector, e across m and c ≥ 0. C has the points (r, t') and (a', −h) of the plane of e and m, l ≤
+//! t' ≤ t, |a'| ≤ a. From the condition r > t and h > t. If s ≥ 0, the first gives rc + t's ≥ l(c + s) ≥ l. At u = −m the second
+//! gives h > l. In between, each gives a sinusoid, concave where it is positive; so the greater of both is least at an end, or
+//! where they are equal: u is there across the line through both points, which is (rh + t'a')/√((r − a')² + (h + t')²) from the
+//! origin, at least (rh − ta)/√((r + a)² + (h + t)²) ≥ t. □
+//!
+//! *From above*: along m the bodies overlap by no more than both reach.
+//!
+//! Any facet and any bytes will do: indices are looked at, all else is proved anew. Where the origin's foot is beyond a side of the
+//! facet, the next facet across that side is looked at, as in gift wrapping (Chand & Kapur 1970).
+
+use super::search::Facet;
+use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
+use crate::base::simd::{Lanes, Work};
+use crate::body::polyhedron::{Face, NONE, Polyhedron};
+use crate::placed::frame::{Body, Frame};
+use crate::placed::state::FeatureId;
+
+/// A depth that a facet proves.
+#[derive(Clone, Copy)]
+pub struct Proved<L> {
+    /// The depth is at least this, more than 0 …
+    pub lower: f64,
+    /// … and at most this.
+    pub upper: f64,
+    /// The overlap of the witness points, in between.
+    pub depth: f64,
+    /// The unit vector, from the inside of C to the boundary, along which the bodies overlap least.
+    pub direction: L,
+    /// The witness points in centred coordinates.
+    pub points: [L; 2],
+    /// The features that hold them.
+    pub features: [FeatureId; 2],
+    /// The facet.
+    pub facet: Facet,
+    /// Facets walked over.
+    pub steps: u32,
+}
+
+/// Facets that are looked at.
+const MOST_FACETS: u32 = 10;
+
+/// How wide an interval may be over the pair's size or distance: a little less than is promised.
+const WIDEST: f64 = 176.0 * U;
+
+/// Lengths that decide nothing but whether the lemma's condition holds are right to far less than this part of themselves.
+const SURELY: f64 = 1e-9;
+
+/// The sine's square above which two edges have a facet: the normal's direction errs by 8u over the sine, and the height with it.
+const LEAST_SQUARE: f64 = 1e-6;
+
+/// The result of a look at one facet that proves nothing.
+enum Next {
+    /// The foot is beyond a side of it: the facet there.
+    Facet(Facet),
+    Nothing,
+}
+
+/// The depth that a facet, or one a few steps from it, proves.
+///
+/// # Errors
+/// The last facet that was looked at, if none proves one.
+#[inline(always)]
+pub fn prove<L: Lanes>(frame: &Frame<L>, facet: Facet) -> Result<Proved<L>, Facet> {
+    let [polyhedron1, polyhedron2] = frame.polyhedra();
+    let is_suited = |polyhedron: &Polyhedron| polyhedron.dimension == 3 && !polyhedron.outlines.is_empty();
+    // Bodies farther apart do not intersect.
+    let are_near = frame.rigid && frame.separation <= 2.0 * frame.size;
+    if !(are_near && is_suited(polyhedron1) && is_suited(polyhedron2)) {
+        return Err(facet);
+    }
+    match look(frame, facet) {
+        Ok(proved) => Ok(proved),
+        Err(Next::Facet(next)) => L::out_of_line(&mut Walk { frame, next }),
+        Err(Next::Nothing) => Err(facet),
+    }
+}
+
+/// The face of a body most across a direction, which is from the inside of C to its boundary: where a walk may begin.
+pub fn across<L: Lanes>(frame: &Frame<L>, direction: &Vector) -> Option<Facet> {
+    let mut best = (0.0, None);
+    for (body, sign) in [(0, 1.0), (1, -1.0)] {
+        let placed = &frame.bodies[body];
+        let towards = placed.rotate_vector_back(direction).to_vector() * sign;
+        for (face, record) in (0..).zip(&placed.polyhedron.faces) {
+            let cosine = record.normal.dot(&towards);
+            if cosine > best.0 {
+                best = (cosine, Some(Facet::Face(body, face)));
+            }
+        }
+    }
+    best.1
+}
+
+struct Walk<'a, L> {
+    frame: &'a Frame<'a, L>,
+    next: Facet,
+}
+
+impl<L: Lanes> Work for Walk<'_, L> {
+    type Output = Result<Proved<L>, Facet>;
+
+    #[inline(always)]
+    fn run(&mut self) -> Self::Output {
+        for steps in 1..MOST_FACETS {
+            match look(self.frame, self.next) {
+                Ok(proved) => return Ok(Proved { steps, ..proved }),
+                Err(Next::Facet(next)) => self.next = next,
+                Err(Next::Nothing) => break,
+            }
+        }
+        Err(self.next)
+    }
+}
+
+#[inline(always)]
+fn look<L: Lanes>(frame: &Frame<L>, facet: Facet) -> Result<Proved<L>, Next> {
+    match facet {
+        Facet::Face(body, face) => look_at_face(frame, body.min(1), face),
+        Facet::Edges(edges) => L::out_of_line(&mut AtEdges { frame, edges }),
+    }
+}
+
+/// By how much the heights of a facet and of the bodies along its normal, of unit length, may be off; also what is taken off
+/// lengths across it, twice.
+///
+/// A face with the stored normal n of a body with the radius ρ is at n·v = −`offset`, up to σ and 4uρ (the heights that `offset`
+/// is the middle of err by 3u). In the world m = s·R·n as computed is off by 6.3u, and n·v = (RᵀR·n)·v up to 29u
+/// (`RIGID_DEFECT`), with s·`offset` 40.3uρ. The other body's heights take 5.3u for Rᵀm and 3u
+/// for the product: 8.3u of its radius. Δ is right to 2u|Δ|, its product to 3u; the sums to 3u of all. m's length is 1 up to 5u,
+/// times the depth, at most an eighth of all: u. So 45u, 15u and 11u. With edges m is any vector, of a length right to 5u, and all
+/// of these are less.
+#[inline(always)]
+fn rounding<L>(frame: &Frame<L>, own: &Polyhedron, other: &Polyhedron) -> f64 {
+    U * (45.0 * own.radius + 15.0 * other.radius + 11.0 * frame.separation)
+}
+
+/// The deepest depth that is proved, over size and distance.
+const SHALLOW: f64 = 0.125;
+
+/// Whether an interval is above 0, narrow and shallow; not of a NaN.
+#[inline(always)]
+fn is_good<L>(frame: &Frame<L>, lower: f64, upper: f64) -> bool {
+    let scale = if frame.separation > frame.size { frame.separation } else { frame.size };
+    lower > 0.0 && upper - lower <= WIDEST * scale && upper <= SHALLOW * (frame.size + frame.separation)
+}
+
+/// The lowest vertex along a direction in the body's axes, and its height.
+#[inline(always)]
+fn lowest<L: Lanes>(polyhedron: &Polyhedron, along: L) -> (f64, u32) {
+    let [x, y, z] = [along.splat_x(), along.splat_y(), along.splat_z()];
+    let (mut least, mut place) = (L::splat(f64::INFINITY), L::splat(0.0));
+    let (mut at, four) = (L::splat(0.0), L::splat(4.0));
+    for block in &polyhedron.vertex_blocks {
+        let height = x.mul_add(L::load(&block.x), y.mul_add(L::load(&block.y), z.mul(L::load(&block.z))));
+        place = at.where_greater(least, height, place);
+        least = least.min(height);
+        at = at.add(four);
+    }
+    let (height, lane) = least.least();
+    let vertex = place.to_array()[lane & 3] as usize + lane;
+    (height, vertex.min(polyhedron.vertices.len() - 1) as u32)
+}
+
+/// Whether the lemma's condition holds: of a disc of radius `r` at heights up to `top`, and a point `h` below the origin, `a`
+/// aside.
+#[inline(always)]
+fn encloses(r: f64, h: f64, a: f64, top: f64) -> bool {
+    let (arm, rise) = (r + a, h + top);
+    let over = r * h - a * top;
+    r > 0.0 && h > 0.0 && over > 0.0 && over * over * (1.0 - SURELY) >= top * top * (arm * arm + rise * rise)
+}
+
+/// How deep below the origin the middles of both bodies are along a direction, and how far aside. Each middle is a convex
+/// combination of vertices, right to (2 + count)·uρ: each of its sums errs by u of itself.
+#[inline(always)]
+fn middle<L: Lanes>(frame: &Frame<L>, own: &Body<L>, other: &Body<L>, m: L, error: f64) -> [f64; 2] {
+    let (middle1, middle2) = (&own.polyhedron.outlines.middle, &other.polyhedron.outlines.middle);
+    let apart = own.rotate(middle1).sub(other.rotate(middle2)).add(own.offset);
+    let height = m.dot(apart);
+    let aside = m.negated_mul_add(L::splat(height), apart);
+    let count = own.polyhedron.vertices.len() + other.polyhedron.vertices.len();
+    let off = 2.0 * error + (8 + count) as f64 * U * frame.size;
+    [-height - off, aside.dot(aside).sqrt() + off]
+}
+
+/// A face of a body over the other's lowest vertex.
+#[inline(always)]
+fn look_at_face<L: Lanes>(frame: &Frame<L>, body: usize, face: u32) -> Result<Proved<L>, Next> {
+    let (own, other) = (&frame.bodies[body], &frame.bodies[1 - body]);
+    let Some(record) = own.polyhedron.faces.get(face as usize) else { return Err(Next::Nothing) };
+    let normal = L::from_vector(&record.normal);
+    let turned = own.rotate_lanes(normal);
+    // Of unit length up to 3u: 1/√(1 + x) is 1 − x/2 for an x of 44u.
+    let scale = 1.5 - 0.5 * turned.dot(turned);
+    let m = turned.mul(L::splat(scale));
+    let (height, vertex) = lowest(other.polyhedron, other.rotate_back(m));
+    let depth = m.dot(own.offset) - scale * record.planes.offset[0] - height;
+    let error = rounding(frame, own.polyhedron, other.polyhedron);
+    let (lower, upper) = (depth - record.slack - error, depth + record.slack + error);
+    if !is_good(frame, lower, upper) {
+        return Err(Next::Nothing);
+    }
+    let deepest = &other.polyhedron.vertices[vertex as usize].position;
+    let below = own.rotate_back(other.rotate(deepest).sub(own.offset));
+    // Sides and their offsets are right to some 10u of 3ρ, the place to less than `error`.
+    let (inside, side) = least_inside(own.polyhedron, record, below);
+    if !(inside > 0.0) {
+        return Err(next_across(frame, body, face, side, vertex, m));
+    }
+    let [h, aside] = middle(frame, own, other, m, error);
+    if !encloses(inside - 2.0 * error, h, aside, upper) {
+        return Err(Next::Nothing);
+    }
+    let above = normal.negated_mul_add(L::splat(normal.dot(below) + record.planes.offset[0]), below);
+    let (mut points, mut features) =
+        ([above, L::from_vector(deepest)], [FeatureId::Face(face), FeatureId::Vertex(vertex)]);
+    let mut direction = m;
+    if body == 1 {
+        (points, features, direction) = ([points[1], points[0]], [features[1], features[0]], m.negate());
+    }
+    let facet = Facet::Face(body, face);
+    Ok(Proved { lower, upper, depth, direction, points, features, facet, steps: 0 })
+}
+
+/// How far a place is inside the nearest side of a face, and which that is.
+#[inline(always)]
+fn least_inside<L: Lanes>(polyhedron: &Polyhedron, face: &Face, place: L) -> (f64, usize) {
+    let [x, y, z] = [place.splat_x(), place.splat_y(), place.splat_z()];
+    let planes = &face.planes;
+    let value = x.mul_add(
+        L::load(&planes.x),
+        y.mul_add(L::load(&planes.y), z.mul_add(L::load(&planes.z), L::load(&planes.offset))),
+    );
+    let (mut least, mut first) = (value.with_first(L::splat(f64::INFINITY)), L::splat(-1.0));
+    let (mut at, four) = (L::splat(3.0), L::splat(4.0));
+    for planes in polyhedron.further_sides(face) {
+        let value = x.mul_add(
+            L::load(&planes.x),
+            y.mul_add(L::load(&planes.y), z.mul_add(L::load(&planes.z), L::load(&planes.offset))),
+        );
+        first = at.where_greater(least, value, first);
+        least = least.min(value);
+        at = at.add(four);
+    }
+    let (inside, lane) = least.least();
+    (inside, (first.to_array()[lane & 3] + lane as f64) as usize)
+}
+
+/// The facet across a side of a face.
+#[inline(always)]
+fn next_across<L: Lanes>(frame: &Frame<L>, body: usize, face: u32, side: usize, vertex: u32, m: L) -> Next {
+    let own = &frame.bodies[body];
+    let record = &own.polyhedron.faces[face as usize];
+    let side = side.min(record.side_count as usize - 1);
+    let [x, y, z, _] = own.polyhedron.side_plane(record, side);
+    let edge = own.polyhedron.side(record, side as u32);
+    let away = own.rotate(&Vector::new(x, y, z)).negate();
+    L::out_of_line(&mut Across { frame, body, edge, vertex, m, away, from: [face, NONE] })
+}
+
+/// Gift wrapping: the facet across the side that an edge of a body and a vertex of the other make.
+struct Across<'a, L> {
+    frame: &'a Frame<'a, L>,
+    /// The one with the edge.
+    body: usize,
+    edge: u32,
+    vertex: u32,
+    /// The normal of the facet, out of this body.
+    m: L,
+    /// In its plane, away from it.
+    away: L,
+    /// The face of this body and the edge of the other that the facet is of.
+    from: [u32; 2],
+}
+
+impl<L: Lanes> Work for Across<'_, L> {
+    type Output = Next;
+
+    /// The plane of the facet turns around the side: what it meets after the least angle is the next.
+    #[inline(always)]
+    fn run(&mut self) -> Next {
+        let Across { frame, body, edge, vertex, m, away, from } = *self;
+        let (own, other) = (&frame.bodies[body], &frame.bodies[1 - body]);
+        let record = &own.polyhedron.edges[edge as usize];
+        // Next to a half turn.
+        let (mut best, mut found) = ([-1.0, f64::MIN_POSITIVE], Next::Nothing);
+        for (face, normal) in [record.left(), record.right()].into_iter().zip(&record.normals) {
+            let normal = own.rotate(normal);
+            let angle = [normal.dot(m), normal.dot(away)];
+            if face != from[0] && angle[1] > 0.0 && comes_before(angle, best) {
+                (best, found) = (angle, Next::Facet(Facet::Face(body, face)));
+            }
+        }
+        let (down, across) = (other.rotate_back(m), other.rotate_back(away));
+        let place = L::from_vector(&other.polyhedron.vertices[vertex as usize].position);
+        for block in other.polyhedron.neighbour_blocks(vertex) {
+            for (head, turned) in block.head.into_iter().zip(block.edge) {
+                if turned == NONE || turned == from[1] {
+                    continue;
+                }
+                let to = L::from_vector(&other.polyhedron.vertices[head as usize].position).sub(place);
+                // No vertex is lower, rounding apart.
+                let angle = [-to.dot(across), to.dot(down).max(0.0)];
+                if comes_before(angle, best) {
+                    let edges = if body == 0 { [edge, turned] } else { [turned, edge] };
+                    (best, found) = (angle, Next::Facet(Facet::Edges(edges)));
+                }
+            }
+        }
+        found
+    }
+}
+
+/// Whether one angle from 0 to a half turn is less than another, by their cosines and sines up to a factor.
+#[inline(always)]
+fn comes_before([x, y]: [f64; 2], [other_x, other_y]: [f64; 2]) -> bool {
+    x * other_y - y * other_x > 0.0
+}
+
+/// A share of the way from one point to another.
+#[inline(always)]
+fn part_of<L: Lanes>([tail, head]: [&Vector; 2], share: f64) -> L {
+    let tail = L::from_vector(tail);
+    L::from_vector(head).sub(tail).mul_add(L::splat(share), tail)
+}
+
+/// A facet that is the parallelogram of two edges.
+struct AtEdges<'a, L> {
+    frame: &'a Frame<'a, L>,
+    edges: [u32; 2],
+}
+
+impl<L: Lanes> Work for AtEdges<'_, L> {
+    type Output = Result<Proved<L>, Next>;
+
+    #[inline(always)]
+    fn run(&mut self) -> Self::Output {
+        let AtEdges { frame, edges } = *self;
+        let [body1, body2] = &frame.bodies;
+        let [polyhedron1, polyhedron2] = frame.polyhedra();
+        let (Some(edge1), Some(edge2)) =
+            (polyhedron1.edges.get(edges[0] as usize), polyhedron2.edges.get(edges[1] as usize))
+        else {
+            return Err(Next::Nothing);
+        };
+        let ends = [
+            [&edge1.tail_position, &polyhedron1.vertices[edge1.head() as usize].position],
+            [&edge2.tail_position, &polyhedron2.vertices[edge2.head() as usize].position],
+        ];
+        // From body 1's origin, in world axes.
+        let [a, b] = [body1.rotate(ends[0][0]), body1.rotate(ends[0][1])];
+        let [c, d] = [body2.rotate(ends[1][0]).sub(body1.offset), body2.rotate(ends[1][1]).sub(body1.offset)];
+        let (e, g) = (b.sub(a), d.sub(c));
+        let across = e.cross(g);
+        let [square, of_e, of_g] = [across.dot(across), e.dot(e), g.dot(g)];
+        if !(square > LEAST_SQUARE * of_e * of_g) {
+            return Err(self.beside(across));
+        }
+        let unit = across.mul(L::splat(1.0 / square.sqrt()));
+        let start = a.sub(c);
+        let m = if unit.dot(start) < 0.0 { unit.negate() } else { unit };
+        let (top, _) = lowest(polyhedron1, body1.rotate_back(m).negate());
+        let (bottom, _) = lowest(polyhedron2, body2.rotate_back(m));
+        let error = rounding(frame, polyhedron1, polyhedron2);
+        // C reaches as high, and the corners of the parallelogram are as high.
+        let upper = m.dot(body1.offset) - top - bottom + error;
+        let heights = [m.dot(a), m.dot(b), m.dot(c), m.dot(d)];
+        let lower = heights[0].min(heights[1]) - heights[2].max(heights[3]) - error;
+        if !is_good(frame, lower, upper) {
+            return Err(self.beside(m));
+        }
+        // How far the origin's foot is from the lines along e through both ends of g, and along g through both ends of e.
+        let (beside_e, beside_g) = (m.cross(e), m.cross(g));
+        let (per_e, per_g) = (1.0 / of_e.sqrt(), 1.0 / of_g.sqrt());
+        let along_e = [beside_e.dot(start) * per_e, beside_e.dot(start.sub(g)) * per_e];
+        let along_g = [beside_g.dot(start) * per_g, beside_g.dot(start.add(e)) * per_g];
+        let sign_e = if along_e[0] > along_e[1] { 1.0 } else { -1.0 };
+        let sign_g = if along_g[0] > along_g[1] { 1.0 } else { -1.0 };
+        let inside = [sign_e * along_e[0], -sign_e * along_e[1], sign_g * along_g[0], -sign_g * along_g[1]];
+        let mut side = 0;
+        for other in 1..4 {
+            side = if inside[other] < inside[side] { other } else { side };
+        }
+        if !(inside[side] > 0.0) {
+            return Err(self.next_beyond(side, m, [e, g]));
+        }
+        let [h, aside] = middle(frame, body1, body2, m, error);
+        if !encloses(inside[side] - 4.0 * error, h, aside, upper) {
+            return Err(Next::Nothing);
+        }
+        // a + s·e is over c + t·g along m.
+        let (per, between) = (1.0 / across.dot(m), c.sub(a));
+        let (s, t) = (between.cross(g).dot(m) * per, between.cross(e).dot(m) * per);
+        let points = [part_of(ends[0], s), part_of(ends[1], t)];
+        let (depth, features) = (0.5 * (lower + upper), [FeatureId::Edge(edges[0]), FeatureId::Edge(edges[1])]);
+        Ok(Proved { lower, upper, depth, direction: m, points, features, facet: Facet::Edges(edges), steps: 0 })
+    }
+}
+
+impl<L: Lanes> AtEdges<'_, L> {
+    /// Where the edges have no facet any more: of the faces beside them that which is most across a direction.
+    #[inline(always)]
+    fn beside(&self, direction: L) -> Next {
+        let (mut most, mut best) = (0.0, Next::Nothing);
+        for (body, edge) in self.edges.into_iter().enumerate() {
+            let placed = &self.frame.bodies[body];
+            let record = &placed.polyhedron.edges[edge as usize];
+            let along = placed.rotate_back(direction);
+            let per = 1.0 / direction.dot(direction).sqrt();
+            for (face, normal) in [record.left(), record.right()].into_iter().zip(&record.normals) {
+                let cosine = (along.dot(L::from_vector(normal)) * per).abs();
+                if cosine > most {
+                    (most, best) = (cosine, Next::Facet(Facet::Face(body, face)));
+                }
+            }
+        }
+        best
+    }
+
+    /// The facet beyond a side of the parallelogram: along e at the tail or the head of g, or along g at the tail or the head of e.
+    #[inline(always)]
+    fn next_beyond(&self, side: usize, m: L, [e, g]: [L; 2]) -> Next {
+        let AtEdges { frame, edges: [edge1, edge2] } = *self;
+        let ends = |body: usize, edge: u32| {
+            let record = &frame.bodies[body].polyhedron.edges[edge as usize];
+            [record.tail(), record.head()]
+        };
+        let (body, edge, vertex, normal, along, out, other) = if side < 2 {
+            // C is a − c along −g.
+            let out = if side == 0 { g } else { g.negate() };
+            (0, edge1, ends(1, edge2)[side], m, e, out, edge2)
+        } else {
+            let out = if side == 2 { e } else { e.negate() };
+            (1, edge2, ends(0, edge1)[side - 2], m.negate(), g, out, edge1)
+        };
+        let across = m.cross(along);
+        let away = if across.dot(out) < 0.0 { across.negate() } else { across };
+        let away = away.mul(L::splat(1.0 / away.dot(away).sqrt()));
+        L::out_of_line(&mut Across { frame, body, edge, vertex, m: normal, away, from: [NONE, other] })
+    }
+}

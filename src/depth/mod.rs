@@ -1,0 +1,136 @@
+//! How deep two objects are in each other: an interval that holds the least translation that parts them, and where.
+//!
+//! Floating point searches and proves: for pairs at rest by the earlier facet or pyramid, else for small bodies by all facets,
+//! `facets/`, else by `polytope/`. Integers decide what rounding hides at the ends: objects that touch, flat ones in
+//! one plane, objects that hardly overlap.
+
+#[doc(hidden)]
+pub mod facets;
+#[doc(hidden)]
+pub mod polytope;
+mod answer;
+mod cache;
+mod scaling;
+mod resting;
+mod search;
+mod filling;
+mod proof;
+
+use crate::base::error::Result;
+use crate::base::math::Pose;
+use crate::base::simd;
+use crate::base::simd::environment::with_default;
+use crate::body::polyhedron::Polyhedron;
+use crate::depth::facets::Overlap;
+use crate::depth::polytope::{Expansion, Pyramid, Witness};
+use crate::shape::Placed;
+pub use answer::{DepthAnswer, DepthConfig, DepthEnding, DepthStatistics};
+pub use cache::DepthCache;
+pub(crate) use cache::PYRAMIDS;
+use filling::fill;
+pub(crate) use proof::{ProofFrom, proof};
+pub(crate) use resting::{DepthPlaces, prove_at_rest};
+use scaling::Rescaled;
+pub(crate) use search::Pyramids;
+use search::{DepthQuery, FoundPolytope, Search};
+
+/// How deep two polyhedra are in each other.
+///
+/// # Errors
+/// Same errors as `pair::depth`.
+pub(crate) fn of_polyhedra(
+    bodies: &[Placed; 2],
+    cache: &mut DepthCache,
+    config: &DepthConfig,
+    answer: &mut DepthAnswer,
+) -> Result<()> {
+    with_default(|| answer_query(bodies, cache, config, answer))
+}
+
+/// (The bodies by reference: a copy would wait for what the caller has just written, R1.)
+fn answer_query(
+    bodies: &[Placed; 2],
+    cache: &mut DepthCache,
+    config: &DepthConfig,
+    answer: &mut DepthAnswer,
+) -> Result<()> {
+    config.check()?;
+    let [body1, body2] = bodies;
+    let polyhedra = [body1.shape.polyhedron(), body2.shape.polyhedron()];
+    let poses = [body1.pose, body2.pose];
+    let pyramids = Pyramids::AtRest;
+    let mut overlap = Overlap::NONE;
+    let query = &mut DepthQuery { polyhedra, poses, config, cache, answer, pyramids, overlap: &mut overlap };
+    let mut found = simd::dispatch_to_avx2(query);
+    if found.is_none() {
+        poses.iter().try_for_each(|pose| pose.check(config.rotation_limit))?;
+        found = search_rescaled(polyhedra, poses, config, cache)?;
+    }
+    fill(answer, polyhedra, poses, found.as_ref(), &overlap)
+}
+
+/// Along which direction two bodies that intersect overlap least, for poses that are accepted: a depth from nothing. And the
+/// pyramid that proves it with the triangle that holds its points, if one is requested and there is one.
+///
+/// # Errors
+/// [`Error::Memory`](crate::base::error::Error::Memory) where integers get none.
+pub(crate) fn deepest(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    pyramids: Pyramids,
+) -> Result<(DepthAnswer, Option<(Pyramid, u8)>)> {
+    let (mut cache, config, mut answer) = (DepthCache::default(), DepthConfig::default(), DepthAnswer::default());
+    let mut overlap = Overlap::NONE;
+    let mut found = simd::dispatch_to_avx2(&mut DepthQuery {
+        polyhedra,
+        poses,
+        config: &config,
+        cache: &mut cache,
+        answer: &mut answer,
+        pyramids,
+        overlap: &mut overlap,
+    });
+    let mut raised = None;
+    if found.is_some() && cache.has_pyramid() {
+        let pyramid = cache.pyramid(0);
+        raised = resting::triangle_of(polyhedra, poses, pyramid).map(|triangle| (*pyramid, triangle));
+    }
+    if found.is_none() {
+        found = search_rescaled(polyhedra, poses, &config, &mut cache)?;
+    }
+    fill(&mut answer, polyhedra, poses, found.as_ref(), &overlap)?;
+    Ok((answer, raised))
+}
+
+/// The search among copies of the bodies in another unit of length, for poses that are accepted. `None` of a pair that floating
+/// point is not for in any unit.
+///
+/// # Errors
+/// [`Error::Memory`](crate::base::error::Error::Memory) where the copies get none.
+#[cold]
+#[inline(never)]
+fn search_rescaled(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    config: &DepthConfig,
+    cache: &mut DepthCache,
+) -> Result<Option<Search>> {
+    let Some(pair) = Rescaled::of(polyhedra, poses)? else { return Ok(None) };
+    let config = DepthConfig { absolute_error: pair.in_unit(config.absolute_error), ..*config };
+    let (polyhedra, poses) = (pair.polyhedra(), pair.poses());
+    let (mut unused, mut overlap) = (DepthAnswer::default(), Overlap::NONE);
+    let (config, answer, pyramids) = (&config, &mut unused, Pyramids::Unused);
+    let query = &mut DepthQuery { polyhedra, poses, config, cache, answer, pyramids, overlap: &mut overlap };
+    // Copies have no fan.
+    let Some(Search::Polytope(found)) = simd::dispatch_to_avx2(query) else { return Ok(None) };
+    let FoundPolytope { expansion, witness, .. } = found;
+    let upper = pair.upper_of(expansion.upper);
+    if upper == f64::INFINITY && expansion.upper < upper {
+        return Ok(None);
+    }
+    Ok(Some(Search::Polytope(FoundPolytope {
+        expansion: Expansion { lower: pair.lower_of(expansion.lower), upper, ..expansion },
+        witness: Witness { depth: pair.lower_of(witness.depth), ..witness },
+        ..found
+    })))
+}

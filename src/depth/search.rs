@@ -1,0 +1,353 @@
+//! The search in floating point: the pyramid at rest is looked at first, then all facets of small bodies, else a polytope.
+
+use super::answer::{DepthAnswer, DepthConfig};
+use super::cache::DepthCache;
+use super::resting::{self, LeastFacet};
+use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
+use crate::base::simd::{Kernel, Lanes, Work};
+use crate::body::polyhedron::Polyhedron;
+use crate::body::polyhedron::fan::Fan;
+use crate::depth::facets::{self, Outcome as ByFacets, Overlap};
+use crate::depth::polytope::{self, Ending, Expansion, Polytope, SearchStart, Wanted, Witness, is_in_scale};
+use crate::placed::frame::Frame;
+
+/// The search in floating point, compiled for the machine's vector units; it keeps the polytope.
+pub struct DepthQuery<'a> {
+    pub polyhedra: [&'a Polyhedron; 2],
+    pub poses: [&'a Pose; 2],
+    pub config: &'a DepthConfig,
+    pub cache: &'a mut DepthCache,
+    /// Filled where a pyramid answers.
+    pub answer: &'a mut DepthAnswer,
+    pub pyramids: Pyramids,
+    /// Filled where all facets answer, or find that the bodies are apart.
+    pub overlap: &'a mut Overlap,
+}
+
+/// When a pyramid is raised for later queries.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Pyramids {
+    /// None is raised or looked at.
+    Unused,
+    /// For pairs that seem to rest.
+    AtRest,
+    Always,
+}
+
+/// The cost of looking at all facets: planes times corners of the pair, see [`facets::work`]. Below this it takes less time than
+/// moving on a polytope that was kept …
+const LITTLE_WORK: usize = 3_000;
+
+/// … and below this less than making one. One is made there where the direction of least overlap has turned by no more than the
+/// angle of this cosine, 4°, since the search before: then the next query moves it on.
+const MOST_WORK: usize = 10_000;
+const COHERENT: f64 = 0.9975;
+
+/// How wide an interval may be, over the pair's size or distance, a little less than is promised. By all facets it is wider where
+/// faces were merged of triangles that lean out of them by rounding, or edges are nearly parallel. A polytope does better then …
+pub const WIDEST: f64 = 176.0 * UNIT_ROUNDOFF;
+
+/// … unless it does not finish.
+const WIDEST_OF_ALL: f64 = 1e-9;
+
+/// The scale for relative widths: the pair's size, or how far the bodies' origins are apart.
+#[inline(always)]
+fn scale_of<L: Lanes>(frame: &Frame<L>) -> f64 {
+    if frame.separation > frame.size { frame.separation } else { frame.size }
+}
+
+/// Whether an interval is no wider than this: then it is as narrow as is promised though rounding hides where the polytope could
+/// grow, as it does where vertices tie.
+#[inline(always)]
+fn is_narrow(expansion: &Expansion, widest: f64) -> bool {
+    expansion.lower > 0.0 && expansion.upper - expansion.lower <= widest
+}
+
+/// Room for a polytope whose final state the cache may keep.
+const MOST_VERTICES: usize = 64;
+
+/// The most triangles of a closed surface of `MOST_VERTICES` vertices, without holes and handles.
+const MOST_TRIANGLES: usize = 124;
+
+/// The result of one search or the other.
+pub enum Search {
+    /// An earlier pyramid: the answer is already complete.
+    Answered,
+    /// All facets: the query's overlap.
+    Facets,
+    /// Along this direction, from body 1 to body 2, the bodies are apart.
+    Apart(Vector),
+    /// A polytope.
+    Polytope(FoundPolytope),
+}
+
+/// The result of the search by a polytope.
+pub struct FoundPolytope {
+    pub expansion: Expansion,
+    pub witness: Witness,
+    pub triangles: u32,
+}
+
+impl FoundPolytope {
+    #[inline(always)]
+    fn without_triangles(expansion: Expansion) -> FoundPolytope {
+        let witness = Witness { pairs: [expansion.farthest; 3], count: 1, weights: [1.0; 4], depth: 0.0 };
+        FoundPolytope { expansion, witness, triangles: 0 }
+    }
+
+    /// Whether neither a direction that separates the bodies nor an interval that tells them from touching ones has been found,
+    /// with room and steps to spare.
+    #[inline(always)]
+    fn is_open(&self) -> bool {
+        match self.expansion.ending {
+            // With more room the search begins anew in any case.
+            Ending::Separated | Ending::Stuck | Ending::Outdated => false,
+            Ending::Narrow => !(self.expansion.lower > 0.0),
+            Ending::Spent | Ending::Flat => true,
+        }
+    }
+}
+
+impl Kernel for DepthQuery<'_> {
+    /// None of a pair that floating point is not for.
+    type Output = Option<Search>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Option<Search> {
+        let frame = Frame::<L>::new(self.polyhedra, self.poses, self.config.rotation_limit);
+        if !(frame.in_range && is_in_scale(self.polyhedra)) {
+            return None;
+        }
+        let is_new = self.pyramids == Pyramids::Unused;
+        if !is_new
+            && (resting::look_at_facet(&frame, self.cache, self.answer)
+                || resting::look_at_pyramids(&frame, self.poses, self.cache, self.answer))
+        {
+            return Some(Search::Answered);
+        }
+        let before = self.cache.direction(&frame);
+        let found = self.search_anew(&frame)?;
+        let facet = self.facet_of(&found);
+        let rests = facet.as_ref().is_some_and(|facet| facet.rests(before, frame.size));
+        if !rests {
+            self.cache.rest_no_more();
+        }
+        if let Some(facet) = facet
+            && match self.pyramids {
+                Pyramids::Unused => false,
+                Pyramids::AtRest => rests && !self.learn(&frame, &facet) && self.cache.may_raise(),
+                Pyramids::Always => true,
+            }
+        {
+            resting::raise(&frame, self.cache, facet);
+        }
+        Some(found)
+    }
+}
+
+/// Whether directions have hardly turned in either body's axes.
+#[inline(always)]
+fn are_alike(before: Option<[Vector; 2]>, after: Option<[Vector; 2]>) -> bool {
+    let (Some([a, b]), Some([c, d])) = (before, after) else { return false };
+    a.dot(&c) > COHERENT && b.dot(&d) > COHERENT
+}
+
+/// The search by a polytope, and by facets where that does not finish.
+struct ByPolytope<'a, 'b, L> {
+    query: &'a mut DepthQuery<'b>,
+    frame: &'a Frame<'a, L>,
+}
+
+impl<L: Lanes> Work for ByPolytope<'_, '_, L> {
+    type Output = Option<Search>;
+
+    #[inline(always)]
+    fn run(&mut self) -> Option<Search> {
+        let ByPolytope { query, frame } = self;
+        let mut polytope = Polytope::<MOST_VERTICES, { MOST_TRIANGLES + 4 }>::EMPTY;
+        let mut start = query.cache.unpack(frame, &mut polytope);
+        let steps = query.config.step_budget;
+        start.only_known = start.triangle.is_some() && query.work() <= MOST_WORK;
+        let mut found = query.search::<L, _, _, 1>(frame, &mut polytope, &start, steps);
+        if found.expansion.ending == Ending::Outdated {
+            if let Some(found) = query.search_facets(frame, WIDEST) {
+                return Some(found);
+            }
+            start = SearchStart { triangle: None, direction: None, only_known: false, ..start };
+            polytope.clear();
+            found = query.search::<L, _, _, 1>(frame, &mut polytope, &start, steps);
+        }
+        let was_told = start.triangle.is_some() || start.direction.is_some();
+        // State from an earlier query must not make an answer worse.
+        if was_told && found.is_open() && found.expansion.steps < steps {
+            let mut again = SearchAgain { search: query, frame, polytope: &mut polytope, first: &found };
+            found = L::out_of_line(&mut again);
+        }
+        if found.expansion.ending != Ending::Stuck {
+            return Some(Search::Polytope(found));
+        }
+        if let Some(found) = query.search_facets(frame, WIDEST_OF_ALL) {
+            return Some(found);
+        }
+        let start = SearchStart { triangle: None, direction: None, only_known: false, ..start };
+        Some(Search::Polytope(L::out_of_line(&mut InLarge { search: query, frame, start })))
+    }
+}
+
+impl<'a> DepthQuery<'a> {
+    /// Keeps the facet of a pair that seems to rest, if it alone proves a depth; whether it does.
+    #[inline(always)]
+    fn learn<L: Lanes>(&mut self, frame: &Frame<L>, found: &LeastFacet) -> bool {
+        let known = found.facet.or_else(|| facets::across(frame, &found.direction));
+        match known.map(|facet| facets::prove(frame, facet)) {
+            Some(Ok(proved)) => self.cache.rest_on(proved.facet),
+            Some(Err(_)) | None => self.cache.rest_no_more(),
+        }
+        self.cache.resting().is_some()
+    }
+
+    /// `None` where the search was not sure of one.
+    #[inline(always)]
+    fn facet_of(&self, found: &Search) -> Option<LeastFacet> {
+        match found {
+            Search::Facets => {
+                let Overlap { upper, direction, facet, .. } = *self.overlap;
+                Some(LeastFacet { upper, direction, farthest: [0; 2], facet: Some(facet) })
+            }
+            Search::Polytope(FoundPolytope { expansion, .. }) => {
+                let Expansion { ending, lower, upper, direction, farthest, .. } = *expansion;
+                (ending == Ending::Narrow && lower > 0.0).then_some(LeastFacet {
+                    upper,
+                    direction,
+                    farthest,
+                    facet: None,
+                })
+            }
+            Search::Apart(_) | Search::Answered => None,
+        }
+    }
+
+    /// Without what rested before.
+    #[inline(always)]
+    fn search_anew<L: Lanes>(&mut self, frame: &Frame<L>) -> Option<Search> {
+        let work = self.work();
+        if work <= LITTLE_WORK || (work <= MOST_WORK && !self.cache.has_polytope()) {
+            let before = self.cache.facet_directions();
+            let found = self.search_facets(frame, WIDEST);
+            if work <= LITTLE_WORK && found.is_some() {
+                return found;
+            }
+            let is_coherent = matches!(found, Some(Search::Facets)) && are_alike(before, self.cache.facet_directions());
+            if found.is_some() && !is_coherent {
+                return found;
+            }
+        }
+        L::out_of_line(&mut ByPolytope { query: self, frame })
+    }
+
+    /// The fans of a pair of small bodies.
+    #[inline(always)]
+    fn fans(&self) -> Option<[&'a Fan; 2]> {
+        let [polyhedron1, polyhedron2] = self.polyhedra;
+        Some([polyhedron1.fan.as_ref()?, polyhedron2.fan.as_ref()?])
+    }
+
+    /// The cost of looking at all facets; unbounded where that does not suit the pair.
+    #[inline(always)]
+    fn work(&self) -> usize {
+        match self.fans() {
+            Some(fans) => facets::work(fans),
+            None => usize::MAX,
+        }
+    }
+
+    #[inline(always)]
+    fn search_facets<L: Lanes>(&mut self, frame: &Frame<L>, widest: f64) -> Option<Search> {
+        let fans = self.fans()?;
+        let outcome = facets::search(frame, fans, self.cache.facet(), widest * scale_of(frame), self.overlap);
+        let Overlap { facet, direction, .. } = &*self.overlap;
+        match outcome {
+            ByFacets::Separated => {
+                self.cache.keep_facet(frame, *facet, direction, false);
+                Some(Search::Apart(*direction))
+            }
+            ByFacets::Overlapping => {
+                self.cache.keep_facet(frame, *facet, direction, true);
+                Some(Search::Facets)
+            }
+            ByFacets::Unclear => None,
+        }
+    }
+
+    #[inline(always)]
+    fn search<L: Lanes, const V: usize, const T: usize, const W: usize>(
+        &mut self,
+        frame: &Frame<L>,
+        polytope: &mut Polytope<V, T>,
+        start: &SearchStart,
+        steps: u32,
+    ) -> FoundPolytope {
+        let DepthConfig { absolute_error, relative_error, .. } = *self.config;
+        let wanted = Wanted { width: absolute_error, relative: relative_error, steps, lower: 0.0 };
+        let mut expansion = polytope::expand::<L, V, T, W>(frame, polytope, start, &wanted);
+        if expansion.ending == Ending::Outdated {
+            return FoundPolytope::without_triangles(expansion);
+        }
+        if expansion.ending == Ending::Stuck && is_narrow(&expansion, WIDEST * scale_of(frame)) {
+            expansion.ending = Ending::Narrow;
+        }
+        if polytope.triangle_count == 0 || !(expansion.upper < f64::INFINITY) {
+            *self.cache = DepthCache::default();
+            return FoundPolytope::without_triangles(expansion);
+        }
+        let (witness, triangle) = polytope::witness(frame, polytope, &expansion);
+        if expansion.is_as_kept {
+            self.cache.keep(frame, triangle, &expansion.direction);
+        } else {
+            self.cache.pack(frame, polytope, triangle, &expansion.direction, expansion.first_triangles);
+        }
+        FoundPolytope { expansion, witness, triangles: polytope.triangle_count as u32 }
+    }
+}
+
+/// The search from the beginning, with more room: for bodies that are nearly as deep in each other everywhere.
+struct InLarge<'a, 'b, L> {
+    search: &'a mut DepthQuery<'b>,
+    frame: &'a Frame<'a, L>,
+    start: SearchStart,
+}
+
+impl<L: Lanes> Work for InLarge<'_, '_, L> {
+    type Output = FoundPolytope;
+
+    #[inline(always)]
+    fn run(&mut self) -> FoundPolytope {
+        let mut polytope = Polytope::<255, 508>::EMPTY;
+        self.search.search::<L, _, _, 4>(self.frame, &mut polytope, &self.start, self.search.config.step_budget)
+    }
+}
+
+/// The search from nothing, after one from the kept state that led nowhere. Its answer is that of a first query, as long as the
+/// steps do.
+struct SearchAgain<'a, 'b, L> {
+    search: &'a mut DepthQuery<'b>,
+    frame: &'a Frame<'a, L>,
+    polytope: &'a mut Polytope<MOST_VERTICES, { MOST_TRIANGLES + 4 }>,
+    first: &'a FoundPolytope,
+}
+
+impl<L: Lanes> Work for SearchAgain<'_, '_, L> {
+    type Output = FoundPolytope;
+
+    #[inline(always)]
+    fn run(&mut self) -> FoundPolytope {
+        let Expansion { steps, supports, .. } = self.first.expansion;
+        let start = SearchStart { triangle: None, direction: None, first_triangles: 0, only_known: false };
+        self.polytope.clear();
+        let left = self.search.config.step_budget - steps;
+        let mut found = self.search.search::<L, _, _, 1>(self.frame, self.polytope, &start, left);
+        found.expansion.steps += steps;
+        found.expansion.supports += supports;
+        found
+    }
+}

@@ -1,0 +1,413 @@
+//! A pair of placed polyhedra prepared for one query: everything is measured in world axes relative to the other body, from
+//! R₁, R₂ and T₁ − T₂ as given.
+//!
+//! The translations are subtracted before anything is rotated, so that a pair 10⁹ from the origin loses no digits. A direction is
+//! mapped *into* a body by the transpose, which is exact for support functions with any R; only where marching maps a *point*
+//! into a body does the transpose stand for the inverse, and there it merely proposes.
+
+use crate::base::double_double::{DoubleDouble, two_product, two_sum};
+use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
+use crate::base::scalar::{Ring, Scalar, constant};
+use crate::base::simd::Lanes;
+use crate::body::polyhedron::{LARGEST, Polyhedron, SMALLEST};
+
+/// A rotation is taken for rigid when no entry of RᵀR − I exceeds this; the rounding of an orthonormal matrix to doubles leaves
+/// a few u.
+pub const RIGID: f64 = 7.0 * UNIT_ROUNDOFF;
+
+/// As [`RIGID`], for the root of the sum of four entries' squares, which is quicker to look at.
+pub const RIGID_TOGETHER: f64 = 10.0 * UNIT_ROUNDOFF;
+
+/// ‖RᵀR − I‖₂ of a pose that counts as rigid, the rounding with which it was measured included.
+///
+/// By [`RIGID`]: entries up to 7u make 3·7u. By [`RIGID_TOGETHER`]: lane i holds the diagonal's entry sᵢ and pᵢ beside it, sᵢ² +
+/// pᵢ² ≤ (10u)². So xᵀEx = Σ(sᵢxᵢ² + 2pᵢxᵢxᵢ₊₁) ≤ 10u·Σ|xᵢ|√(xᵢ² + 4xᵢ₊₁²) ≤ 10u·√5 for |x| = 1 (Cauchy and Schwarz, twice).
+/// Measuring errs by up to 3.5u on the diagonal entry by entry, 2.5u in lanes, and 2u beside it: together 28.5u and 28.9u.
+pub const RIGID_DEFECT: f64 = 29.0 * UNIT_ROUNDOFF;
+
+/// The second body's position and its first two axes, as seen from the first body of a pair ([`Frame::mark`]), as the bits of
+/// single-precision numbers; the last of each four carries no information.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(transparent)]
+pub struct Marker([[u32; 4]; 3]);
+
+/// One placed body.
+#[derive(Clone, Copy)]
+pub struct Body<'a, L> {
+    /// Its geometry, in centred coordinates.
+    pub polyhedron: &'a Polyhedron,
+    /// Rows of R; lane 3 is unspecified.
+    rows: [L; 3],
+    /// Columns of R.
+    columns: [L; 3],
+    /// The world position of its centred origin: T + R·c.
+    pub translation: L,
+    /// Its centred origin minus that of the other body, in world axes.
+    pub offset: L,
+    /// Whether R is farther from orthonormal than rounding makes it.
+    skewed: bool,
+}
+
+impl<L: Lanes> Body<'_, L> {
+    /// R·p, for a point from memory.
+    #[inline(always)]
+    pub fn rotate(&self, p: &Vector) -> L {
+        let [x, y, z] = self.columns;
+        z.mul_add(L::splat(p.z), y.mul_add(L::splat(p.y), x.mul(L::splat(p.x))))
+    }
+
+    /// R·d.
+    #[inline(always)]
+    pub fn rotate_lanes(&self, d: L) -> L {
+        let [x, y, z] = self.columns;
+        z.mul_add(d.splat_z(), y.mul_add(d.splat_y(), x.mul(d.splat_x())))
+    }
+
+    /// Rᵀ·d.
+    #[inline(always)]
+    pub fn rotate_back(&self, d: L) -> L {
+        let [x, y, z] = self.rows;
+        z.mul_add(d.splat_z(), y.mul_add(d.splat_y(), x.mul(d.splat_x())))
+    }
+
+    /// Rᵀ·d, for a vector from memory: number by number, as it may just have been written (R1).
+    #[inline(always)]
+    pub fn rotate_vector_back(&self, d: &Vector) -> L {
+        let [x, y, z] = self.rows;
+        z.mul_add(L::splat(d.z), y.mul_add(L::splat(d.y), x.mul(L::splat(d.x))))
+    }
+
+    /// The rows of R; lane 3 is unspecified.
+    #[inline(always)]
+    pub fn rows(&self) -> [L; 3] {
+        self.rows
+    }
+
+    /// The columns of R.
+    #[inline(always)]
+    pub fn columns(&self) -> [L; 3] {
+        self.columns
+    }
+
+    /// A world direction U with RᵀU = n up to rounding: R·n, or where R is skewed R⁻ᵀ·n.
+    #[inline(always)]
+    pub fn lift(&self, n: L) -> L {
+        if self.skewed {
+            let ([x, y, z], inverse) = self.cofactors();
+            return z.mul_add(n.splat_z(), y.mul_add(n.splat_y(), x.mul(n.splat_x()))).mul(L::splat(inverse));
+        }
+        self.rotate_lanes(n)
+    }
+
+    /// R⁻¹·d.
+    #[inline(always)]
+    pub fn invert(&self, d: L) -> L {
+        let ([x, y, z], inverse) = self.cofactors();
+        L::from_vector(&(Vector::new(x.dot(d), y.dot(d), z.dot(d)) * inverse))
+    }
+
+    /// The columns of det(R)·R⁻ᵀ, and 1/det(R).
+    #[inline(always)]
+    fn cofactors(&self) -> ([L; 3], f64) {
+        let [x, y, z] = self.columns;
+        let columns = [y.cross(z), z.cross(x), x.cross(y)];
+        (columns, 1.0 / x.dot(columns[0]))
+    }
+}
+
+/// Two placed bodies.
+#[derive(Clone, Copy)]
+pub struct Frame<'a, L> {
+    /// Whether the poses are acceptable and the magnitudes such that double precision's error bounds cover them; a cold path
+    /// finds out which is not.
+    pub in_range: bool,
+    /// Whether both rotations are orthonormal up to rounding, see [`RIGID_TOGETHER`].
+    pub rigid: bool,
+    /// Body 1 and body 2.
+    pub bodies: [Body<'a, L>; 2],
+    /// ρ₁ + ρ₂.
+    pub size: f64,
+    /// An upper bound of |Δ|, the distance of the centred origins, and so large that Δ as computed is off by at most 2u times it.
+    pub separation: f64,
+    /// The rounding error of a point of one body seen from the other: marching leaves a Voronoi region only when a plane is
+    /// violated by more.
+    pub tolerance: f64,
+}
+
+impl<'a, L: Lanes> Frame<'a, L> {
+    /// Prepares a pair, `rotation_limit` as in [`Pose::check`]. The frame is useless unless it is `in_range`.
+    #[inline(always)]
+    pub fn new(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2], rotation_limit: f64) -> Frame<'a, L> {
+        let placed = [PoseInLanes::<L>::new(poses[0]), PoseInLanes::<L>::new(poses[1])];
+        let (mut in_range, mut skewed) = (true, [false; 2]);
+        // A limit below what counts as rigid is the caller's to set.
+        if rotation_limit < RIGID_TOGETHER || !PoseInLanes::are_rigid(&placed) {
+            (in_range, skewed) = look_closer(poses, rotation_limit);
+        }
+        let [radius1, radius2] = [polyhedra[0].radius, polyhedra[1].radius];
+        in_range &= (SMALLEST..=LARGEST).contains(&if radius1 > radius2 { radius1 } else { radius2 });
+        let mut origins = Origins {
+            offset: placed[0].columns[3].sub(placed[1].columns[3]),
+            cancelled: 0.0,
+            translations: [placed[0].columns[3], placed[1].columns[3]],
+        };
+        if polyhedra.iter().any(|polyhedron| polyhedron.centre != Vector::zeros()) {
+            let centred = centred(polyhedra, poses);
+            origins = Origins {
+                offset: L::load(&centred.offset),
+                cancelled: centred.cancelled,
+                translations: [L::load(&centred.translations[0]), L::load(&centred.translations[1])],
+            };
+        }
+        Frame::assemble(polyhedra, &placed, &origins, in_range, skewed)
+    }
+
+    /// [`Frame::new`] for [simple](Polyhedron::simple) bodies and a rotation limit of at least [`RIGID_TOGETHER`]: only
+    /// `in_range` if both poses are rigid and within range, without a closer look.
+    #[inline(always)]
+    pub fn of_rigid(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2]) -> Frame<'a, L> {
+        let placed = [PoseInLanes::<L>::new(poses[0]), PoseInLanes::<L>::new(poses[1])];
+        let [translation1, translation2] = [placed[0].columns[3], placed[1].columns[3]];
+        let origins = Origins {
+            offset: translation1.sub(translation2),
+            cancelled: 0.0,
+            translations: [translation1, translation2],
+        };
+        Frame::assemble(polyhedra, &placed, &origins, PoseInLanes::are_rigid(&placed), [false; 2])
+    }
+
+    #[inline(always)]
+    fn assemble(
+        polyhedra: [&'a Polyhedron; 2],
+        placed: &[PoseInLanes<L>; 2],
+        origins: &Origins<L>,
+        in_range: bool,
+        skewed: [bool; 2],
+    ) -> Frame<'a, L> {
+        let size = polyhedra[0].radius + polyhedra[1].radius;
+        let offset = origins.offset;
+        let separation = separation(offset.dot(offset), origins.cancelled);
+        Frame {
+            in_range,
+            rigid: !(skewed[0] | skewed[1]),
+            bodies: [
+                placed[0].body(polyhedra[0], origins.translations[0], offset, skewed[0]),
+                placed[1].body(polyhedra[1], origins.translations[1], offset.negate(), skewed[1]),
+            ],
+            size,
+            separation,
+            tolerance: tolerance(size, separation),
+        }
+    }
+
+    /// The geometry of both.
+    #[inline(always)]
+    pub fn polyhedra(&self) -> [&'a Polyhedron; 2] {
+        [self.bodies[0].polyhedron, self.bodies[1].polyhedron]
+    }
+
+    /// The centred origin of body 2 as seen by body 1, in its own axes.
+    #[inline(always)]
+    fn view(&self) -> L {
+        self.bodies[0].rotate_back(self.bodies[1].offset)
+    }
+
+    /// How body 1 sees the first two axes of body 2.
+    #[inline(always)]
+    fn axes(&self) -> [L; 2] {
+        let [body1, body2] = &self.bodies;
+        let [first, second, ..] = body2.columns;
+        [body1.rotate_back(first), body1.rotate_back(second)]
+    }
+
+    /// Writes down where the pair is, to tell later how far it has moved. In place (R1: 8 % of a query
+    /// from the tables).
+    #[inline(always)]
+    pub fn mark(&self, marker: &mut Marker) {
+        let [to_origin, to_first, to_second] = &mut marker.0;
+        let [first, second] = self.axes();
+        self.view().store_single(to_origin);
+        first.store_single(to_first);
+        second.store_single(to_second);
+    }
+
+    /// Whether the square of the angle by which the pair has moved since it had a marker is more than so much: the angle by which
+    /// body 2 has moved around body 1 and that by which it has turned, both as body 1 sees it, taken together. So a turn of body 1
+    /// counts as both, and one of body 2 about its own first axis is not seen. One point of body 2 instead would show their sum,
+    /// which may be nothing.
+    #[inline(always)]
+    pub fn has_moved(&self, last: &Marker, square: f64) -> bool {
+        let moved = self.view().sub(L::load_single(&last.0[0]));
+        let [axis, _] = self.axes();
+        let turned = axis.sub(L::load_single(&last.0[1]));
+        let lever = if self.separation > self.size { self.separation } else { self.size };
+        moved.dot(moved) > lever * lever * (square - turned.dot(turned))
+    }
+
+    /// Whether the square of the angle by which body 2 has turned, seen from body 1, is more than so much by its second axis: a
+    /// turn about its own first axis, which [`Frame::has_moved`] does not see.
+    #[inline(always)]
+    pub fn has_rolled(&self, last: &Marker, square: f64) -> bool {
+        let [_, axis] = self.axes();
+        let rolled = axis.sub(L::load_single(&last.0[2]));
+        rolled.dot(rolled) > square
+    }
+
+    /// The computed x − y for x = point `p` of body 1 and y = point `q` of body 2, both in centred local coordinates.
+    #[inline(always)]
+    pub fn difference(&self, p: &Vector, q: &Vector) -> L {
+        self.bodies[0].rotate(p).add(self.bodies[0].offset).sub(self.bodies[1].rotate(q))
+    }
+
+    /// An upper bound of the rounding error of [`Frame::difference`], whose length is about `length`, for points within their
+    /// bodies' radii. A foot found on a face's plane may lie beyond; a caller that uses it adds that error, as `of_face` does.
+    ///
+    /// R·p errs by at most γ₃·‖|R|‖·|p| ≤ 5.3u·ρ (‖|R|‖ ≤ √3·1.015), the sum with Δ by u(|D| + 1.02ρ₂), Δ itself by at most
+    /// 2u|Δ|, the last difference by u|D|.
+    #[inline(always)]
+    pub fn difference_error(&self, length: f64) -> f64 {
+        difference_error(self.size, self.separation, length)
+    }
+}
+
+/// [`Frame::difference_error`].
+#[inline(always)]
+pub fn difference_error<S: Scalar>(size: S, separation: S, length: S) -> S {
+    let [by_size, by_separation, by_length] = [constant::<S>(6.5), constant(2.0), constant(2.0)];
+    constant::<S>(UNIT_ROUNDOFF) * (by_size * size + by_separation * separation + by_length * length)
+}
+
+/// [`Frame::separation`], from Δ² and the value of [`Centred::cancelled`].
+#[inline(always)]
+pub fn separation<S: Scalar>(square: S, cancelled: S) -> S {
+    square.sqrt() * constant(1.0 + 8.0 * UNIT_ROUNDOFF) + constant::<S>(16.0 * UNIT_ROUNDOFF) * cancelled
+}
+
+/// [`Frame::tolerance`].
+#[inline(always)]
+pub fn tolerance<S: Scalar>(size: S, separation: S) -> S {
+    constant::<S>(32.0 * UNIT_ROUNDOFF) * (size + separation)
+}
+
+/// A pose in lanes, and what has to be small for it to be acceptable.
+struct PoseInLanes<L> {
+    rows: [L; 3],
+    /// The columns of R, and T.
+    columns: [L; 4],
+    /// The diagonal of RᵀR − I.
+    squares: L,
+    /// Its other entries.
+    products: L,
+    /// (first row) × (second row) − (third row): about 0 for a rotation, about −2·(third row) for a reflection.
+    reflection: L,
+}
+
+impl<L: Lanes> PoseInLanes<L> {
+    #[inline(always)]
+    fn new(pose: &Pose) -> PoseInLanes<L> {
+        let rows = [L::load(&pose.rows[0]), L::load(&pose.rows[1]), L::load(&pose.rows[2])];
+        let [a, b, c] = rows;
+        let [a_next, b_next, c_next] = [a.rotate(), b.rotate(), c.rotate()];
+        PoseInLanes {
+            rows,
+            columns: L::transpose(&rows),
+            squares: c.mul_add(c, b.mul_add(b, a.mul_add(a, L::splat(-1.0)))),
+            products: c.mul_add(c_next, b.mul_add(b_next, a.mul(a_next))),
+            reflection: a_next.negated_mul_add(b, a.mul(b_next)).rotate().sub(c),
+        }
+    }
+
+    /// Whether |RᵀR − I| is no more than rounding in every entry, det R > 0 and T is finite and not too large, for both. The
+    /// squares of four entries at a time are summed, one of each kind of each pose: a NaN passes no comparison.
+    #[inline(always)]
+    fn are_rigid(placed: &[PoseInLanes<L>; 2]) -> bool {
+        let [first, second] = placed;
+        let defect = first.squares.mul(first.squares);
+        let defect = second.squares.mul_add(second.squares, defect);
+        let defect = first.products.mul_add(first.products, defect);
+        let defect = second.products.mul_add(second.products, defect);
+        let improper = second.reflection.mul_add(second.reflection, first.reflection.mul(first.reflection));
+        let [far1, far2] = [first.columns[3], second.columns[3]];
+        let far = far2.mul_add(far2, far1.mul(far1));
+        let limits = [L::splat(RIGID_TOGETHER * RIGID_TOGETHER), L::splat(0.25), L::splat(LARGEST * LARGEST)];
+        let within = defect.at_most(limits[0]) & improper.at_most(limits[1]) & far.at_most(limits[2]);
+        within & 0b111 == 0b111
+    }
+
+    #[inline(always)]
+    fn body<'a>(&self, polyhedron: &'a Polyhedron, translation: L, offset: L, skewed: bool) -> Body<'a, L> {
+        let [x, y, z, _] = self.columns;
+        Body { polyhedron, rows: self.rows, columns: [x, y, z], translation, offset, skewed }
+    }
+}
+
+/// The positions of the bodies' centred origins.
+struct Origins<L> {
+    /// That of body 1 minus that of body 2.
+    offset: L,
+    /// The value of [`Centred::cancelled`].
+    cancelled: f64,
+    /// In the world.
+    translations: [L; 2],
+}
+
+/// Whether poses are acceptable and within range.
+pub fn are_acceptable(poses: [&Pose; 2], limit: f64) -> bool {
+    poses.iter().all(|pose| pose.check(limit).is_ok() && pose.translation().amax() <= LARGEST)
+}
+
+/// For poses that are not both rigid and within range: whether they are acceptable and within range, and which are skewed.
+#[cold]
+fn look_closer(poses: [&Pose; 2], limit: f64) -> (bool, [bool; 2]) {
+    (are_acceptable(poses, limit), poses.map(|pose| !(pose.rotation_defect() <= RIGID)))
+}
+
+/// The additional data for bodies whose centres are not their origins.
+struct Centred {
+    /// (T₁ + R₁c₁) − (T₂ + R₂c₂).
+    offset: [f64; 4],
+    /// The sum M of the magnitudes of the terms that the offset is the sum of: far more than |Δ| where they cancel.
+    cancelled: f64,
+    /// T + R·c of both.
+    translations: [[f64; 4]; 2],
+}
+
+/// M's weight in `separation` covers the error of the offset: 2u·16u·M.
+#[cold]
+fn centred(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Centred {
+    let ([x, y, z], cancelled) = between_centres(polyhedra, poses);
+    let translations = [0, 1].map(|i| {
+        let world = poses[i].transform(&polyhedra[i].centre);
+        [world.x, world.y, world.z, 0.0]
+    });
+    Centred { offset: [x, y, z, 0.0], cancelled, translations }
+}
+
+/// (T₁ + R₁c₁) − (T₂ + R₂c₂), and the sum M of the magnitudes of the terms that it is the sum of.
+///
+/// Summed in double-double arithmetic and rounded once: the two sums may agree in nearly all digits. Each of the six sums errs by
+/// at most 3u² of a partial sum, all by 18u²·M.
+pub fn between_centres(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> ([f64; 3], f64) {
+    let mut offset = [0.0; 3];
+    let mut cancelled = 0.0;
+    for (i, out) in offset.iter_mut().enumerate() {
+        let apart = two_sum(poses[0].rows[i][3], -poses[1].rows[i][3]);
+        cancelled += apart.hi.abs();
+        let mut products = [DoubleDouble::default(); 6];
+        for (body, sign) in [(0, 1.0), (1, -1.0)] {
+            for k in 0..3 {
+                let product = two_product(poses[body].rows[i][k], sign * polyhedra[body].centre[k]);
+                products[3 * body + k] = product;
+                cancelled += product.hi.abs();
+            }
+        }
+        *out = sum_of(apart, products).hi;
+    }
+    (offset, cancelled)
+}
+
+/// One after another.
+#[inline]
+pub fn sum_of<D: Ring>(first: D, terms: [D; 6]) -> D {
+    terms.into_iter().fold(first, |sum, term| sum + term)
+}

@@ -1,0 +1,127 @@
+//! The checks of polyhedra that are apart: the interval, less the swept radii of the bodies, the normal and the points.
+
+use super::bounds::{Bounds, PointInside};
+use super::checks::{allowed, between_origins, check_normal, check_unit, too_large, unverified};
+use super::witness::{Witness, difference_of};
+use crate::answer::{Outcome, PairAnswer};
+use crate::answer::{Radii, sum_above, sum_below};
+use crate::base::error::{Error, Result};
+use crate::base::math::{Pose, Vector, length};
+use crate::base::memory::listed;
+use crate::body::polyhedron::Polyhedron;
+use crate::placed::exact::{self, VertexPair};
+
+/// Proves verdict and interval, and checks the normal; returns the rounding allowance for a length.
+pub(super) fn verify_disjoint(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    radii: &Radii,
+    answer: &PairAnswer,
+) -> Result<f64> {
+    let normal = Vector::from(answer.normal);
+    check_unit(&normal)?;
+    let proof = prove_interval(polyhedra, poses, radii, answer);
+    if !(proof.lower && proof.upper) {
+        prove_interval_exactly(polyhedra, poses, radii, answer, &proof.near)?;
+    }
+    let between = between_origins(polyhedra, poses);
+    let allowed = allowed(polyhedra, &between, radii.each).ok_or_else(too_large)?;
+    if !proof.lower {
+        check_normal(polyhedra, poses, &normal, &between, answer.lower + radii.lower - allowed)?;
+    }
+    Ok(allowed)
+}
+
+/// The proved part of an interval, and vertex pairs near where the objects are nearest.
+struct Proof {
+    lower: bool,
+    upper: bool,
+    near: Vec<VertexPair>,
+}
+
+/// The interval of a disjoint pair that double-double arithmetic proves. The lower bound is the gap along the normal. The upper
+/// bound comes from the witness points if they are reported, else from the vertices that face each other.
+fn prove_interval(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, answer: &PairAnswer) -> Proof {
+    let most = sum_below(answer.upper, radii.lower);
+    let nothing = Proof { lower: false, upper: answer.upper == f64::INFINITY, near: Vec::new() };
+    let Some(bounds) = Bounds::new(polyhedra, poses) else { return nothing };
+    let normal = Vector::from(answer.normal);
+    let gap = bounds.gap(&normal);
+    let witnesses = Witness::of_both(polyhedra, poses, radii, &normal, answer);
+    let points = [0, 1].map(|i| witnesses[i].point_inside().unwrap_or(PointInside::vertex(gap.vertices[i])));
+    let mut near: Vec<VertexPair> = listed(points[0].vertices.iter().flat_map(|&v| points[1].vertices.map(|w| [v, w])));
+    near.sort_unstable();
+    near.dedup();
+    Proof {
+        // A gap of 0 separates nothing.
+        lower: answer.lower != 0.0 && bounds.prove_lower(&gap, &normal, sum_above(answer.lower, radii.upper)),
+        upper: nothing.upper || (most >= 0.0 && bounds.prove_upper(&points, most)),
+        near,
+    }
+}
+
+/// Proves the interval of a disjoint pair in integers, or refutes it.
+fn prove_interval_exactly(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    radii: &Radii,
+    answer: &PairAnswer,
+    near: &[VertexPair],
+) -> Result<()> {
+    let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], near);
+    let [radius1, radius2] = radii.each;
+    let against = |length: f64| truth.compare_sum(&[length, radius1, radius2]);
+    // Not 0, even where it is less than the least double.
+    let is_verdict_right = answer.outcome == Outcome::Intersecting || against(0.0).is_gt();
+    if !(is_verdict_right && against(answer.lower).is_ge() && against(answer.upper).is_le()) {
+        return Err(not_in_interval(&truth, radii, answer));
+    }
+    let least = f64::from_bits(1);
+    if answer.outcome == Outcome::Separated && answer.lower == 0.0 && against(least).is_ge() {
+        return Err(unverified(format!("a lower end of 0, though the objects are at least {least:e} apart")));
+    }
+    Ok(())
+}
+
+pub(super) fn not_in_interval(truth: &exact::ExactDistance, radii: &Radii, answer: &PairAnswer) -> Error {
+    let PairAnswer { lower: said_lower, upper: said_upper, .. } = answer;
+    let [lower, upper] = radii.off(truth.bounds().into());
+    unverified(match truth.is_zero() {
+        true => format!("the objects intersect, they are not [{said_lower:e}, {said_upper:e}] apart"),
+        false => format!("their distance is in [{lower:e}, {upper:e}], not in [{said_lower:e}, {said_upper:e}]"),
+    })
+}
+
+/// The points are on their features, and as far apart as the interval requires.
+pub(super) fn check_points(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    radii: &Radii,
+    allowed: f64,
+    answer: &PairAnswer,
+) -> Result<()> {
+    let PairAnswer { lower, upper, .. } = *answer;
+    let apart = length(&check_on_features(polyhedra, poses, radii, allowed, answer)?);
+    if apart >= lower + radii.lower - allowed && apart <= upper + radii.upper + allowed {
+        return Ok(());
+    }
+    Err(unverified(format!("the witness points are {apart:e} apart, not in [{lower:e}, {upper:e}] and the radii")))
+}
+
+/// The points are on their features; from that of the second polyhedron to that of the first, in the world.
+pub(super) fn check_on_features(
+    polyhedra: [&Polyhedron; 2],
+    poses: [&Pose; 2],
+    radii: &Radii,
+    allowed: f64,
+    answer: &PairAnswer,
+) -> Result<Vector> {
+    let witnesses = Witness::of_both(polyhedra, poses, radii, &answer.normal.into(), answer);
+    for witness in &witnesses {
+        witness.check_point(allowed)?;
+        witness.check_feature()?;
+        // A point is on the surface as far as the interval tells that it is nearest.
+        witness.check_on_feature(allowed + (answer.upper - answer.lower))?;
+    }
+    Ok(difference_of(polyhedra, poses, &witnesses))
+}
