@@ -13,8 +13,9 @@
  *
  * Functions list only errors that are special to them. General errors are: SWIFTPROX_ERROR_NULL_POINTER, a required pointer is
  * null; SWIFTPROX_ERROR_STRUCT_SIZE, a struct was not initialised with its constant, or an info's size was not set;
- * SWIFTPROX_ERROR_POSE, a pose is refused; SWIFTPROX_ERROR_HANDLE, an id names no object of the scene; SWIFTPROX_ERROR_LIMIT, a
- * count exceeds 32 bits; SWIFTPROX_ERROR_CANCELLED, a progress callback stopped the call; SWIFTPROX_ERROR_MEMORY;
+ * SWIFTPROX_ERROR_POSE, a pose is refused; SWIFTPROX_ERROR_HANDLE, an id names no object of the scene, or a shape, ground, compound
+ * or scene was given back (noticed until other data take its memory); SWIFTPROX_ERROR_LIMIT, a count exceeds 32 bits;
+ * SWIFTPROX_ERROR_CANCELLED, a progress callback stopped the call; SWIFTPROX_ERROR_MEMORY;
  * SWIFTPROX_ERROR_BUG, the library caught a bug of its own. For scenes also: SWIFTPROX_ERROR_BUSY, and SWIFTPROX_ERROR_POISONED
  * after a bug during a change: destroy that scene. Shapes never change, so no bug damages them. Functions that initialise, share or
  * release return no status: they ignore mistakes such as null pointers, and report them by message and log.
@@ -654,8 +655,6 @@ typedef struct swiftprox_pair_config {
   size_t struct_size;
   /** Pairs farther apart than this get SWIFTPROX_OUTCOME_BEYOND. From 0 to infinity (the default: never). */
   double max_distance;
-  /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
-  double rotation_limit;
   /**
    * For swiftprox_pair_approximate: allowed upper - lower, from 0 to infinity. Default: 0. Other queries ignore this and the two
    * members below, even out of range.
@@ -677,7 +676,7 @@ typedef struct swiftprox_pair_config {
 } swiftprox_pair_config;
 
 /** Begins a swiftprox_pair_config: the defaults. In C and C++, as an initialiser. */
-#define SWIFTPROX_PAIR_CONFIG_DEFAULT {sizeof(swiftprox_pair_config), HUGE_VAL, 1e-2, 0, 0, UINT32_MAX, 0}
+#define SWIFTPROX_PAIR_CONFIG_DEFAULT {sizeof(swiftprox_pair_config), HUGE_VAL, 0, 0, UINT32_MAX, 0}
 
 /**
  * Computes the distance of two objects: a rigorous interval, witness points, normal and features. For intersecting pairs the
@@ -832,8 +831,6 @@ typedef struct swiftprox_depth_cache {
 typedef struct swiftprox_depth_config {
   /** Set by SWIFTPROX_DEPTH_CONFIG_DEFAULT. */
   size_t struct_size;
-  /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
-  double rotation_limit;
   /** Allowed upper - lower, from 0 to infinity. Default: 0. */
   double absolute_error;
   /**
@@ -849,7 +846,7 @@ typedef struct swiftprox_depth_config {
 } swiftprox_depth_config;
 
 /** Begins a swiftprox_depth_config: the defaults. In C and C++, as an initialiser. */
-#define SWIFTPROX_DEPTH_CONFIG_DEFAULT {sizeof(swiftprox_depth_config), 1e-2, 0, 0, UINT32_MAX}
+#define SWIFTPROX_DEPTH_CONFIG_DEFAULT {sizeof(swiftprox_depth_config), 0, 0, UINT32_MAX}
 
 /**
  * Computes the penetration depth: the length of the least translation that separates two objects. The answer has a rigorous
@@ -996,8 +993,6 @@ typedef struct swiftprox_manifold_room {
 typedef struct swiftprox_manifold_config {
   /** Set by SWIFTPROX_MANIFOLD_CONFIG_DEFAULT. */
   size_t struct_size;
-  /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
-  double rotation_limit;
   /** Largest gap of objects that have a manifold, and of its points: from 0 (the default) to infinity, which admits all. */
   double max_distance;
   /**
@@ -1009,7 +1004,7 @@ typedef struct swiftprox_manifold_config {
 } swiftprox_manifold_config;
 
 /** Begins a swiftprox_manifold_config: the defaults. In C and C++, as an initialiser. */
-#define SWIFTPROX_MANIFOLD_CONFIG_DEFAULT {sizeof(swiftprox_manifold_config), 1e-2, 0, 0}
+#define SWIFTPROX_MANIFOLD_CONFIG_DEFAULT {sizeof(swiftprox_manifold_config), 0, 0}
 
 /**
  * Computes where two objects meet or are at most config->max_distance apart: pairs of points along the normal, each with its gap.
@@ -1070,8 +1065,6 @@ typedef void (*swiftprox_finish_task_callback)(void *task, void *user);
 typedef struct swiftprox_scene_options {
   /** Set by SWIFTPROX_SCENE_OPTIONS_DEFAULT. */
   size_t struct_size;
-  /** Largest accepted |R^T R - I| entry of a pose, from 0 to 1e-2 (the default). */
-  double rotation_limit;
   /**
    * Number of threads for a query, or for poses that are set together, including the caller's. It changes no bit of any
    * answer. Some work uses the caller's thread only: queries that stop early, queries without a max_distance over many objects,
@@ -1092,13 +1085,13 @@ typedef struct swiftprox_scene_options {
 } swiftprox_scene_options;
 
 /** Begins a swiftprox_scene_options: the defaults. In C and C++, as an initialiser. */
-#define SWIFTPROX_SCENE_OPTIONS_DEFAULT {sizeof(swiftprox_scene_options), 1e-2, 0, 0, 0, 0}
+#define SWIFTPROX_SCENE_OPTIONS_DEFAULT {sizeof(swiftprox_scene_options), 0, 0, 0, 0}
 
 /**
  * Creates an empty scene. The caller owns it and frees it with swiftprox_scene_destroy. Null `options` mean the defaults. On
  * failure `*scene` is null.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range, or only one of enqueue_task and finish_task is null.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: only one of enqueue_task and finish_task is null.
  *
  * Stable.
  */
@@ -1436,6 +1429,20 @@ typedef struct swiftprox_scene_answer {
    * usual answer. Owned and valid as pairs.
    */
   const struct swiftprox_pair_result *found;
+  /**
+   * With swiftprox_scene_query.detail: one contact per listed pair, in the same order; after an early exit, only that of
+   * found. Owned and valid as pairs. Null if contact_count is 0.
+   */
+  const struct swiftprox_contact *contacts;
+  /** Number of contacts: 0 without a detail. */
+  size_t contact_count;
+  /**
+   * The points of all manifolds; those of a contact begin at its first_point. Owned and valid as pairs. Null if point_count
+   * is 0.
+   */
+  const struct swiftprox_manifold_point *points;
+  /** Number of points. */
+  size_t point_count;
 } swiftprox_scene_answer;
 
 /**
@@ -1480,8 +1487,8 @@ swiftprox_status swiftprox_scene_query_approximate(struct swiftprox_scene *scene
  * Like swiftprox_scene_query_distance, with answers as from swiftprox_pair_contact. max_distance defaults to 0, so only touching
  * or intersecting pairs are listed.
  *
- * With a query->detail the answers are those of swiftprox_scene_query_distance. swiftprox_scene_get_contacts then returns depths
- * and contact points, as from swiftprox_pair_depth and swiftprox_pair_manifold. Same errors as swiftprox_scene_query_intersection.
+ * With a query->detail the answers are those of swiftprox_scene_query_distance, and answer->contacts holds depths and contact
+ * points, as from swiftprox_pair_depth and swiftprox_pair_manifold. Same errors as swiftprox_scene_query_intersection.
  *
  * Stable.
  */
@@ -1499,34 +1506,6 @@ typedef struct swiftprox_contact {
   /** Where among all points those of the manifold begin, as many as its `point_count`. */
   size_t first_point;
 } swiftprox_contact;
-
-/** The contacts of a query of contacts. */
-typedef struct swiftprox_scene_contacts {
-  /**
-   * One contact per listed pair, in the same order; after an early exit, only that of swiftprox_scene_answer.found. Owned by
-   * the scene and valid as the answer's pairs. Null if count is 0.
-   */
-  const struct swiftprox_contact *contacts;
-  /** Number of contacts. */
-  size_t count;
-  /**
-   * The points of all manifolds; those of a contact begin at its first_point. Owned and valid as contacts. Null if
-   * point_count is 0.
-   */
-  const struct swiftprox_manifold_point *points;
-  /** Number of points. */
-  size_t point_count;
-} swiftprox_scene_contacts;
-
-/**
- * Returns the contacts of the scene's last query. They are empty unless that was a query of contacts with a
- * swiftprox_scene_query.detail. On failure `*contacts` is empty.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_get_contacts(const struct swiftprox_scene *scene,
-                                              struct swiftprox_scene_contacts *contacts);
 
 /** What is asked of a pair. */
 typedef enum swiftprox_query_kind SWIFTPROX_INT32 {
@@ -1729,7 +1708,7 @@ void swiftprox_listener_destroy(struct swiftprox_listener *listener);
 /**
  * Runs a query of that kind over all pairs, and reports the changes since the listener's last call. Pairs of pieces and contact
  * points have begun, persist or have ended; in the first call all begin. Contacts with query->detail
- * SWIFTPROX_CONTACT_DETAIL_MANIFOLD have points; swiftprox_scene_get_contacts returns their positions.
+ * SWIFTPROX_CONTACT_DETAIL_MANIFOLD have points; answer->points holds their positions.
  *
  * Each listener has its own history, which other queries do not affect. Use one listener per max_distance; it defaults to 0 for
  * contacts, else infinity. Removed objects, deactivated pairs and pairs of another scene have ended. Recordings include the query.

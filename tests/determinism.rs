@@ -10,7 +10,7 @@ use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::{self, Feature, Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start};
-use swiftprox::scene::{Scene, SceneAnswer, SceneOptions, SceneQuery};
+use swiftprox::scene::{Scene, SceneAnswer, SceneQuery};
 use swiftprox::shape::{Shape, ShapeOptions};
 use testkit::random::Random;
 use testkit::shapes::cuboid;
@@ -181,7 +181,7 @@ impl Flyer {
 fn fly(shapes: &[Arc<Shape>]) -> Flight {
     let mut random = Random::new(17);
     let mut flight = Flight { verdicts: Hash::EMPTY, bits: Hash::EMPTY, outcomes: [0; 4] };
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let mut flyers: Vec<Flyer> = (0..8).map(|_| Flyer::new(&mut random)).collect();
     let mut ids: Vec<ObjectId> = Vec::new();
     for (k, flyer) in flyers.iter().enumerate() {

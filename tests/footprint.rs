@@ -9,7 +9,7 @@ use std::sync::Arc;
 
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::ObjectOptions;
-use swiftprox::scene::{PairResult, Scene, SceneOptions, SceneQuery};
+use swiftprox::scene::{PairResult, Scene, SceneQuery};
 use testkit::shapes::cuboid;
 
 thread_local! {
@@ -52,7 +52,7 @@ static ALLOCATOR: Weighing = Weighing;
 fn scene_bytes(side: usize, room: f64) -> (usize, usize) {
     let shape = Arc::new(cuboid([0.5; 3]));
     let before = BYTES.get();
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let pose = |k: usize, step: f64| {
         let place = [k % side, k / side % side, k / (side * side)].map(|i| (1.0 + room) * i as f64 + step);
         Pose::new(&Matrix::identity(), &Vector::from(place))

@@ -27,8 +27,7 @@ use swiftprox::point::locate_point;
 use swiftprox::progress::Progress;
 use swiftprox::ray::{Ray, cast_ray};
 use swiftprox::scene::{
-    ContactDetail, GroupFilter, ObjectSet, PairResult, PoseOrder, RayHits, Scene, SceneOptions, SceneQuery, SetScratch,
-    Workers,
+    ContactDetail, GroupFilter, ObjectSet, PairResult, PoseOrder, RayHits, Scene, SceneQuery, SetScratch, Workers,
 };
 use swiftprox::shape::{InputPolicy, LookupKind, LookupOptions, Shape, ShapeOptions};
 use swiftprox::shape_file::{from_bytes, load, save, to_bytes};
@@ -394,7 +393,7 @@ fn automatic_levels() {
 fn row(count: usize) -> (Scene, Vec<swiftprox::object::ObjectId>) {
     let corners: Vec<Vector> = (0..8).map(|i| Vector::from_fn(|k, _| f64::from(i >> k & 1))).collect();
     let shape = Arc::new(Shape::from_points(&corners, &ShapeOptions::default()).unwrap());
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let ids = (0..count).map(|i| {
         let pose = Pose::new(&Matrix::identity(), &Vector::new(i as f64, 0.0, 0.0));
         scene.add_object(vec![shape.clone()], &ObjectOptions { pose, ..ObjectOptions::default() }).unwrap()
@@ -466,7 +465,7 @@ fn shared_queries() {
     const SIDE: usize = 13;
     let shape = Arc::new(testkit::shapes::cuboid([0.5; 3]));
     let lattice = |workers: Option<Workers>| {
-        let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+        let mut scene = Scene::new();
         scene.set_workers(workers);
         for k in 0..SIDE * SIDE * SIDE {
             let [x, y, z] = [k % SIDE, k / SIDE % SIDE, k / (SIDE * SIDE)].map(|i| 1.1 * i as f64);
@@ -510,7 +509,7 @@ fn many_poses() {
     let poses = |step: f64| (0..COUNT).map(move |k| Pose::new(&Matrix::identity(), &Vector::new(k as f64, step, 0.0)));
     let moved: Vec<Pose> = poses(3.0).collect();
     for (workers, fewest_refusals) in [(Workers::new(1, in_turn), 1), (Workers::new(40, in_turn), 3)] {
-        let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+        let mut scene = Scene::new();
         scene.set_workers(Some(workers));
         for pose in poses(0.0) {
             scene.add_object(vec![shape.clone()], &ObjectOptions { pose, ..ObjectOptions::default() }).unwrap();
@@ -793,7 +792,7 @@ fn every_block_of_scenes() {
     let mut refusals = 0;
     let cube = Arc::new(testkit::shapes::cuboid([1.0; 3]));
     let make = || {
-        let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+        let mut scene = Scene::new();
         let ids = touching().map(|pose| {
             scene.add_object(vec![cube.clone()], &ObjectOptions { pose, ..ObjectOptions::default() }).unwrap()
         });

@@ -10,7 +10,7 @@ use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::{self, Levels, PairAnswer, PairCache, PairConfig};
 use swiftprox::progress::Progress;
-use swiftprox::scene::{GroupFilter, Scene, SceneOptions, SceneQuery, SetScratch};
+use swiftprox::scene::{GroupFilter, Scene, SceneQuery, SetScratch};
 use swiftprox::shape::{Shape, ShapeOptions};
 use testkit::counting::{Counting, allocations};
 use testkit::random_scene::{Random, cuboid, ellipsoid, random_pose};
@@ -118,7 +118,7 @@ fn fly(scene: &mut Scene, ids: &[ObjectId]) -> [usize; 2] {
 #[test]
 fn scene_queries_allocate_nothing_once_they_have_seen_the_crowd() {
     let mut random = Random::new(6);
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let shapes = shapes(&mut random);
     let add = |k: usize| {
         // Every third object of two pieces.
@@ -145,7 +145,7 @@ fn contacts_with_grounds_allocate_nothing_once_there_is_room() {
     let grid = HeightGrid { rows: 21, columns: 21, spacing: [0.5; 2], heights: &heights };
     let (ground, here) = (Ground::from_heights(&grid).unwrap(), Pose::IDENTITY);
     let shapes = shapes(&mut random);
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let bodies: Vec<(Arc<Shape>, Pose)> = (0..200)
         .map(|k| {
             let place = Vector::new(random.uniform(2.0, 8.0), random.uniform(2.0, 8.0), random.uniform(0.1, 0.6));

@@ -340,12 +340,12 @@ static int nearer_first(const void *left, const void *right)
     return a->gap != b->gap ? (a->gap > b->gap) - (a->gap < b->gap) : (a->index > b->index) - (a->index < b->index);
 }
 
-static struct nearness *order_pairs(const swiftprox_pair_result *pairs, size_t count, const swiftprox_scene_contacts *contacts)
+static struct nearness *order_pairs(const swiftprox_pair_result *pairs, size_t count, const swiftprox_scene_answer *answer)
 {
     struct nearness *const order = malloc((count + 1) * sizeof *order);
     for (size_t i = 0; order && i < count; i++) {
-        const bool is_deep = i < contacts->count && pairs[i].answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING;
-        const double gap = is_deep ? -contacts->contacts[i].depth.depth : pairs[i].answer.distance;
+        const bool is_deep = i < answer->contact_count && pairs[i].answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING;
+        const double gap = is_deep ? -answer->contacts[i].depth.depth : pairs[i].answer.distance;
         order[i] = (struct nearness){isnan(gap) ? 0 : gap, i};
     }
     if (order) {
@@ -400,10 +400,6 @@ static int add_pairs(struct page_data *data, const struct player *player, const 
                      struct page_step *step)
 {
     const swiftprox_pair_result *const pairs = answer->found ? answer->found : answer->pairs;
-    swiftprox_scene_contacts contacts;
-    if (swiftprox_scene_get_contacts(player->scene, &contacts) != SWIFTPROX_OK) {
-        return player_failed();
-    }
     step->listed = answer->found ? 1 : answer->count;
     for (size_t i = 0; i < step->listed; i++) {
         count_pair(step, &pairs[i].answer);
@@ -411,15 +407,15 @@ static int add_pairs(struct page_data *data, const struct player *player, const 
     const size_t most = data->most_pairs < LIMIT / PAIR_BYTES ? data->most_pairs : LIMIT / PAIR_BYTES;
     const size_t count = step->listed < most ? step->listed : most;
     size_t capacity = 0;
-    struct nearness *const order = order_pairs(pairs, step->listed, &contacts);
+    struct nearness *const order = order_pairs(pairs, step->listed, answer);
     step->pairs = calloc(count + 1, sizeof *step->pairs);
     bool has_memory = order && step->pairs;
     while (has_memory && step->pair_count < count) {
         const size_t at = order[step->pair_count].index;
-        const swiftprox_contact *const contact = at < contacts.count ? &contacts.contacts[at] : NULL;
+        const swiftprox_contact *const contact = at < answer->contact_count ? &answer->contacts[at] : NULL;
         struct page_pair *const pair = &step->pairs[step->pair_count++];
         *pair = make_pair(data, player, &pairs[at], contact);
-        has_memory = !contact || add_contacts(step, &capacity, data, pair, contact, contacts.points);
+        has_memory = !contact || add_contacts(step, &capacity, data, pair, contact, answer->points);
         data->pair_bytes += bytes_of_pair(pair);
     }
     free(order);

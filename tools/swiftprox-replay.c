@@ -239,10 +239,9 @@ static int take_answer(const struct player *player, const swiftprox_scene_answer
 {
     const swiftprox_pair_result *const pairs = answer->found ? answer->found : answer->pairs;
     const size_t count = answer->found ? 1 : answer->count;
-    swiftprox_scene_contacts contacts;
-    int result = swiftprox_scene_get_contacts(player->scene, &contacts) == SWIFTPROX_OK ? GOOD : player_failed();
+    int result = GOOD;
     for (size_t i = 0; i < count && result == GOOD; i++) {
-        const swiftprox_contact *const contact = i < contacts.count ? &contacts.contacts[i] : NULL;
+        const swiftprox_contact *const contact = i < answer->contact_count ? &answer->contacts[i] : NULL;
         result = player->options->verify ? verify_pair(player, &pairs[i], contact) : GOOD;
         if (result == GOOD && !page) {
             print_pair(player, &pairs[i], contact);

@@ -512,9 +512,8 @@ static void scenes(const std::string &folder)
         ++listed;
     }
     CHECK(listed == 1);
-    const auto where = scene.try_get_contacts();
-    CHECK(swiftprox::contacts(where.value).size() == 1);
-    CHECK(swiftprox::points(where.value, swiftprox::contacts(where.value)[0]).size() == 4);
+    CHECK(swiftprox::contacts(touching.value).size() == 1);
+    CHECK(swiftprox::points(touching.value, swiftprox::contacts(touching.value)[0]).size() == 4);
     const auto apart = scene.try_get_signed_distance(0);
     CHECK(apart && apart.value.outcome == SWIFTPROX_OUTCOME_INTERSECTING && apart.value.upper <= 0);
     CHECK(!scene.try_get_signed_distance(1));

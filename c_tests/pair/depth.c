@@ -214,7 +214,6 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     swiftprox_scene *scene = NULL;
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     swiftprox_scene_answer answer;
-    swiftprox_scene_contacts contacts, none;
     swiftprox_signed_distance apart;
     swiftprox_depth_cache cold = {{0}};
     swiftprox_object_info info1, info2;
@@ -230,18 +229,14 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     /* Nothing was asked, nothing is said. */
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "ask for contacts with their depths",
                 swiftprox_scene_get_signed_distance(scene, 0, &apart));
-    CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
-    CHECK(contacts.count == 0 && contacts.contacts == NULL && contacts.points == NULL && contacts.point_count == 0);
     CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
-    CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
-    CHECK(answer.count == 1 && contacts.count == 0);
+    CHECK(answer.count == 1 && answer.contact_count == 0 && answer.contacts == NULL && answer.points == NULL && answer.point_count == 0);
 
     query.detail = SWIFTPROX_CONTACT_DETAIL_DEPTH;
     CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
-    CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
-    CHECK(answer.count == 1 && contacts.count == 1 && contacts.point_count == 0);
+    CHECK(answer.count == 1 && answer.contact_count == 1 && answer.point_count == 0);
     CHECK(answer.pairs[0].object1.bits == ground.bits && answer.pairs[0].object2.bits == sunk.bits);
-    const swiftprox_depth_answer depth = contacts.contacts[0].depth;
+    const swiftprox_depth_answer depth = answer.contacts[0].depth;
     CHECK(depth.lower <= 0.0625 && 0.0625 <= depth.upper && depth.upper - depth.lower < 1e-13);
     CHECK(fabs(depth.normal[2] + 1) < 1e-14);
     info1.struct_size = sizeof info1;
@@ -254,10 +249,9 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
     query.max_distance = 0.01;
     CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
-    CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
-    CHECK(answer.count == 2 && contacts.count == 2 && contacts.point_count == 8);
-    for (i = 0; i < contacts.count; ++i) {
-        const swiftprox_contact *const contact = &contacts.contacts[i];
+    CHECK(answer.count == 2 && answer.contact_count == 2 && answer.point_count == 8);
+    for (i = 0; i < answer.contact_count; ++i) {
+        const swiftprox_contact *const contact = &answer.contacts[i];
         const double gap = i == 0 ? -0.0625 : 0.0078125;
         uint32_t k;
         CHECK(contact->manifold.outcome == answer.pairs[i].answer.outcome && contact->manifold.point_count == 4);
@@ -267,14 +261,13 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
         CHECK(apart.upper - apart.lower < 1e-13 && fabs(apart.normal[2] + 1) < 1e-14);
         CHECK(fabs(apart.world1[2] - apart.world2[2] + gap) < 1e-13);
         for (k = 0; k < contact->manifold.point_count; ++k) {
-            const swiftprox_manifold_point *const point = &contacts.points[contact->first_point + k];
+            const swiftprox_manifold_point *const point = &answer.points[contact->first_point + k];
             CHECK(fabs(point->gap_lower - gap) < 1e-12 && fabs(point->gap_upper - gap) < 1e-12);
         }
     }
     query.detail = SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD;
     CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
-    CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
-    CHECK(contacts.count == 2 && contacts.point_count == 8);
+    CHECK(answer.contact_count == 2 && answer.point_count == 8);
 
     /* Details that a query does not give are refused. */
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "ask swiftprox_scene_query_contact",
@@ -283,7 +276,6 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
                 swiftprox_scene_query_object(scene, ground, SWIFTPROX_QUERY_KIND_INTERSECTION, &query, &answer));
     CHECK_OK(swiftprox_scene_query_object(scene, ground, SWIFTPROX_QUERY_KIND_CONTACT, &query, &answer));
     CHECK_OK(swiftprox_scene_query_contact(scene, &query, &answer));
-    CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
 
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "there is no contact 2, the last query said 2",
                 swiftprox_scene_get_signed_distance(scene, 2, &apart));
@@ -292,17 +284,13 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_get_signed_distance(NULL, 0, &apart));
 
     /* While objects move and go they stay, until the next query. */
-    const swiftprox_contact first = contacts.contacts[0];
+    const swiftprox_contact first = answer.contacts[0];
     CHECK_OK(swiftprox_scene_remove_object(scene, sunk));
-    CHECK(contacts.contacts[0].depth.depth == first.depth.depth && contacts.points[3].id != 0);
+    CHECK(answer.contacts[0].depth.depth == first.depth.depth && answer.points[3].id != 0);
 
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "contacts", swiftprox_scene_get_contacts(scene, NULL));
-    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_get_contacts(NULL, &none));
-    CHECK(none.count == 0 && none.contacts == NULL);
     query.max_distance = -2;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "max_distance", swiftprox_scene_query_contact(scene, &query, &answer));
-    CHECK_OK(swiftprox_scene_get_contacts(scene, &contacts));
-    CHECK(contacts.count == 0 && contacts.contacts == NULL);
+    CHECK(answer.contact_count == 0 && answer.contacts == NULL);
     query.max_distance = 0;
     memcpy(&query.detail, &unknown, sizeof unknown);
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "detail", swiftprox_scene_query_contact(scene, &query, &answer));

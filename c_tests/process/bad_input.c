@@ -304,25 +304,10 @@ static void pairs(void)
                                         &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "entry 0",
                 swiftprox_pair_verify((swiftprox_placed){shape, with(0, NAN)}, (swiftprox_placed){shape, HERE}, &answer));
-    /* A shear within the limit is the caller's to use, unless a config says otherwise. */
+    /* A shear within the limit is the caller's to use. */
     CHECK_OK(swiftprox_pair_distance((swiftprox_placed){shape, with(1, 0.009)}, (swiftprox_placed){shape, THERE}, &cache, NULL,
                                      &answer));
     CHECK_OK(swiftprox_pair_verify((swiftprox_placed){shape, with(1, 0.009)}, (swiftprox_placed){shape, THERE}, &answer));
-    config.rotation_limit = 1e-9;
-    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal",
-                swiftprox_pair_distance((swiftprox_placed){shape, with(1, 0.009)}, (swiftprox_placed){shape, THERE}, &cache,
-                                        &config, &answer));
-    for (i = 0; i < sizeof bad / sizeof bad[0]; ++i) {
-        config.rotation_limit = bad[i];
-        CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "rotation_limit",
-                    swiftprox_pair_distance((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, &cache, &config,
-                                            &answer));
-    }
-    config.rotation_limit = 0.5;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "rotation_limit is 0.5, it must be from 0 to 0.01",
-                swiftprox_pair_intersection((swiftprox_placed){shape, HERE}, (swiftprox_placed){shape, THERE}, &cache, &config,
-                                            &answer));
-    config = (swiftprox_pair_config)SWIFTPROX_PAIR_CONFIG_DEFAULT;
     config.max_distance = -1;
     CHECK_FAILS(
         SWIFTPROX_ERROR_INVALID_ARGUMENT, "max_distance",
@@ -603,9 +588,6 @@ static void scenes(void)
     size_t i;
 
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "scene", swiftprox_scene_create(NULL, NULL));
-    options.rotation_limit = 0.5;
-    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "rotation_limit is 0.5, it must be from 0 to 0.01",
-                swiftprox_scene_create(&options, &scene));
     CHECK(scene == NULL);
     CHECK_OK(swiftprox_scene_destroy(NULL));
     CHECK_OK(swiftprox_scene_create(NULL, &scene));

@@ -451,16 +451,13 @@ static void tell_pairs(const swiftprox_scene_answer *answer)
     }
 }
 
-/* What the last query said beside its answers. */
-static void tell_contacts(const swiftprox_scene *scene)
+static void tell_contacts(const swiftprox_scene_answer *answer)
 {
-    swiftprox_scene_contacts contacts;
-    CALL_OK(swiftprox_scene_get_contacts(scene, &contacts));
-    tell(&contacts.count, sizeof contacts.count);
-    if (contacts.count > 0)
-        tell(contacts.contacts, contacts.count * sizeof *contacts.contacts);
-    if (contacts.point_count > 0)
-        tell(contacts.points, contacts.point_count * sizeof *contacts.points);
+    tell(&answer->contact_count, sizeof answer->contact_count);
+    if (answer->contact_count > 0)
+        tell(answer->contacts, answer->contact_count * sizeof *answer->contacts);
+    if (answer->point_count > 0)
+        tell(answer->points, answer->point_count * sizeof *answer->points);
 }
 
 static void ask_a_scene(void)
@@ -493,7 +490,7 @@ static void ask_a_scene(void)
             query.detail = queries[k] == swiftprox_scene_query_contact ? SWIFTPROX_CONTACT_DETAIL_MANIFOLD : SWIFTPROX_CONTACT_DETAIL_NONE;
             CALL_OK(queries[k](scene, &query, &answer));
             tell_pairs(&answer);
-            tell_contacts(scene);
+            tell_contacts(&answer);
         }
     }
     memset(&statistics, 0, sizeof statistics);

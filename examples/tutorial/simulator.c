@@ -149,14 +149,12 @@ static void find_contacts(swiftprox_scene *scene, struct body *bodies, struct co
     query.detail = SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD;
 
     swiftprox_scene_answer answer;
-    swiftprox_scene_contacts contacts;
     demand(swiftprox_scene_query_contact(scene, &query, &answer));
-    demand(swiftprox_scene_get_contacts(scene, &contacts));
 
     found->count = 0;
     for (size_t i = 0; i < answer.count; i++) {
-        const swiftprox_contact *const contact = &contacts.contacts[i]; /* belongs to answer.pairs[i] */
-        const swiftprox_manifold_point *const points = &contacts.points[contact->first_point];
+        const swiftprox_contact *const contact = &answer.contacts[i]; /* belongs to answer.pairs[i] */
+        const swiftprox_manifold_point *const points = &answer.points[contact->first_point];
         struct body *const body1 = &bodies[answer.pairs[i].user_data1];
         struct body *const body2 = &bodies[answer.pairs[i].user_data2];
         for (size_t k = 0; k < contact->manifold.point_count && found->count < MOST_CONTACTS; k++) {

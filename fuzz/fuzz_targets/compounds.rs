@@ -11,7 +11,7 @@ use swiftprox::compound::{
     Compound, CompoundAnswer, CompoundCache, CompoundSignedDistance, Piece, PlacedCompound, distance, intersection,
     signed_distance, verify,
 };
-use swiftprox::math::{Pose, ROTATION_LIMIT, Vector};
+use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{self, Outcome, PairConfig, SignedDistance, SignedDistanceCache};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox_fuzz::geometry::{points, pose, poses};
@@ -40,8 +40,8 @@ fn run(u: &mut Unstructured) -> Result<()> {
             cache = any_cache(u)?;
         }
         let is_accepted = |body: &Body, pose: &Pose| {
-            let at = |k| placed(body.compound.at(pose), k).check(ROTATION_LIMIT).is_ok();
-            pose.check(ROTATION_LIMIT).is_ok() && (0..body.clouds.len()).all(at)
+            let at = |k| placed(body.compound.at(pose), k).check().is_ok();
+            pose.check().is_ok() && (0..body.clouds.len()).all(at)
         };
         if is_accepted(&one, &poses[0]) && is_accepted(&two, &poses[1]) {
             check([&one, &two], [&poses[0], &poses[1]], &mut cache);
@@ -65,7 +65,7 @@ fn body(u: &mut Unstructured) -> Result<Body> {
         let options = ShapeOptions { input: InputPolicy::Hull, ..ShapeOptions::default() };
         let shape = Arc::new(Shape::from_points(&cloud, &options).expect("finite points"));
         let own = if u.arbitrary()? { Pose::IDENTITY } else { pose(u)? };
-        let own = if own.check(ROTATION_LIMIT).is_ok() { own } else { Pose::IDENTITY };
+        let own = if own.check().is_ok() { own } else { Pose::IDENTITY };
         pieces.push(Piece { shape, pose: own });
         clouds.push(cloud);
     }

@@ -11,7 +11,7 @@ use swiftprox::ground::{
     Ground, GroundContacts, GroundDistance, HeightGrid, PlacedGround, ground_contacts, ground_distance,
 };
 use swiftprox::manifold::ManifoldConfig;
-use swiftprox::math::{Pose, ROTATION_LIMIT, Vector};
+use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, Placed, Query, distance};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox_fuzz::geometry::{any_number, any_points, inside, last_is_environment, points, poses};
@@ -56,7 +56,7 @@ fn run(u: &mut Unstructured, environment: Environment) -> Result<()> {
     let corners: Vec<Vector> = surface.triangles.iter().flatten().copied().collect();
     for _ in 0..MOST_STEPS {
         let [pose, place] = poses(u, [&body.points, &corners])?;
-        if [pose, place].iter().all(|pose| pose.check(ROTATION_LIMIT).is_ok()) {
+        if [pose, place].iter().all(|pose| pose.check().is_ok()) {
             let placed = (body.shape.at(&pose), surface.ground.at(&place));
             let is_met = check_distance(&body, &surface, placed, environment);
             check_contacts(u, placed, is_met, is_tame(&body, &corners, [&pose, &place]), environment)?;

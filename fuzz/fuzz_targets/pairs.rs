@@ -11,7 +11,7 @@ use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use libfuzzer_sys::fuzz_target;
 use swiftprox::base::simd::environment::Environment;
 use swiftprox::error::Error;
-use swiftprox::math::{ROTATION_LIMIT, Vector};
+use swiftprox::math::Vector;
 use swiftprox::pair::contact;
 use swiftprox::pair::{
     Levels, Outcome, PairAnswer, PairCache, PairConfig, Refinement, Start, approximate, distance, intersection,
@@ -81,7 +81,7 @@ fn body(u: &mut Unstructured, most: usize, environment: Environment) -> Result<B
 fn check(u: &mut Unstructured, placed: &Placed, session: &mut Session) -> Result<Option<PairAnswer>> {
     let ([body1, body2], [pose1, pose2]) = (placed.bodies, &placed.poses);
     let mut answer = PairAnswer::default();
-    if placed.poses.iter().any(|pose| pose.check(ROTATION_LIMIT).is_err()) {
+    if placed.poses.iter().any(|pose| pose.check().is_err()) {
         let (mut cache, config) = (session.own, PairConfig::default());
         let refused = distance([body1.shape.at(pose1), body2.shape.at(pose2)], &mut cache, &config, &mut answer);
         assert!(matches!(refused, Err(Error::Pose(_))), "{refused:?}");

@@ -6,7 +6,7 @@ use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use libfuzzer_sys::fuzz_target;
 use swiftprox::base::simd::environment::Environment;
 use swiftprox::error::Error;
-use swiftprox::math::{Pose, ROTATION_LIMIT, Vector};
+use swiftprox::math::{Pose, Vector};
 use swiftprox::ray::{Ray, cast_ray};
 use swiftprox::shape::{LARGEST_SWEPT_RADIUS, Shape, ShapeOptions};
 use swiftprox_fuzz::geometry::{any_number, hull_options, inside, last_is_environment, points, pose};
@@ -39,7 +39,7 @@ fn run(u: &mut Unstructured, environment: Environment) -> Result<()> {
         let answer = cast_ray(shape.at(&pose), &ray);
         let again = inside(environment, || cast_ray(shape.at(&pose), &ray));
         assert_eq!(format!("{again:?}"), format!("{answer:?}"), "{environment:?}");
-        let accepted = pose.check(ROTATION_LIMIT).is_ok();
+        let accepted = pose.check().is_ok();
         match answer {
             Ok(answer) => {
                 assert!(accepted && is_sound(&ray), "{ray:?} {pose:?}");

@@ -44,7 +44,7 @@ fuzz_target!(|bytes: &[u8]| {
 
 fn play(file: Vec<u8>) -> swiftprox::error::Result<()> {
     let mut replay = Replay::from_reader(Cursor::new(file))?;
-    let mut scene = Scene::new(&replay.scene_options())?;
+    let mut scene = Scene::new();
     while let Some(step) = replay.read()? {
         replay.change(&mut scene)?;
         if step.query.is_some() {

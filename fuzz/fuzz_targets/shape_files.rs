@@ -5,7 +5,6 @@
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use libfuzzer_sys::fuzz_target;
 use swiftprox::error::Error;
-use swiftprox::math::ROTATION_LIMIT;
 use swiftprox::pair::contact;
 use swiftprox::pair::{PairAnswer, PairCache, PairConfig};
 use swiftprox::shape::Shape;
@@ -69,7 +68,7 @@ fn correct_checksum(file: &mut [u8]) {
 }
 
 fn check_answers(one: &Shape, other: &Shape, [pose1, pose2]: [swiftprox::math::Pose; 2]) {
-    if [pose1, pose2].iter().any(|pose| pose.check(ROTATION_LIMIT).is_err()) {
+    if [pose1, pose2].iter().any(|pose| pose.check().is_err()) {
         return;
     }
     let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());

@@ -8,7 +8,7 @@ use libfuzzer_sys::fuzz_target;
 use swiftprox::base::simd::environment::Environment;
 use swiftprox::error::Error;
 use swiftprox::manifold::{ManifoldConfig, ManifoldPoint, half_space_manifold};
-use swiftprox::math::{Pose, ROTATION_LIMIT, Vector};
+use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::contact;
 use swiftprox::pair::{
     HalfSpace, Outcome, PairAnswer, PairCache, PairConfig, Placed, SignedDistance, SignedDistanceCache, approximate,
@@ -44,7 +44,7 @@ fn run(u: &mut Unstructured, environment: Environment) -> Result<()> {
     let mut memory = contacts::Memory::default();
     for _ in 0..MOST_STEPS {
         let poses = touching(u, &bodies)?;
-        let is_accepted = poses.iter().all(|pose| pose.check(ROTATION_LIMIT).is_ok());
+        let is_accepted = poses.iter().all(|pose| pose.check().is_ok());
         if is_accepted {
             check_pair(u, &bodies, &poses, environment, &mut memory)?;
         }
@@ -161,7 +161,7 @@ fn check_half_space(u: &mut Unstructured, body: &Body, pose: &Pose, environment:
     let answer = ask();
     assert_eq!(format!("{:?}", inside(environment, ask)), format!("{answer:?}"), "{environment:?}");
     let is_plane = normal != [0.0; 3] && normal.iter().chain([&offset]).all(|x| x.is_finite());
-    let is_accepted = pose.check(ROTATION_LIMIT).is_ok();
+    let is_accepted = pose.check().is_ok();
     let answer = match answer {
         Ok(answer) => answer,
         Err(Error::Argument(_)) => return Ok(assert!(!is_plane, "{half_space:?}")),

@@ -115,7 +115,6 @@ struct ShapeOptions {
 
 struct PairConfig {
     double max_distance = infinity;
-    double rotation_limit = 1e-2;
     double absolute_error = 0;
     double relative_error = 0;
     std::uint32_t step_budget = UINT32_MAX;
@@ -127,7 +126,6 @@ struct PairConfig {
         swiftprox_pair_config c{};
         c.struct_size = sizeof c;
         c.max_distance = max_distance;
-        c.rotation_limit = rotation_limit;
         c.absolute_error = absolute_error;
         c.relative_error = relative_error;
         c.step_budget = step_budget;
@@ -137,7 +135,6 @@ struct PairConfig {
 };
 
 struct DepthConfig {
-    double rotation_limit = 1e-2;
     double absolute_error = 0;
     double relative_error = 0;
     std::uint32_t step_budget = UINT32_MAX;
@@ -146,7 +143,6 @@ struct DepthConfig {
     {
         swiftprox_depth_config c{};
         c.struct_size = sizeof c;
-        c.rotation_limit = rotation_limit;
         c.absolute_error = absolute_error;
         c.relative_error = relative_error;
         c.step_budget = step_budget;
@@ -155,7 +151,6 @@ struct DepthConfig {
 };
 
 struct ManifoldConfig {
-    double rotation_limit = 1e-2;
     double max_distance = 0;
     bool reduces = false;
 
@@ -163,7 +158,6 @@ struct ManifoldConfig {
     {
         swiftprox_manifold_config c{};
         c.struct_size = sizeof c;
-        c.rotation_limit = rotation_limit;
         c.max_distance = max_distance;
         c.reduces = reduces ? 1 : 0;
         return c;
@@ -233,7 +227,6 @@ struct ClearanceConfig {
 };
 
 struct SceneOptions {
-    double rotation_limit = 1e-2;
     std::uint32_t worker_count = 0;
     swiftprox_enqueue_task_callback enqueue_task = nullptr;
     swiftprox_finish_task_callback finish_task = nullptr;
@@ -243,7 +236,6 @@ struct SceneOptions {
     {
         swiftprox_scene_options c{};
         c.struct_size = sizeof c;
-        c.rotation_limit = rotation_limit;
         c.worker_count = worker_count;
         c.enqueue_task = enqueue_task;
         c.finish_task = finish_task;

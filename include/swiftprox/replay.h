@@ -64,7 +64,7 @@ typedef struct swiftprox_replay_step_info {
 } swiftprox_replay_step_info;
 
 /**
- * Opens a recording and creates a scene for it, with the workers of `options` and the recorded rotation limit. Null `options` mean
+ * Opens a recording and creates a scene for it, with the workers of `options`. Null `options` mean
  * the defaults. The caller frees both with swiftprox_replay_close. On failure `*replay` is null.
  *
  * SWIFTPROX_ERROR_FILE: the file is unreadable, not regular, not a recording, of another version, or damaged at its beginning.

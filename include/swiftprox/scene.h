@@ -157,7 +157,7 @@ swiftprox_status swiftprox_scene_reset_pairs(struct swiftprox_scene *scene);
 /**
  * Returns the signed distance of a pair of the last query of contacts: its distance, or minus its penetration depth. One interval
  * spans zero; normal and witness points are as from swiftprox_pair_signed_distance. It takes no further search. `number` is an
- * index into swiftprox_scene_contacts.contacts. On failure the answer's numbers are NaN.
+ * index into swiftprox_scene_answer.contacts. On failure the answer's numbers are NaN.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: number is too large, or the last query was not of contacts with a
  * swiftprox_scene_query.detail.

@@ -56,14 +56,15 @@ inline Range<const swiftprox_pair_result> pairs(const swiftprox_scene_answer &an
 {
     return {answer.pairs, answer.count};
 }
-inline Range<const swiftprox_contact> contacts(const swiftprox_scene_contacts &of) noexcept
+/** The contacts of an answer: one for each of its pairs, if the query asked for a detail. */
+inline Range<const swiftprox_contact> contacts(const swiftprox_scene_answer &answer) noexcept
 {
-    return {of.contacts, of.count};
+    return {answer.contacts, answer.contact_count};
 }
 /** The points where the pair of a contact meets. */
-inline Range<const swiftprox_manifold_point> points(const swiftprox_scene_contacts &of, const swiftprox_contact &contact) noexcept
+inline Range<const swiftprox_manifold_point> points(const swiftprox_scene_answer &answer, const swiftprox_contact &contact) noexcept
 {
-    return {of.points + contact.first_point, contact.manifold.point_count};
+    return {answer.points + contact.first_point, contact.manifold.point_count};
 }
 inline Range<const swiftprox_object_pair> began(const swiftprox_scene_events &events) noexcept
 {
@@ -275,13 +276,6 @@ class SceneView
         const swiftprox_scene_query c = query.to_c();
         return detail::asked<swiftprox_scene_answer>([&](swiftprox_scene_answer *answer) {
             return swiftprox_scene_query_contact(scene_, &c, answer);
-        });
-    }
-    /** What the last query of contacts said beside its answers. */
-    Result<swiftprox_scene_contacts> try_get_contacts() const
-    {
-        return detail::asked<swiftprox_scene_contacts>([&](swiftprox_scene_contacts *contacts) {
-            return swiftprox_scene_get_contacts(scene_, contacts);
         });
     }
     /** How far one of the pairs of the last query of contacts is apart, or how deep, as one interval through zero. */
@@ -517,7 +511,6 @@ class SceneView
         return take(try_query_approximate(query));
     }
     swiftprox_scene_answer query_contact(const SceneQuery &query = {}) { return take(try_query_contact(query)); }
-    swiftprox_scene_contacts get_contacts() const { return take(try_get_contacts()); }
     swiftprox_signed_distance get_signed_distance(std::size_t number) const { return take(try_get_signed_distance(number)); }
     swiftprox_scene_answer query_object(swiftprox_object_id id, swiftprox_query_kind kind, const SceneQuery &query = {})
     {

@@ -1,7 +1,7 @@
 //! All that is proved of the library, named in one place.
 
 pub use swiftprox::base::double_double::{DoubleDouble, two_product, two_sum, wide_dot};
-pub use swiftprox::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector, orthonormality, rotated};
+pub use swiftprox::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, orthonormality, rotated};
 pub use swiftprox::base::normal::over_length;
 pub use swiftprox::base::predicates::{
     DOUBLE_DOUBLE_FILTER, FILTER, height_and_spread, normal_and_permanent, wide_height,

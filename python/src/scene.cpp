@@ -98,17 +98,15 @@ nb::tuple contacts(Scene &scene, double max_distance, bool reduce)
     std::vector<swiftprox_manifold_point> points;
     run_alone(scene, [&] {
         swiftprox_scene_answer answer;
-        swiftprox_status status = swiftprox_scene_query_contact(scene.scene, &query, &answer);
+        const swiftprox_status status = swiftprox_scene_query_contact(scene.scene, &query, &answer);
         if (status != SWIFTPROX_OK) {
             return status;
         }
-        swiftprox_scene_contacts found;
-        status = swiftprox_scene_get_contacts(scene.scene, &found);
-        points.assign(found.points, found.points + found.point_count);
-        for (size_t k = 0; k < found.count; ++k) {
+        points.assign(answer.points, answer.points + answer.point_count);
+        for (size_t k = 0; k < answer.contact_count; ++k) {
             const swiftprox_pair_result &pair = answer.pairs[k];
             all.push_back({pair.object1.bits, pair.object2.bits, pair.user_data1, pair.user_data2, pair.piece1, pair.piece2,
-                           found.contacts[k].manifold, found.contacts[k].first_point});
+                           answer.contacts[k].manifold, answer.contacts[k].first_point});
         }
         return status;
     });

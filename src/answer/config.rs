@@ -1,7 +1,6 @@
 //! The options of a pair query.
 
 use crate::base::error::{Error, Result, check_range};
-use crate::base::math::ROTATION_LIMIT;
 
 /// What is asked of a pair.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -92,8 +91,6 @@ impl Accuracy {
 pub struct PairConfig {
     /// Pairs farther apart than this are [`Outcome::Beyond`](crate::answer::Outcome::Beyond); from 0 to +∞ (the default: none is).
     pub max_distance: f64,
-    /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default).
-    pub rotation_limit: f64,
     /// The starting point of marching.
     pub start: Start,
     /// For an approximate query, `upper − lower` may be as large as this … Other queries ignore this field and the two that
@@ -117,7 +114,6 @@ impl Default for PairConfig {
     fn default() -> Self {
         PairConfig {
             max_distance: f64::INFINITY,
-            rotation_limit: ROTATION_LIMIT,
             start: Start::Automatic,
             absolute_error: 0.0,
             relative_error: 0.0,
@@ -141,9 +137,7 @@ impl PairConfig {
     #[inline(always)]
     pub(crate) fn is_in_range(&self, query: Query) -> bool {
         let is_accurate = (self.absolute_error >= 0.0) & (self.relative_error >= 0.0) & (self.step_budget > 0);
-        (self.max_distance >= 0.0)
-            & (0.0..=ROTATION_LIMIT).contains(&self.rotation_limit)
-            & (is_accurate | (query != Query::Approximate))
+        (self.max_distance >= 0.0) & (is_accurate | (query != Query::Approximate))
     }
 
     /// Which member is the first out of its range. The errors come last: only approximate queries look at them.
@@ -151,7 +145,6 @@ impl PairConfig {
     #[inline(never)]
     pub(crate) fn first_fault(&self) -> Error {
         check_range("max_distance", self.max_distance, 0.0..=f64::INFINITY)
-            .and_then(|()| check_range("rotation_limit", self.rotation_limit, 0.0..=ROTATION_LIMIT))
             .and_then(|()| check_accuracy(self.absolute_error, self.relative_error, self.step_budget))
             .err()
             .unwrap_or_else(|| Error::Bug("a configuration is refused of which all is in range".into()))

@@ -1,7 +1,7 @@
 //! Witness points, normal and features of an answer, in the caller's frames and numbering.
 
 use crate::answer::pair_answer::{Feature, FeatureKind, PairAnswer};
-use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, UNIT_ROUNDOFF, Vector, clamp, length};
+use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF, Vector, clamp, length};
 use crate::base::simd::{Lanes, Portable};
 use crate::body::polyhedron::{Edge, Face, NONE, Polyhedron};
 use crate::distance::certificate::Minimum;
@@ -358,7 +358,7 @@ pub fn refined_weights(
     mut weights: [f64; 4],
 ) -> [f64; 4] {
     let &[p0, p1, p2, p3] = pairs else { return weights };
-    let frame = Frame::<Portable>::new(polyhedra, poses, ROTATION_LIMIT);
+    let frame = Frame::<Portable>::new(polyhedra, poses);
     if !frame.in_range {
         return weights;
     }

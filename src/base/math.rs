@@ -156,33 +156,33 @@ impl Pose {
         1.0 + 1.5 * (self.rotation_defect() + 8.0 * UNIT_ROUNDOFF)
     }
 
-    /// Accepts a pose of finite numbers with |RᵀR − I| ≤ `limit` in every entry and det R > 0.
-    pub fn check(&self, limit: f64) -> Result<()> {
-        self.checked_defect(limit).map(|_| ())
+    /// Accepts a pose of finite numbers with |RᵀR − I| ≤ [`ROTATION_LIMIT`] in every entry and det R > 0.
+    pub fn check(&self) -> Result<()> {
+        self.checked_defect().map(|_| ())
     }
 
     /// The same, and what [`Pose::rotation_defect`] says.
     #[inline]
-    pub fn checked_defect(&self, limit: f64) -> Result<f64> {
+    pub fn checked_defect(&self) -> Result<f64> {
         let defect = self.rotation_defect();
         // If x is not finite, 0·x is a NaN.
         let is_finite = self.rows.iter().map(|[x, y, z, t]| 0.0 * (x + y + z + t)).sum::<f64>() == 0.0;
-        if is_finite & (defect <= limit) && self.rotation().determinant() > 0.0 {
+        if is_finite & (defect <= ROTATION_LIMIT) && self.rotation().determinant() > 0.0 {
             return Ok(defect);
         }
-        self.refusal(limit)
+        self.refusal()
     }
 
     /// Why a pose is not accepted; the sum of its numbers may have overflowed.
     #[cold]
-    fn refusal(&self, limit: f64) -> Result<f64> {
+    fn refusal(&self) -> Result<f64> {
         if let Some(k) = self.rows.iter().flatten().position(|x| !x.is_finite()) {
             return Err(Error::Pose(format!("pose entry {k} (row {}, column {}) is not finite", k / 4, k % 4)));
         }
         let defect = self.rotation_defect();
-        if !(defect <= limit) {
+        if !(defect <= ROTATION_LIMIT) {
             return Err(Error::Pose(format!(
-                "the rotation is not orthonormal: an entry of RᵀR − I is {defect:e}, the limit is {limit:e}"
+                "the rotation is not orthonormal: an entry of RᵀR − I is {defect:e}, the limit is {ROTATION_LIMIT:e}"
             )));
         }
         if !(self.rotation().determinant() > 0.0) {

@@ -3,6 +3,7 @@
 
 pub mod error;
 pub(crate) mod locks;
+pub(crate) mod mark;
 pub(crate) mod memory;
 pub mod files;
 pub(crate) mod binary;

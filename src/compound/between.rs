@@ -77,8 +77,8 @@ impl Reaches {
     /// # Errors
     /// [`Error::Pose`](crate::base::error::Error::Pose).
     #[inline]
-    pub fn new(bodies: &[PlacedCompound; 2], rotation_limit: f64) -> Result<Reaches> {
-        let defects = [bodies[0].pose.checked_defect(rotation_limit)?, bodies[1].pose.checked_defect(rotation_limit)?];
+    pub fn new(bodies: &[PlacedCompound; 2]) -> Result<Reaches> {
+        let defects = [bodies[0].pose.checked_defect()?, bodies[1].pose.checked_defect()?];
         let [a, b] = [&bodies[0].pose.rows, &bodies[1].pose.rows];
         let delta = [b[0][3] - a[0][3], b[1][3] - a[1][3], b[2][3] - a[2][3]];
         let length = |v: [f64; 3]| v[0].abs() + v[1].abs() + v[2].abs();
@@ -162,7 +162,7 @@ pub(super) fn check_pieces(body: &PlacedCompound, defect: f64, is_in_range: bool
 fn check_each(body: &PlacedCompound) -> Result<()> {
     for (k, piece) in body.compound.pieces().iter().enumerate() {
         let placed = body.pose.after(&piece.pose);
-        placed.check(ROTATION_LIMIT).map_err(|error| error.about(&format!("piece {k} at that pose")))?;
+        placed.check().map_err(|error| error.about(&format!("piece {k} at that pose")))?;
     }
     Ok(())
 }
@@ -365,7 +365,7 @@ mod tests {
                 Pose::new(&rotation, &(random.vector() * (2.0 * scale) + Vector::repeat(far)))
             });
             let placed = [bodies[0].at(&poses[0]), bodies[1].at(&poses[1])];
-            let reaches = Reaches::new(&placed, ROTATION_LIMIT).unwrap();
+            let reaches = Reaches::new(&placed).unwrap();
             let between = Between::new(&placed, &reaches);
             let trees = [&bodies[0].tree, &bodies[1].tree];
             let mut truth = [[0.0; 5]; 5];

@@ -4,7 +4,8 @@ use std::sync::Arc;
 
 use super::tree::{Leaf, Tree};
 use crate::base::error::{Error, Result};
-use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
+use crate::base::mark::Mark;
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::base::memory::{collected, copied, push, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
@@ -33,6 +34,7 @@ pub struct Compound {
     pieces: Vec<Piece>,
     pub(super) tree: Tree,
     pub(super) reach: Reach,
+    pub(crate) mark: Mark,
 }
 
 /// How far the pieces reach, whatever the pose; rounded up.
@@ -86,7 +88,7 @@ impl Compound {
             return Err(Error::Limit(format!("{} pieces, more than the limit of {MOST_PIECES}", pieces.len())));
         }
         for (k, piece) in pieces.iter().enumerate() {
-            piece.pose.check(ROTATION_LIMIT).map_err(|error| error.about(&format!("piece {k}")))?;
+            piece.pose.check().map_err(|error| error.about(&format!("piece {k}")))?;
         }
         let mut points: Vec<Vec<Vector>> = with_capacity(pieces.len())?;
         for Piece { shape, pose } in &pieces {
@@ -111,7 +113,7 @@ impl Compound {
         }
         let tree = Tree::new(&leaves)?;
         drop(leaves);
-        Ok(Compound { pieces, tree, reach })
+        Ok(Compound { pieces, tree, reach, mark: Mark::new() })
     }
 
     /// Its pieces.

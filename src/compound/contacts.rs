@@ -6,7 +6,6 @@ use super::between::{Between, Reaches};
 use super::queries::with_pieces;
 use super::walk::{Aim, Pair, walk};
 use crate::base::error::Result;
-use crate::base::math::ROTATION_LIMIT;
 use crate::base::memory::push;
 use crate::base::simd::environment::with_default;
 use crate::manifold::{ManifoldCache, ManifoldConfig, add_points, manifold_into};
@@ -30,8 +29,7 @@ pub fn contacts(bodies: [PlacedCompound; 2], config: &ManifoldConfig, found: &mu
 
 fn find(bodies: &[PlacedCompound; 2], config: &ManifoldConfig, found: &mut CompoundContacts) -> Result<()> {
     config.check()?;
-    let between = Between::new(bodies, &Reaches::new(bodies, config.rotation_limit)?);
-    let config = ManifoldConfig { rotation_limit: ROTATION_LIMIT, ..*config };
+    let between = Between::new(bodies, &Reaches::new(bodies)?);
     let mut near = Vec::new();
     let trees = bodies.map(|body| &body.compound.tree);
     walk(Pair { trees, between: &between, aim: Aim::Distance }, config.max_distance, |pieces| {

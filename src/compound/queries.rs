@@ -6,7 +6,7 @@ use super::between::{Between, Reaches};
 use super::cache::CompoundCache;
 use super::walk::{Aim, Pair, walk};
 use crate::base::error::Result;
-use crate::base::math::{Pose, ROTATION_LIMIT};
+use crate::base::math::Pose;
 use crate::base::simd::environment::with_default;
 use crate::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed, Query};
 
@@ -53,7 +53,7 @@ fn ask(
 ) -> Result<()> {
     debug_assert!(matches!(query, Query::Distance | Query::Intersection));
     config.check(query)?;
-    let reaches = Reaches::new(bodies, config.rotation_limit)?;
+    let reaches = Reaches::new(bodies)?;
     let is_verdict = query == Query::Intersection && config.max_distance == f64::INFINITY;
     let mut least = Least {
         query,
@@ -61,7 +61,7 @@ fn ask(
         bodies,
         cache,
         // Poses of bodies are checked, those of pieces meet the limit that they were made with.
-        config: PairConfig { rotation_limit: ROTATION_LIMIT, ..*config },
+        config: *config,
         answer,
         tolerance: config.max_distance,
         enough: if is_verdict { 0.0 } else { config.max_distance },

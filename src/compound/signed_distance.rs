@@ -7,7 +7,6 @@ use super::cache::CompoundCache;
 use super::queries::{MORE, with_pieces};
 use super::walk::{Aim, Pair, walk};
 use crate::base::error::Result;
-use crate::base::math::ROTATION_LIMIT;
 use crate::base::simd::environment::with_default;
 use crate::pair::{self, Outcome, PairAnswer, PairConfig, Placed, Query, SignedDistance, SignedDistanceCache};
 
@@ -30,11 +29,11 @@ pub fn signed_distance(
 ) -> Result<()> {
     with_default(|| {
         config.check(Query::Distance)?;
-        let between = Between::new(&bodies, &Reaches::new(&bodies, config.rotation_limit)?);
+        let between = Between::new(&bodies, &Reaches::new(&bodies)?);
         let least = Least {
             bodies: &bodies,
             cache,
-            config: PairConfig { rotation_limit: ROTATION_LIMIT, ..*config },
+            config: *config,
             tolerance: config.max_distance,
             enough: config.max_distance,
             lower: f64::INFINITY,

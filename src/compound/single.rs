@@ -6,7 +6,7 @@ use super::between::check_pieces;
 use super::fit::Fitted;
 use super::tree::DEEPEST;
 use crate::base::error::Result;
-use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::environment::with_default;
 use crate::point::{PointLocation, check_finite};
 use crate::ray::{Ray, RayAnswer, RayOutcome};
@@ -129,7 +129,7 @@ struct Frame {
 
 impl Frame {
     fn new(body: &PlacedCompound, world: &Vector) -> Result<Frame> {
-        let defect = body.pose.checked_defect(ROTATION_LIMIT)? + 8.0 * U;
+        let defect = body.pose.checked_defect()? + 8.0 * U;
         let reach = body.compound.reach;
         let way = world - body.pose.translation();
         let size = way.lp_norm(1) + reach.lever;

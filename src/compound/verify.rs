@@ -8,7 +8,6 @@ use super::between::{Between, Reaches};
 use super::queries::with_pieces;
 use super::walk::{Aim, Pair, walk};
 use crate::base::error::{Error, Result};
-use crate::base::math::ROTATION_LIMIT;
 use crate::base::simd::environment::with_default;
 use crate::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed};
 use crate::verify::verify as verify_pair;
@@ -23,7 +22,7 @@ use crate::verify::verify as verify_pair;
 /// As of [`verify_pair`]; [`Error::Argument`] for numbers of pieces that the compounds do not have.
 pub fn verify(bodies: [PlacedCompound; 2], found: &CompoundAnswer) -> Result<()> {
     with_default(|| {
-        let between = Between::new(&bodies, &Reaches::new(&bodies, ROTATION_LIMIT)?);
+        let between = Between::new(&bodies, &Reaches::new(&bodies)?);
         let pieces = [found.piece1, found.piece2];
         let counts = bodies.map(|body| body.compound.piece_count() as u32);
         let answer = &found.answer;

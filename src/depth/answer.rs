@@ -2,14 +2,11 @@
 
 use crate::answer::check_accuracy;
 use crate::answer::{Feature, Outcome};
-use crate::base::error::{Result, check_range};
-use crate::base::math::ROTATION_LIMIT;
+use crate::base::error::Result;
 
 /// The options of a depth query.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct DepthConfig {
-    /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default).
-    pub rotation_limit: f64,
     /// `upper − lower` may be as large as this …
     pub absolute_error: f64,
     /// … or as this times `lower`. Both 0 (the default): as narrow as double precision can prove.
@@ -21,7 +18,7 @@ pub struct DepthConfig {
 
 impl Default for DepthConfig {
     fn default() -> Self {
-        DepthConfig { rotation_limit: ROTATION_LIMIT, absolute_error: 0.0, relative_error: 0.0, step_budget: u32::MAX }
+        DepthConfig { absolute_error: 0.0, relative_error: 0.0, step_budget: u32::MAX }
     }
 }
 
@@ -32,7 +29,6 @@ impl DepthConfig {
     /// [`Error::Argument`](crate::base::error::Error::Argument), naming the first such member.
     #[inline]
     pub(crate) fn check(&self) -> Result<()> {
-        check_range("rotation_limit", self.rotation_limit, 0.0..=ROTATION_LIMIT)?;
         check_accuracy(self.absolute_error, self.relative_error, self.step_budget)
     }
 }

@@ -63,7 +63,7 @@ fn answer_query(
     let query = &mut DepthQuery { polyhedra, poses, config, cache, answer, pyramids, overlap: &mut overlap };
     let mut found = simd::dispatch_to_avx2(query);
     if found.is_none() {
-        poses.iter().try_for_each(|pose| pose.check(config.rotation_limit))?;
+        poses.iter().try_for_each(|pose| pose.check())?;
         found = search_rescaled(polyhedra, poses, config, cache)?;
     }
     fill(answer, polyhedra, poses, found.as_ref(), &overlap)

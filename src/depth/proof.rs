@@ -3,7 +3,7 @@
 use super::cache::DepthCache;
 use super::scaling::Rescaled;
 use crate::base::error::Result;
-use crate::base::math::{Pose, ROTATION_LIMIT};
+use crate::base::math::Pose;
 use crate::base::memory::listed;
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::Polyhedron;
@@ -54,7 +54,7 @@ impl Kernel for Proof<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Self::Output {
-        let frame = Frame::<L>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
+        let frame = Frame::<L>::new(self.polyhedra, self.poses);
         if !(frame.in_range && is_in_scale(self.polyhedra)) {
             return None;
         }

@@ -4,7 +4,7 @@ use super::answer::{DepthAnswer, DepthEnding, DepthStatistics};
 use super::cache::{DepthCache, PYRAMIDS};
 use crate::answer::contact;
 use crate::answer::{Feature, Outcome};
-use crate::base::math::{Pose, ROTATION_LIMIT, Vector, clamp};
+use crate::base::math::{Pose, Vector, clamp};
 use crate::base::simd::{self, Kernel, Lanes, Work};
 use crate::body::polyhedron::Polyhedron;
 use crate::depth::facets::{self, Facet, Proved};
@@ -251,7 +251,7 @@ impl Kernel for Proving<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Option<u8> {
-        let frame = Frame::<L>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
+        let frame = Frame::<L>::new(self.polyhedra, self.poses);
         if !frame.in_range {
             return None;
         }

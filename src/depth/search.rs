@@ -114,7 +114,7 @@ impl Kernel for DepthQuery<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Option<Search> {
-        let frame = Frame::<L>::new(self.polyhedra, self.poses, self.config.rotation_limit);
+        let frame = Frame::<L>::new(self.polyhedra, self.poses);
         if !(frame.in_range && is_in_scale(self.polyhedra)) {
             return None;
         }

@@ -1,6 +1,6 @@
 //! Proves a pair's verdict when marching alone cannot: the fallback, then integers.
 
-use crate::base::math::{Pose, ROTATION_LIMIT, Vector, clamp};
+use crate::base::math::{Pose, Vector, clamp};
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::Polyhedron;
 use crate::distance::certificate::Interval;
@@ -153,7 +153,7 @@ impl Kernel for Propose<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> (Proposal, u32) {
         let &mut Propose { polyhedra, poses, hint, wanted } = self;
-        let frame = Frame::<L>::new(polyhedra, poses, ROTATION_LIMIT);
+        let frame = Frame::<L>::new(polyhedra, poses);
         let mut supports = Supports::new(hint);
         let (outcome, iterations) = gjk::solve(&frame, &mut supports, hint, wanted.tight);
         let simplex = match outcome {

@@ -9,7 +9,7 @@ use super::failure::{Checked, Failure, StatusCode};
 use super::guard::{guard, keep_panics_quiet};
 use super::object::share;
 use super::pair::{CPairConfig, check_enumerators, read_config};
-use super::pointers::{array, exclusive, input, output};
+use super::pointers::{array, exclusive, handle, input, output, release, retained};
 use super::shape_options::{ProgressCallback, in_steps};
 use crate::base::error::Result;
 use crate::base::math::Pose;
@@ -110,11 +110,8 @@ pub unsafe extern "C" fn swiftprox_compound_create_from_mesh(
 /// thread. For null it returns null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_compound_retain(compound: *const Compound) -> *const Compound {
-    if !compound.is_null() {
-        // SAFETY: a live compound by the header's pointer rules; every one comes from Arc::into_raw.
-        unsafe { Arc::increment_strong_count(compound) };
-    }
-    compound
+    // SAFETY: a live compound by the header's pointer rules; every one comes from Arc::into_raw.
+    unsafe { retained(compound, "compound") }
 }
 
 /// Gives back one share of a compound; the last one frees it and its shares of shapes. Safe from any thread. Null is ignored.
@@ -122,11 +119,8 @@ pub unsafe extern "C" fn swiftprox_compound_retain(compound: *const Compound) ->
 pub unsafe extern "C" fn swiftprox_compound_release(compound: *const Compound) {
     // A bug in the freeing is told by the message and the log.
     let _: StatusCode = guard(|| {
-        if !compound.is_null() {
-            // SAFETY: a live compound by the header's pointer rules, and this share is given up.
-            unsafe { Arc::decrement_strong_count(compound) };
-        }
-        Ok(())
+        // SAFETY: a live compound by the header's pointer rules, and this share is given up.
+        unsafe { release(compound, "compound") }
     });
 }
 
@@ -136,7 +130,7 @@ pub unsafe extern "C" fn swiftprox_compound_get_info(compound: *const Compound, 
     // SAFETY: the header's pointer rules.
     guard(|| unsafe {
         output(info, "info", CompoundInfo { piece_count: 0, bytes: 0 })?;
-        let compound = input(compound, "compound")?;
+        let compound = handle(compound, "compound")?;
         output(info, "info", CompoundInfo { piece_count: compound.piece_count(), bytes: compound.bytes() })
     })
 }
@@ -156,7 +150,7 @@ pub unsafe extern "C" fn swiftprox_compound_get_piece(
     guard(|| unsafe {
         output(shape, "shape", std::ptr::null())?;
         output(pose.cast::<Pose>(), "pose", Pose { rows: [[f64::NAN; 4]; 3] })?;
-        let compound = input(compound, "compound")?;
+        let compound = handle(compound, "compound")?;
         let Some(found) = compound.pieces().get(piece as usize) else {
             let message = format!("piece {piece} of a compound that has {}", compound.piece_count());
             return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
@@ -335,7 +329,7 @@ pub unsafe extern "C" fn swiftprox_compound_verify(
 /// The pointers meet the header's pointer rules for `'a`.
 unsafe fn body<'a>(object: CPlacedCompound, names: [&str; 2]) -> Checked<PlacedCompound<'a>> {
     // SAFETY: by the caller; a pose is twelve doubles, row by row, as is `Pose`.
-    unsafe { Ok(input(object.compound, names[0])?.at(input(object.pose.cast::<Pose>(), names[1])?)) }
+    unsafe { Ok(handle(object.compound, names[0])?.at(input(object.pose.cast::<Pose>(), names[1])?)) }
 }
 
 /// The two of a pair.

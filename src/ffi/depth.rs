@@ -6,7 +6,6 @@ use super::guard::guard;
 use super::pair::{CPairConfig, CPlaced, bodies, read_config};
 use super::pointers::{array, exclusive, input, output};
 use super::structs::{Versioned, read_struct};
-use crate::base::math::ROTATION_LIMIT;
 use crate::manifold::{Fill, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Sink, manifold_into};
 use crate::pair::{self, DepthAnswer, DepthCache, DepthConfig, DepthEnding, FeatureKind, Outcome, SignedDistance};
 use crate::verify::{verify_depth, verify_manifold};
@@ -20,8 +19,6 @@ use std::ffi::c_char;
 pub struct CDepthConfig {
     /// Set by SWIFTPROX_DEPTH_CONFIG_DEFAULT.
     pub struct_size: usize,
-    /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
-    pub rotation_limit: f64,
     /// Allowed upper - lower, from 0 to infinity. Default: 0.
     pub absolute_error: f64,
     /// Allowed (upper - lower) / lower, from 0 to infinity. It is enough to meet one of the two errors. Both 0 (the default): as
@@ -41,7 +38,6 @@ impl CDepthConfig {
     /// The defaults, as in the header.
     pub const DEFAULT: CDepthConfig = CDepthConfig {
         struct_size: size_of::<CDepthConfig>(),
-        rotation_limit: ROTATION_LIMIT,
         absolute_error: 0.0,
         relative_error: 0.0,
         step_budget: u32::MAX,
@@ -92,7 +88,6 @@ pub unsafe extern "C" fn swiftprox_pair_depth(
             )
         };
         let config = DepthConfig {
-            rotation_limit: config.rotation_limit,
             absolute_error: config.absolute_error,
             relative_error: config.relative_error,
             step_budget: config.step_budget,
@@ -206,8 +201,6 @@ pub struct CManifoldRoom {
 pub struct CManifoldConfig {
     /// Set by SWIFTPROX_MANIFOLD_CONFIG_DEFAULT.
     pub struct_size: usize,
-    /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
-    pub rotation_limit: f64,
     /// Largest gap of objects that have a manifold, and of its points: from 0 (the default) to infinity, which admits all.
     pub max_distance: f64,
     /// Nonzero: at most four points are kept, none is moved. They are the deepest, the farthest from it and the extremes on either
@@ -223,12 +216,8 @@ unsafe impl Versioned for CManifoldConfig {
 
 impl CManifoldConfig {
     /// The defaults, as in the header.
-    pub const DEFAULT: CManifoldConfig = CManifoldConfig {
-        struct_size: size_of::<CManifoldConfig>(),
-        rotation_limit: ROTATION_LIMIT,
-        max_distance: 0.0,
-        reduces: 0,
-    };
+    pub const DEFAULT: CManifoldConfig =
+        CManifoldConfig { struct_size: size_of::<CManifoldConfig>(), max_distance: 0.0, reduces: 0 };
 }
 
 /// The cache of a pair for manifold, signed distance and depth, owned by the caller. Zero it before the first query; any bytes are
@@ -428,11 +417,7 @@ unsafe fn read_points<'a>(points: *const ManifoldPoint, count: usize) -> Checked
 pub(super) unsafe fn read_manifold_config(config: *const CManifoldConfig) -> Checked<ManifoldConfig> {
     // SAFETY: by the caller.
     let config = unsafe { read_struct(config, CManifoldConfig::DEFAULT) }?;
-    Ok(ManifoldConfig {
-        rotation_limit: config.rotation_limit,
-        max_distance: config.max_distance,
-        reduces: config.reduces != 0,
-    })
+    Ok(ManifoldConfig { max_distance: config.max_distance, reduces: config.reduces != 0 })
 }
 
 /// Refuses an array to be filled in that cannot be one.

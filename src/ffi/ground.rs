@@ -8,7 +8,7 @@ use super::enumerators::{QueryNumber, read_enumerator};
 use super::failure::{Checked, StatusCode};
 use super::guard::{guard, keep_panics_quiet};
 use super::pair::{CPairConfig, CPlaced, body, read_config};
-use super::pointers::{array, input, output};
+use super::pointers::{array, handle, input, output, release, retained};
 use crate::base::math::Pose;
 use crate::base::memory::with_capacity;
 use crate::ground::{
@@ -91,7 +91,7 @@ pub unsafe extern "C" fn swiftprox_ground_create_from_grounds(
         let poses = array(poses.cast::<Pose>(), count, "poses")?;
         let mut placed = with_capacity(count)?;
         for (ground, pose) in grounds.iter().zip(poses) {
-            placed.push(input(*ground, "grounds")?.at(pose));
+            placed.push(handle(*ground, "grounds")?.at(pose));
         }
         Ok(Ground::from_grounds(&placed)?)
     })
@@ -109,18 +109,15 @@ pub unsafe extern "C" fn swiftprox_ground_create_solid(
     solid: *mut *const Ground,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    create(solid, || unsafe { Ok(input(ground, "ground")?.try_clone()?.with_thickness(thickness)?) })
+    create(solid, || unsafe { Ok(handle(ground, "ground")?.try_clone()?.with_thickness(thickness)?) })
 }
 
 /// Adds a share of a ground, and returns the ground. Give each share back with swiftprox_ground_release. Safe from any thread. For
 /// null it returns null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_ground_retain(ground: *const Ground) -> *const Ground {
-    if !ground.is_null() {
-        // SAFETY: a live ground by the header's pointer rules; every one comes from Arc::into_raw.
-        unsafe { Arc::increment_strong_count(ground) };
-    }
-    ground
+    // SAFETY: a live ground by the header's pointer rules; every one comes from Arc::into_raw.
+    unsafe { retained(ground, "ground") }
 }
 
 /// Gives back one share of a ground; the last one frees it. Safe from any thread. Null is ignored.
@@ -128,11 +125,8 @@ pub unsafe extern "C" fn swiftprox_ground_retain(ground: *const Ground) -> *cons
 pub unsafe extern "C" fn swiftprox_ground_release(ground: *const Ground) {
     // A bug in the freeing is told by the message and the log.
     let _: StatusCode = guard(|| {
-        if !ground.is_null() {
-            // SAFETY: a live ground by the header's pointer rules, and this share is given up.
-            unsafe { Arc::decrement_strong_count(ground) };
-        }
-        Ok(())
+        // SAFETY: a live ground by the header's pointer rules, and this share is given up.
+        unsafe { release(ground, "ground") }
     });
 }
 
@@ -150,7 +144,7 @@ pub struct CPlacedGround {
 /// The pointers meet the header's pointer rules for `'a`.
 pub(super) unsafe fn read_placed<'a>(ground: CPlacedGround) -> Checked<PlacedGround<'a>> {
     // SAFETY: by the caller; a pose is twelve doubles, row by row, as is `Pose`.
-    unsafe { Ok(input(ground.ground, "ground.ground")?.at(input(ground.pose.cast::<Pose>(), "ground.pose")?)) }
+    unsafe { Ok(handle(ground.ground, "ground.ground")?.at(input(ground.pose.cast::<Pose>(), "ground.pose")?)) }
 }
 
 /// Properties of a ground.
@@ -171,7 +165,7 @@ pub unsafe extern "C" fn swiftprox_ground_get_info(ground: *const Ground, info: 
     // SAFETY: the header's pointer rules.
     guard(|| unsafe {
         output(info, "info", GroundInfo { vertex_count: 0, triangle_count: 0, bytes: 0 })?;
-        let ground = input(ground, "ground")?;
+        let ground = handle(ground, "ground")?;
         let (vertex_count, triangle_count) = (ground.vertex_count(), ground.triangle_count());
         output(info, "info", GroundInfo { vertex_count, triangle_count, bytes: ground.bytes() })
     })

@@ -3,7 +3,7 @@
 use super::arrays::{CMesh, copy_triangles, copy_vertices, read_mesh};
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::guard;
-use super::pointers::{array, input};
+use super::pointers::{array, handle};
 use super::shape::create;
 use super::shape_options::{CShapeOptions, read_options};
 use super::structs::{Versioned, write_struct};
@@ -92,7 +92,7 @@ pub unsafe extern "C" fn swiftprox_shape_get_level_info(
         // SAFETY: the header's pointer rules.
         unsafe { write_struct(info, "info", &LevelInfo::UNKNOWN) }?;
         // SAFETY: the header's pointer rules.
-        let shape = unsafe { input(shape, "shape") }?;
+        let shape = unsafe { handle(shape, "shape") }?;
         let polyhedron = polyhedron_of(shape, level)?;
         let coarse = level.checked_sub(1).map(|i| &shape.hierarchy().levels[i]);
         let value = LevelInfo {
@@ -123,7 +123,7 @@ pub unsafe extern "C" fn swiftprox_shape_copy_level_vertices(
 ) -> StatusCode {
     guard(|| {
         // SAFETY: the header's pointer rules.
-        let polyhedron = polyhedron_of(unsafe { input(shape, "shape") }?, level)?;
+        let polyhedron = polyhedron_of(unsafe { handle(shape, "shape") }?, level)?;
         // SAFETY: the header's pointer rules.
         unsafe { copy_vertices(polyhedron, vertices, capacity) }
     })
@@ -142,7 +142,7 @@ pub unsafe extern "C" fn swiftprox_shape_copy_level_triangles(
 ) -> StatusCode {
     guard(|| {
         // SAFETY: the header's pointer rules.
-        let polyhedron = polyhedron_of(unsafe { input(shape, "shape") }?, level)?;
+        let polyhedron = polyhedron_of(unsafe { handle(shape, "shape") }?, level)?;
         // SAFETY: the header's pointer rules.
         unsafe { copy_triangles(polyhedron, corners, capacity) }
     })

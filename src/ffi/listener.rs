@@ -63,7 +63,7 @@ pub unsafe extern "C" fn swiftprox_listener_destroy(listener: *mut Listener) {
 
 /// Runs a query of that kind over all pairs, and reports the changes since the listener's last call. Pairs of pieces and contact
 /// points have begun, persist or have ended; in the first call all begin. Contacts with query->detail
-/// SWIFTPROX_CONTACT_DETAIL_MANIFOLD have points; swiftprox_scene_get_contacts returns their positions.
+/// SWIFTPROX_CONTACT_DETAIL_MANIFOLD have points; answer->points holds their positions.
 ///
 /// Each listener has its own history, which other queries do not affect. Use one listener per max_distance; it defaults to 0 for
 /// contacts, else infinity. Removed objects, deactivated pairs and pairs of another scene have ended. Recordings include the query.

@@ -7,7 +7,7 @@ use super::enumerators::{CastOutcomeNumber, read_enumerator, unknown};
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::{call_out, guard};
 use super::pair::CPairCache;
-use super::pointers::{exclusive, input, output};
+use super::pointers::{exclusive, handle, input, output};
 use super::structs::{Versioned, read_struct};
 use crate::base::enumerator::{Enumerator, enumerator};
 use crate::base::math::{Pose, Vector};
@@ -334,9 +334,9 @@ unsafe fn with_bodies([object1, object2]: [CMoving; 2], run: impl FnOnce([Moving
     // SAFETY: the header's pointer rules.
     let (shape1, motion1, shape2, motion2) = unsafe {
         (
-            input(object1.shape, "object1.shape")?,
+            handle(object1.shape, "object1.shape")?,
             input(object1.motion, "object1.motion")?,
-            input(object2.shape, "object2.shape")?,
+            handle(object2.shape, "object2.shape")?,
             input(object2.motion, "object2.motion")?,
         )
     };

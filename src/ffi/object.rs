@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::arrays::check_capacity;
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::guard;
-use super::pointers::{array, input, output};
+use super::pointers::{Handle, array, freed, input, output};
 use super::scene::{SceneHandle, change, look};
 use super::structs::{Versioned, read_struct, write_struct};
 use crate::base::math::Pose;
@@ -385,8 +385,10 @@ fn mask_or_all(mask: u32) -> u32 {
 /// # Safety
 /// `shape` meets the header's pointer rules.
 pub(super) unsafe fn share(shape: *const Shape, name: impl std::fmt::Display) -> Checked<Arc<Shape>> {
-    if shape.is_null() {
-        return Err(Failure::null(&name.to_string()));
+    // SAFETY: a live shape by the caller, which came from Arc::into_raw.
+    let is_alive = unsafe { shape.as_ref() }.is_some_and(|shape| shape.mark().is_alive());
+    if !is_alive {
+        return Err(if shape.is_null() { Failure::null(&name.to_string()) } else { freed::<Shape>(&name.to_string()) });
     }
     // SAFETY: a live shape by the caller, which came from Arc::into_raw.
     Ok(unsafe {

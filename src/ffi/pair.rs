@@ -6,11 +6,11 @@ use std::mem::MaybeUninit;
 use super::enumerators::read_enumerator;
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::{caught, guard};
-use super::pointers::{exclusive, input};
+use super::pointers::{exclusive, handle, input};
 use super::structs::{Versioned, view_struct};
 use super::tuning::{CPairTuning, PairTuning, read_pair_tuning};
 use crate::base::error::Result;
-use crate::base::math::{Pose, ROTATION_LIMIT};
+use crate::base::math::Pose;
 use crate::pair::{self, DecidedBy, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Placed};
 use crate::shape::Shape;
 use crate::verify::verify;
@@ -23,8 +23,6 @@ pub struct CPairConfig {
     pub struct_size: usize,
     /// Pairs farther apart than this get SWIFTPROX_OUTCOME_BEYOND. From 0 to infinity (the default: never).
     pub max_distance: f64,
-    /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
-    pub rotation_limit: f64,
     /// For swiftprox_pair_approximate: allowed upper - lower, from 0 to infinity. Default: 0. Other queries ignore this and the two
     /// members below, even out of range.
     pub absolute_error: f64,
@@ -49,7 +47,6 @@ impl CPairConfig {
     pub const DEFAULT: CPairConfig = CPairConfig {
         struct_size: size_of::<CPairConfig>(),
         max_distance: f64::INFINITY,
-        rotation_limit: ROTATION_LIMIT,
         absolute_error: 0.0,
         relative_error: 0.0,
         step_budget: u32::MAX,
@@ -185,7 +182,7 @@ pub unsafe extern "C" fn swiftprox_pair_verify(
 #[inline(always)]
 pub(super) unsafe fn body<'a>(object: CPlaced, names: [&str; 2]) -> Checked<Placed<'a>> {
     // SAFETY: by the caller; a pose is twelve doubles, row by row, as is `Pose`.
-    unsafe { Ok(input(object.shape, names[0])?.at(input(object.pose.cast::<Pose>(), names[1])?)) }
+    unsafe { Ok(handle(object.shape, names[0])?.at(input(object.pose.cast::<Pose>(), names[1])?)) }
 }
 
 /// The two of a pair.
@@ -261,7 +258,6 @@ pub(super) unsafe fn read_config(config: *const CPairConfig) -> Checked<PairConf
     let PairTuning { start, levels, refinement } = unsafe { read_pair_tuning(config.tuning) }?;
     Ok(PairConfig {
         max_distance: config.max_distance,
-        rotation_limit: config.rotation_limit,
         start,
         absolute_error: config.absolute_error,
         relative_error: config.relative_error,

@@ -4,7 +4,7 @@ use super::enumerators::{QueryNumber, read_enumerator};
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::{caught, guard};
 use super::pair::{CPairCache, CPairConfig, read_config};
-use super::pointers::{array, exclusive, input};
+use super::pointers::{array, exclusive, handle, input};
 use super::scene::{SceneHandle, change_guarded};
 use crate::base::error::Error;
 use crate::base::math::Pose;
@@ -108,7 +108,7 @@ pub unsafe extern "C" fn swiftprox_pair_distances(
             );
             return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
         }
-        let (shape1, shape2) = (input(object1.shape, "object1.shape")?, input(object2.shape, "object2.shape")?);
+        let (shape1, shape2) = (handle(object1.shape, "object1.shape")?, handle(object2.shape, "object2.shape")?);
         let poses1 = array(object1.poses.cast::<Pose>(), object1.count, "object1.poses")?;
         let poses2 = array(object2.poses.cast::<Pose>(), object2.count, "object2.poses")?;
         let cache = exclusive(cache.cast::<PairCache>(), "cache")?;
@@ -155,8 +155,8 @@ fn named(failure: &Failure, pair: usize) -> Failure {
 unsafe fn read_pair<'a>(pair: &CPairQuestion) -> Checked<PairQuestion<'a>> {
     // SAFETY: by the caller; a pose is twelve doubles, row by row, as is `Pose`.
     unsafe {
-        let (shape1, pose1) = (input(pair.shape1, "shape1")?, input(pair.pose1.cast::<Pose>(), "pose1")?);
-        let (shape2, pose2) = (input(pair.shape2, "shape2")?, input(pair.pose2.cast::<Pose>(), "pose2")?);
+        let (shape1, pose1) = (handle(pair.shape1, "shape1")?, input(pair.pose1.cast::<Pose>(), "pose1")?);
+        let (shape2, pose2) = (handle(pair.shape2, "shape2")?, input(pair.pose2.cast::<Pose>(), "pose2")?);
         let cache = exclusive(pair.cache.cast::<PairCache>(), "cache")?;
         Ok(PairQuestion { bodies: [shape1.at(pose1), shape2.at(pose2)], cache })
     }

@@ -5,7 +5,7 @@ use std::ffi::c_char;
 use super::enumerators::PointLocationNumber;
 use super::failure::StatusCode;
 use super::guard::guard;
-use super::pointers::{input, output};
+use super::pointers::{handle, input, output};
 use crate::base::enumerator::Enumerator;
 use crate::base::math::Pose;
 use crate::point::{PointAnswer, PointLocation, SupportVertex, locate_point, support};
@@ -27,7 +27,7 @@ pub unsafe extern "C" fn swiftprox_shape_locate_point(
         // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`, a point three.
         unsafe {
             output(answer, "answer", PointAnswer::default())?;
-            let (shape, pose) = (input(shape, "shape")?, input(pose.cast::<Pose>(), "pose")?);
+            let (shape, pose) = (handle(shape, "shape")?, input(pose.cast::<Pose>(), "pose")?);
             let point = input(point.cast::<[f64; 3]>(), "point")?;
             output(answer, "answer", locate_point(shape.at(pose), *point)?)
         }
@@ -49,7 +49,7 @@ pub unsafe extern "C" fn swiftprox_shape_support(
         // SAFETY: as above.
         unsafe {
             output(answer, "answer", SupportVertex::default())?;
-            let (shape, pose) = (input(shape, "shape")?, input(pose.cast::<Pose>(), "pose")?);
+            let (shape, pose) = (handle(shape, "shape")?, input(pose.cast::<Pose>(), "pose")?);
             let direction = input(direction.cast::<[f64; 3]>(), "direction")?;
             output(answer, "answer", support(shape.at(pose), *direction)?)
         }

@@ -1,7 +1,15 @@
 //! The checks of pointers.
 
+use crate::base::error::Error;
+use crate::base::mark::Mark;
+use crate::compound::Compound;
+use crate::ground::Ground;
+use crate::shape::Shape;
+
 use super::failure::{Checked, Failure, StatusCode};
+use super::guard::guard;
 use std::ffi::{CStr, c_char};
+use std::sync::Arc;
 
 /// An input that must not be null.
 ///
@@ -11,6 +19,88 @@ use std::ffi::{CStr, c_char};
 pub(super) unsafe fn input<'a, T>(pointer: *const T, name: &str) -> Checked<&'a T> {
     // SAFETY: valid when not null, by the caller.
     unsafe { pointer.as_ref() }.ok_or_else(|| Failure::null(name))
+}
+
+/// What a program holds by a pointer that it gives back.
+pub(super) trait Handle {
+    const NOUN: &str;
+    fn mark(&self) -> &Mark;
+}
+
+impl Handle for Shape {
+    const NOUN: &str = "shape";
+    fn mark(&self) -> &Mark {
+        &self.mark
+    }
+}
+
+impl Handle for Ground {
+    const NOUN: &str = "ground";
+    fn mark(&self) -> &Mark {
+        &self.mark
+    }
+}
+
+impl Handle for Compound {
+    const NOUN: &str = "compound";
+    fn mark(&self) -> &Mark {
+        &self.mark
+    }
+}
+
+/// A handle that must not be null; one that was freed is refused as long as its memory shows it.
+///
+/// # Safety
+/// `pointer` is null or points to a live `T` for `'a`, or to memory that was one's and is still mapped.
+#[inline(always)]
+pub(super) unsafe fn handle<'a, T: Handle>(pointer: *const T, name: &str) -> Checked<&'a T> {
+    // SAFETY: by the caller.
+    let handle = unsafe { input(pointer, name) }?;
+    if handle.mark().is_alive() { Ok(handle) } else { Err(freed::<T>(name)) }
+}
+
+/// One more share of a handle, which is null if that is, and if there is none to share.
+///
+/// # Safety
+/// As of [`handle`]; a live one comes from [`Arc::into_raw`].
+pub(super) unsafe fn retained<T: Handle>(pointer: *const T, name: &str) -> *const T {
+    let mut shared = std::ptr::null();
+    let _: StatusCode = guard(|| {
+        if !pointer.is_null() {
+            // SAFETY: by the caller.
+            unsafe {
+                handle(pointer, name)?;
+                Arc::increment_strong_count(pointer);
+            }
+            shared = pointer;
+        }
+        Ok(())
+    });
+    shared
+}
+
+/// Gives up one share of a handle; null is ignored.
+///
+/// # Safety
+/// As of [`retained`]; the share is the caller's.
+pub(super) unsafe fn release<T: Handle>(pointer: *const T, name: &str) -> Checked<()> {
+    if !pointer.is_null() {
+        // SAFETY: by the caller.
+        unsafe {
+            handle(pointer, name)?;
+            Arc::decrement_strong_count(pointer);
+        }
+    }
+    Ok(())
+}
+
+#[cold]
+pub(super) fn freed<T: Handle>(name: &str) -> Failure {
+    let noun = T::NOUN;
+    Failure::from(Error::Handle(format!(
+        "`{name}` is no living {noun}: it was released or destroyed, or is no pointer from this library; keep a share of the \
+         {noun} until its last use"
+    )))
 }
 
 /// An input or output that must not be null and that nobody else uses meanwhile.

@@ -5,7 +5,7 @@ use super::guard::guard;
 use super::object::check_piece;
 use super::pointers::{array, input, output};
 use super::scene::{SceneHandle, change, look};
-use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
+use crate::base::math::{Matrix, Pose, Vector};
 use crate::base::memory::collected;
 use crate::scene::Scene;
 use crate::scene::object::ObjectId;
@@ -37,7 +37,7 @@ pub unsafe extern "C" fn swiftprox_pose_from_quaternion(
         ];
         let [a, b, c] = rotation;
         let made = Pose { rows: [[a[0], a[1], a[2], tx], [b[0], b[1], b[2], ty], [c[0], c[1], c[2], tz]] };
-        made.check(ROTATION_LIMIT)?;
+        made.check()?;
         output(pose.cast::<Pose>(), "pose", made)
     })
 }
@@ -58,7 +58,7 @@ pub unsafe extern "C" fn swiftprox_pose_from_column_major(matrix: *const f64, po
             return Err(Failure::new(StatusCode::ErrorPose, message));
         }
         let made = Pose { rows: std::array::from_fn(|row| std::array::from_fn(|column| m[column][row])) };
-        made.check(ROTATION_LIMIT)?;
+        made.check()?;
         output(pose.cast::<Pose>(), "pose", made)
     })
 }

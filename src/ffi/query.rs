@@ -89,20 +89,49 @@ pub struct CSceneAnswer {
     /// intersecting pair in the order of pairs, but a step budget may leave an earlier one undecided. It holds the query's
     /// usual answer. Owned and valid as pairs.
     pub found: *const PairResult,
+    /// With swiftprox_scene_query.detail: one contact per listed pair, in the same order; after an early exit, only that of
+    /// found. Owned and valid as pairs. Null if contact_count is 0.
+    pub contacts: *const Contact,
+    /// Number of contacts: 0 without a detail.
+    pub contact_count: usize,
+    /// The points of all manifolds; those of a contact begin at its first_point. Owned and valid as pairs. Null if point_count
+    /// is 0.
+    pub points: *const ManifoldPoint,
+    /// Number of points.
+    pub point_count: usize,
 }
 
 impl CSceneAnswer {
-    pub(super) const EMPTY: CSceneAnswer =
-        CSceneAnswer { pairs: std::ptr::null(), count: 0, intersecting: 0, found: std::ptr::null() };
+    /// What a failed query answers.
+    pub const EMPTY: CSceneAnswer = CSceneAnswer {
+        pairs: std::ptr::null(),
+        count: 0,
+        intersecting: 0,
+        found: std::ptr::null(),
+        contacts: std::ptr::null(),
+        contact_count: 0,
+        points: std::ptr::null(),
+        point_count: 0,
+    };
 
     pub(super) fn new(answer: &SceneAnswer) -> CSceneAnswer {
+        let SceneContacts { contacts, points } = answer.contacts;
         CSceneAnswer {
-            pairs: if answer.pairs.is_empty() { std::ptr::null() } else { answer.pairs.as_ptr() },
+            pairs: pointer_to(answer.pairs),
             count: answer.pairs.len(),
             intersecting: i32::from(answer.intersecting),
             found: answer.found.map_or(std::ptr::null(), std::ptr::from_ref),
+            contacts: pointer_to(contacts),
+            contact_count: contacts.len(),
+            points: pointer_to(points),
+            point_count: points.len(),
         }
     }
+}
+
+/// Null for an empty slice.
+fn pointer_to<T>(slice: &[T]) -> *const T {
+    if slice.is_empty() { std::ptr::null() } else { slice.as_ptr() }
 }
 
 /// Lists the intersecting pairs, touching ones included. Each answer has only outcome, decided_by, proof, statistics, and distance,
@@ -149,8 +178,8 @@ pub unsafe extern "C" fn swiftprox_scene_query_approximate(
 /// Like swiftprox_scene_query_distance, with answers as from swiftprox_pair_contact. max_distance defaults to 0, so only touching
 /// or intersecting pairs are listed.
 ///
-/// With a query->detail the answers are those of swiftprox_scene_query_distance. swiftprox_scene_get_contacts then returns depths
-/// and contact points, as from swiftprox_pair_depth and swiftprox_pair_manifold. Same errors as swiftprox_scene_query_intersection.
+/// With a query->detail the answers are those of swiftprox_scene_query_distance, and answer->contacts holds depths and contact
+/// points, as from swiftprox_pair_depth and swiftprox_pair_manifold. Same errors as swiftprox_scene_query_intersection.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_query_contact(
     scene: *mut SceneHandle,
@@ -161,57 +190,9 @@ pub unsafe extern "C" fn swiftprox_scene_query_contact(
     unsafe { ask(|scene, query| Ok(scene.query_contact(query)?), 0.0, scene, query, answer) }
 }
 
-/// The contacts of a query of contacts.
-#[derive(Debug, Clone, Copy)]
-#[repr(C)]
-pub struct CSceneContacts {
-    /// One contact per listed pair, in the same order; after an early exit, only that of swiftprox_scene_answer.found. Owned by
-    /// the scene and valid as the answer's pairs. Null if count is 0.
-    pub contacts: *const Contact,
-    /// Number of contacts.
-    pub count: usize,
-    /// The points of all manifolds; those of a contact begin at its first_point. Owned and valid as contacts. Null if
-    /// point_count is 0.
-    pub points: *const ManifoldPoint,
-    /// Number of points.
-    pub point_count: usize,
-}
-
-impl CSceneContacts {
-    const EMPTY: CSceneContacts =
-        CSceneContacts { contacts: std::ptr::null(), count: 0, points: std::ptr::null(), point_count: 0 };
-
-    fn new(said: &SceneContacts) -> CSceneContacts {
-        let SceneContacts { contacts, points } = said;
-        CSceneContacts {
-            contacts: if contacts.is_empty() { std::ptr::null() } else { contacts.as_ptr() },
-            count: contacts.len(),
-            points: if points.is_empty() { std::ptr::null() } else { points.as_ptr() },
-            point_count: points.len(),
-        }
-    }
-}
-
-/// Returns the contacts of the scene's last query. They are empty unless that was a query of contacts with a
-/// swiftprox_scene_query.detail. On failure `*contacts` is empty.
-#[unsafe(no_mangle)]
-pub unsafe extern "C" fn swiftprox_scene_get_contacts(
-    scene: *const SceneHandle,
-    contacts: *mut CSceneContacts,
-) -> StatusCode {
-    // SAFETY: the header's pointer rules.
-    guard(|| unsafe {
-        output(contacts, "contacts", CSceneContacts::EMPTY)?;
-        look(scene, |scene| {
-            contacts.write(CSceneContacts::new(&scene.contacts()));
-            Ok(())
-        })
-    })
-}
-
 /// Returns the signed distance of a pair of the last query of contacts: its distance, or minus its penetration depth. One interval
 /// spans zero; normal and witness points are as from swiftprox_pair_signed_distance. It takes no further search. `number` is an
-/// index into swiftprox_scene_contacts.contacts. On failure the answer's numbers are NaN.
+/// index into swiftprox_scene_answer.contacts. On failure the answer's numbers are NaN.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: number is too large, or the last query was not of contacts with a
 /// swiftprox_scene_query.detail.

@@ -5,7 +5,7 @@ use std::ffi::c_char;
 use super::enumerators::RayOutcomeNumber;
 use super::failure::StatusCode;
 use super::guard::guard;
-use super::pointers::{input, output};
+use super::pointers::{handle, input, output};
 use crate::base::enumerator::Enumerator;
 use crate::base::math::Pose;
 use crate::ray::{Ray, RayAnswer, RayOutcome, cast_ray};
@@ -28,7 +28,7 @@ pub unsafe extern "C" fn swiftprox_shape_cast_ray(
         // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
         unsafe {
             output(answer, "answer", RayAnswer::default())?;
-            let (shape, pose, ray) = (input(shape, "shape")?, input(pose.cast::<Pose>(), "pose")?, input(ray, "ray")?);
+            let (shape, pose, ray) = (handle(shape, "shape")?, input(pose.cast::<Pose>(), "pose")?, input(ray, "ray")?);
             output(answer, "answer", cast_ray(shape.at(pose), ray)?)
         }
     })

@@ -84,7 +84,7 @@ impl CReplayStep {
     };
 }
 
-/// Opens a recording and creates a scene for it, with the workers of `options` and the recorded rotation limit. Null `options` mean
+/// Opens a recording and creates a scene for it, with the workers of `options`. Null `options` mean
 /// the defaults. The caller frees both with swiftprox_replay_close. On failure `*replay` is null.
 ///
 /// SWIFTPROX_ERROR_FILE: the file is unreadable, not regular, not a recording, of another version, or damaged at its beginning.
@@ -101,7 +101,7 @@ pub unsafe extern "C" fn swiftprox_replay_open(
         keep_panics_quiet();
         let options = read_struct(options, CSceneOptions::DEFAULT)?;
         let opened = Replay::open(read_path(path)?)?;
-        let scene = new_scene(&opened.scene_options(), &options)?;
+        let scene = new_scene(&options)?;
         replay.write(Box::into_raw(Box::new(ReplayHandle { replay: opened, scene })));
         Ok(())
     })

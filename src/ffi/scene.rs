@@ -7,13 +7,13 @@ use std::sync::atomic::{AtomicU32, Ordering};
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::{guard, keep_panics_quiet};
 use super::log::log;
-use super::pointers::{input, output};
+use super::pointers::{Handle, handle, output};
 use super::structs::{Versioned, read_struct};
 use super::workers::{EnqueueTaskCallback, FinishTaskCallback, workers};
-use crate::base::math::ROTATION_LIMIT;
+use crate::base::mark::Mark;
 use crate::base::workers::parked::MOST_THREADS;
 use crate::scene::object::ObjectId;
-use crate::scene::{Scene, SceneOptions, Workers};
+use crate::scene::{Scene, Workers};
 use crate::shape::Shape;
 
 /// Objects, their poses, and the pairs that queries test. Create one with swiftprox_scene_create.
@@ -22,6 +22,7 @@ pub struct SceneHandle {
     /// How many calls read the scene, and [`CHANGING`] while one changes it. Every call enters here before it makes a reference to
     /// what follows.
     users: AtomicU32,
+    mark: Mark,
     content: UnsafeCell<Content>,
 }
 
@@ -32,6 +33,13 @@ struct Content {
     poisoned: bool,
     /// The log knows that the recording has ended early.
     told_of_recording: bool,
+}
+
+impl Handle for SceneHandle {
+    const NOUN: &str = "scene";
+    fn mark(&self) -> &Mark {
+        &self.mark
+    }
 }
 
 /// One call changes the scene, or ends it.
@@ -102,8 +110,6 @@ const _: () = {
 pub struct CSceneOptions {
     /// Set by SWIFTPROX_SCENE_OPTIONS_DEFAULT.
     pub struct_size: usize,
-    /// Largest accepted |RᵀR − I| entry of a pose, from 0 to 1e-2 (the default).
-    pub rotation_limit: f64,
     /// Number of threads for a query, or for poses that are set together, including the caller's. It changes no bit of any
     /// answer. Some work uses the caller's thread only: queries that stop early, queries without a max_distance over many objects,
     /// and few pairs or objects. Numbers above 256 mean 256. Default: 0, which means 1.
@@ -128,7 +134,6 @@ impl CSceneOptions {
     /// The defaults, as in the header.
     pub const DEFAULT: CSceneOptions = CSceneOptions {
         struct_size: size_of::<CSceneOptions>(),
-        rotation_limit: ROTATION_LIMIT,
         worker_count: 0,
         enqueue_task: None,
         finish_task: None,
@@ -141,7 +146,7 @@ impl CSceneOptions {
 /// Creates an empty scene. The caller owns it and frees it with swiftprox_scene_destroy. Null `options` mean the defaults. On
 /// failure `*scene` is null.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the rotation limit is out of range, or only one of enqueue_task and finish_task is null.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: only one of enqueue_task and finish_task is null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_create(
     options: *const CSceneOptions,
@@ -152,7 +157,7 @@ pub unsafe extern "C" fn swiftprox_scene_create(
         output(scene, "scene", std::ptr::null_mut())?;
         keep_panics_quiet();
         let options = read_struct(options, CSceneOptions::DEFAULT)?;
-        scene.write(new_scene(&SceneOptions { rotation_limit: options.rotation_limit }, &options)?);
+        scene.write(new_scene(&options)?);
         Ok(())
     })
 }
@@ -164,10 +169,10 @@ pub unsafe extern "C" fn swiftprox_scene_create(
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_destroy(scene: *mut SceneHandle) -> StatusCode {
     guard(|| {
-        // SAFETY: a live scene by the header's pointer rules, or null.
-        if let Some(handle) = unsafe { scene.as_ref() } {
-            // Nobody enters any more: whoever tries while the scene is freed is told so as long as its memory is there.
-            std::mem::forget(Changing::enter(handle)?);
+        if !scene.is_null() {
+            // Nobody enters any more.
+            // SAFETY: a live scene by the header's pointer rules.
+            std::mem::forget(Changing::enter(unsafe { handle(scene, "scene") }?)?);
             // SAFETY: a live scene by the header's pointer rules; every one comes from Box::into_raw.
             let handle = unsafe { Box::from_raw(scene) };
             let Content { mut scene, poisoned, .. } = handle.content.into_inner();
@@ -252,11 +257,11 @@ pub unsafe extern "C" fn swiftprox_scene_get_pair_active(
 }
 
 /// A scene that the caller is to end, with the workers of `workers`.
-pub(super) fn new_scene(options: &SceneOptions, workers: &CSceneOptions) -> Checked<*mut SceneHandle> {
-    let mut made = Scene::new(options)?;
+pub(super) fn new_scene(workers: &CSceneOptions) -> Checked<*mut SceneHandle> {
+    let mut made = Scene::new();
     made.set_workers(read_workers(workers)?);
     let content = Content { scene: made, poisoned: false, told_of_recording: false };
-    let handle = SceneHandle { users: AtomicU32::new(0), content: UnsafeCell::new(content) };
+    let handle = SceneHandle { users: AtomicU32::new(0), mark: Mark::new(), content: UnsafeCell::new(content) };
     Ok(Box::into_raw(Box::new(handle)))
 }
 
@@ -297,7 +302,7 @@ fn busy() -> Failure {
 /// `scene` meets the header's pointer rules.
 pub(super) unsafe fn look<T>(scene: *const SceneHandle, body: impl FnOnce(&Scene) -> Checked<T>) -> Checked<T> {
     // SAFETY: by the caller.
-    let reading = Reading::enter(unsafe { input(scene, "scene") }?)?;
+    let reading = Reading::enter(unsafe { handle(scene, "scene") }?)?;
     let content = reading.content();
     if content.poisoned { Err(poisoned()) } else { body(&content.scene) }
 }
@@ -322,7 +327,7 @@ pub(super) unsafe fn change_guarded(
     body: impl FnOnce(&mut Scene) -> Checked<()>,
 ) -> Checked<()> {
     // SAFETY: by the caller.
-    let mut changing = Changing::enter(unsafe { input(scene, "scene") }?)?;
+    let mut changing = Changing::enter(unsafe { handle(scene, "scene") }?)?;
     let content = changing.content();
     if content.poisoned {
         return Err(poisoned());
@@ -408,7 +413,7 @@ mod tests {
     #[test]
     fn a_call_inside_a_call_is_refused() {
         let scene = new_scene();
-        let mut answer = CSceneAnswer { pairs: null(), count: 7, intersecting: 7, found: null() };
+        let mut answer = CSceneAnswer { count: 7, intersecting: 7, ..CSceneAnswer::EMPTY };
         // SAFETY: a living scene, used by this thread only, and room for every output.
         unsafe {
             let status = change(scene, |_| {

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use super::arrays::{CMesh, copy_triangles, copy_vertices, read_mesh, read_path, read_vectors};
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::{guard, keep_panics_quiet};
-use super::pointers::{input, output};
+use super::pointers::{handle, output, release, retained};
 use super::shape_options::{CShapeOptions, ProgressCallback, in_steps, read_options};
 use super::structs::{Versioned, write_struct};
 use crate::body::build::hull::check_points;
@@ -216,7 +216,7 @@ pub unsafe extern "C" fn swiftprox_shape_create_scaled(
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
     create(shape, || unsafe {
-        let source = input(source, "source")?;
+        let source = handle(source, "source")?;
         Ok(in_steps(progress, progress_user, |progress| source.scaled(scale, progress))?)
     })
 }
@@ -230,7 +230,7 @@ pub unsafe extern "C" fn swiftprox_shape_create_scaled(
 pub unsafe extern "C" fn swiftprox_shape_save(shape: *const Shape, path: *const c_char) -> StatusCode {
     guard(|| {
         // SAFETY: the header's pointer rules.
-        let (shape, path) = unsafe { (input(shape, "shape")?, read_path(path)?) };
+        let (shape, path) = unsafe { (handle(shape, "shape")?, read_path(path)?) };
         Ok(shape_file::save(shape, path)?)
     })
 }
@@ -259,11 +259,8 @@ pub unsafe extern "C" fn swiftprox_shape_load(
 /// returns null.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_retain(shape: *const Shape) -> *const Shape {
-    if !shape.is_null() {
-        // SAFETY: a live shape by the header's pointer rules; every one comes from Arc::into_raw.
-        unsafe { Arc::increment_strong_count(shape) };
-    }
-    shape
+    // SAFETY: a live shape by the header's pointer rules; every one comes from Arc::into_raw.
+    unsafe { retained(shape, "shape") }
 }
 
 /// Drops one reference to a shape that the caller owns. The last reference frees the shape; scenes hold their own. Safe from any
@@ -272,11 +269,8 @@ pub unsafe extern "C" fn swiftprox_shape_retain(shape: *const Shape) -> *const S
 pub unsafe extern "C" fn swiftprox_shape_release(shape: *const Shape) {
     // A bug in the freeing is told by the message and the log.
     let _: StatusCode = guard(|| {
-        if !shape.is_null() {
-            // SAFETY: a live shape by the header's pointer rules, and this share is given up; see swiftprox_shape_retain.
-            unsafe { Arc::decrement_strong_count(shape) };
-        }
-        Ok(())
+        // SAFETY: a live shape by the header's pointer rules, and this share is given up.
+        unsafe { release(shape, "shape") }
     });
 }
 
@@ -295,7 +289,7 @@ pub unsafe extern "C" fn swiftprox_shape_prepare(
 ) -> StatusCode {
     guard(|| {
         // SAFETY: the header's pointer rules.
-        let shape = unsafe { input(shape, "shape") }?;
+        let shape = unsafe { handle(shape, "shape") }?;
         Ok(in_steps(progress, progress_user, |progress| shape.prepare(progress))?)
     })
 }
@@ -308,7 +302,7 @@ pub unsafe extern "C" fn swiftprox_shape_get_info(shape: *const Shape, info: *mu
         // SAFETY: the header's pointer rules.
         unsafe { write_struct(info, "info", &ShapeInfo::UNKNOWN) }?;
         // SAFETY: the header's pointer rules.
-        let shape = unsafe { input(shape, "shape") }?;
+        let shape = unsafe { handle(shape, "shape") }?;
         let (polyhedron, inertia) = (shape.polyhedron(), shape.inertia());
         let value = ShapeInfo {
             struct_size: size_of::<ShapeInfo>(),
@@ -344,7 +338,7 @@ pub unsafe extern "C" fn swiftprox_shape_copy_vertices(
 ) -> StatusCode {
     guard(|| {
         // SAFETY: the header's pointer rules.
-        let polyhedron = unsafe { input(shape, "shape") }?.polyhedron();
+        let polyhedron = unsafe { handle(shape, "shape") }?.polyhedron();
         // SAFETY: the header's pointer rules.
         unsafe { copy_vertices(polyhedron, vertices, capacity) }?;
         if !labels.is_null() {
@@ -369,7 +363,7 @@ pub unsafe extern "C" fn swiftprox_shape_copy_triangles(
 ) -> StatusCode {
     guard(|| {
         // SAFETY: the header's pointer rules.
-        let polyhedron = unsafe { input(shape, "shape") }?.polyhedron();
+        let polyhedron = unsafe { handle(shape, "shape") }?.polyhedron();
         // SAFETY: the header's pointer rules.
         unsafe { copy_triangles(polyhedron, corners, capacity) }
     })
@@ -425,7 +419,7 @@ pub unsafe extern "C" fn swiftprox_shape_get_face(
         // SAFETY: the header's pointer rules.
         unsafe { output(face, "face", CFace::UNKNOWN) }?;
         // SAFETY: the header's pointer rules.
-        let shape = unsafe { input(shape, "shape") }?;
+        let shape = unsafe { handle(shape, "shape") }?;
         let found = shape.face(index).ok_or_else(|| {
             let message = format!("face {index} of a shape with {} faces", shape.face_count());
             Failure::new(StatusCode::ErrorInvalidArgument, message)
@@ -466,7 +460,7 @@ pub unsafe extern "C" fn swiftprox_shape_find_face(shape: *const Shape, label: u
         // SAFETY: the header's pointer rules.
         let shape = unsafe {
             output(index, "index", usize::MAX)?;
-            input(shape, "shape")?
+            handle(shape, "shape")?
         };
         let found = shape.find_face(label).ok_or_else(|| {
             Failure::new(StatusCode::ErrorInvalidArgument, format!("no face of the shape has the label {label}"))

@@ -5,7 +5,7 @@ use std::mem::MaybeUninit;
 use super::enumerators::{HierarchyNumber, LevelsNumber, LookupNumber, RefinementNumber, StartNumber, read_enumerator};
 use super::failure::{Checked, StatusCode};
 use super::guard::guard;
-use super::pointers::input;
+use super::pointers::handle;
 use super::structs::{Versioned, read_struct, view_struct, write_struct};
 use crate::body::polyhedron::lookup::Plan;
 use crate::body::tables::{LookupKind, LookupOptions};
@@ -186,7 +186,7 @@ pub unsafe extern "C" fn swiftprox_shape_get_tuning_info(shape: *const Shape, in
         // SAFETY: the header's pointer rules.
         unsafe { write_struct(info, "info", &TuningInfo::UNKNOWN) }?;
         // SAFETY: the header's pointer rules.
-        let shape = unsafe { input(shape, "shape") }?;
+        let shape = unsafe { handle(shape, "shape") }?;
         let (polyhedron, hierarchy) = (shape.polyhedron(), shape.hierarchy());
         let (lookup, resolution) = match polyhedron.lookup.plan {
             Plan::None | Plan::AllVertices { .. } => (LookupKind::None, 0),

@@ -63,15 +63,11 @@ pub(crate) fn add_contacts(
 ) -> Result<()> {
     with_default(|| {
         config.check()?;
-        body.pose.check(config.rotation_limit)?;
-        ground.pose.check(config.rotation_limit)?;
+        body.pose.check()?;
+        ground.pose.check()?;
         let reach = Reach::new(body, ground)?;
         let bounds = reach.bounds;
-        let within = PairConfig {
-            max_distance: config.max_distance,
-            rotation_limit: config.rotation_limit,
-            ..PairConfig::default()
-        };
+        let within = PairConfig { max_distance: config.max_distance, ..PairConfig::default() };
         let Room { triangle, touches, points, vertices, .. } = &mut found.room;
         let vertices = Vertices::place(body, vertices)?;
         touches.clear();

@@ -40,8 +40,8 @@ pub fn ground_distance(
             }
         };
         config.check(query)?;
-        body.pose.check(config.rotation_limit)?;
-        ground.pose.check(config.rotation_limit)?;
+        body.pose.check()?;
+        ground.pose.check()?;
         let is_verdict = query == Query::Intersection && config.max_distance == f64::INFINITY;
         let count = ground.ground.triangle_count() as u32;
         let reach = Reach::new(body, ground)?;

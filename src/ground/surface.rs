@@ -7,7 +7,8 @@ use super::covers::Covers;
 use super::tree::{Bounds, Tree};
 use super::triangles::{NONE, Record, Triangles, find_twins};
 use crate::base::error::{Error, Result, check_range};
-use crate::base::math::{ROTATION_LIMIT, Vector};
+use crate::base::mark::Mark;
+use crate::base::math::Vector;
 use crate::base::memory::{collected, in_integers, with_capacity};
 use crate::base::normal::{area_vector, normal_of};
 use crate::base::simd::environment::with_default;
@@ -27,6 +28,7 @@ pub struct Ground {
     thickness: f64,
     /// The triangle that queries move to where theirs are: a copy for each query, or for each room that is kept.
     shape: Arc<TriangleShape>,
+    pub(crate) mark: Mark,
 }
 
 /// Heights over a grid in the plane of x and y.
@@ -135,7 +137,7 @@ impl Ground {
         let triangles = Triangles { vertices, records };
         let covers = Covers::new(&triangles, &tree)?;
         let shape = Arc::new(TriangleShape::new()?);
-        Ok(Ground { triangles, tree, covers, thickness: 0.0, shape })
+        Ok(Ground { triangles, tree, covers, thickness: 0.0, shape, mark: Mark::new() })
     }
 
     /// From grounds that are placed beside each other or overlap, in the order given: their vertices and triangles behind each
@@ -156,7 +158,7 @@ impl Ground {
         let mut triangles = with_capacity(count(Ground::triangle_count))?;
         with_default(|| {
             for PlacedGround { ground, pose } in grounds {
-                pose.check(ROTATION_LIMIT)?;
+                pose.check()?;
                 let first = vertices.len() as u32;
                 vertices.extend(ground.triangles.vertices.iter().map(|vertex| pose.transform(vertex)));
                 triangles
@@ -185,7 +187,7 @@ impl Ground {
     pub fn try_clone(&self) -> Result<Ground> {
         let (triangles, tree, covers) = (self.triangles.try_clone()?, self.tree.try_clone()?, self.covers.try_clone()?);
         let shape = self.shape.clone();
-        Ok(Ground { triangles, tree, covers, thickness: self.thickness, shape })
+        Ok(Ground { triangles, tree, covers, thickness: self.thickness, shape, mark: Mark::new() })
     }
 
     /// How far it pushes out what is behind its triangles.

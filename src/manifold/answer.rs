@@ -2,15 +2,12 @@
 
 use crate::answer::{Feature, Outcome};
 use crate::base::error::{Result, check_range};
-use crate::base::math::ROTATION_LIMIT;
 use crate::depth::DepthCache;
 use crate::pair::SignedDistanceCache;
 
 /// The options of a manifold query.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct ManifoldConfig {
-    /// Largest accepted |RᵀR − I| entry, from 0 to 1e-2 (the default).
-    pub rotation_limit: f64,
     /// Objects up to this far apart have a manifold, and points with a gap of at most this belong to it; 0 is the default, infinity
     /// admits all.
     pub max_distance: f64,
@@ -21,7 +18,7 @@ pub struct ManifoldConfig {
 
 impl Default for ManifoldConfig {
     fn default() -> Self {
-        ManifoldConfig { rotation_limit: ROTATION_LIMIT, max_distance: 0.0, reduces: false }
+        ManifoldConfig { max_distance: 0.0, reduces: false }
     }
 }
 
@@ -31,7 +28,6 @@ impl ManifoldConfig {
     /// # Errors
     /// [`Error::Argument`](crate::base::error::Error::Argument), naming the first such member.
     pub(crate) fn check(&self) -> Result<()> {
-        check_range("rotation_limit", self.rotation_limit, 0.0..=ROTATION_LIMIT)?;
         check_range("max_distance", self.max_distance, 0.0..=f64::INFINITY)
     }
 }

@@ -59,7 +59,7 @@ impl Kernel for AtRest<'_, '_> {
     fn run<L: Lanes>(&mut self) -> Answered {
         let [body1, body2] = self.bodies;
         let polyhedra = [body1.shape.polyhedron(), body2.shape.polyhedron()];
-        let frame = Frame::<L>::new(polyhedra, [body1.pose, body2.pose], self.config.rotation_limit);
+        let frame = Frame::<L>::new(polyhedra, [body1.pose, body2.pose]);
         if !(frame.in_range && is_in_scale(polyhedra)) {
             return Answered::Nothing;
         }

@@ -52,7 +52,7 @@ pub(crate) fn half_space_manifold_into(
 ) -> Result<Manifold> {
     config.check()?;
     half_space.check()?;
-    body.pose.check(config.rotation_limit)?;
+    body.pose.check()?;
     with_default(|| make(body, half_space, config, points))
 }
 

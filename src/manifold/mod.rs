@@ -123,11 +123,7 @@ pub(crate) fn manifold_into(
 ) -> Result<Manifold> {
     with_default(|| {
         config.check()?;
-        let within = PairConfig {
-            max_distance: config.max_distance,
-            rotation_limit: config.rotation_limit,
-            ..PairConfig::default()
-        };
+        let within = PairConfig { max_distance: config.max_distance, ..PairConfig::default() };
         if cache.depth().resting().is_some() && Radii::of(&bodies).is_none() {
             let mut query = AtRest { bodies: &bodies, cache, config, points, contact };
             match simd::dispatch_to_avx2(&mut query) {

@@ -4,7 +4,7 @@ use super::bound::rounding_of_pose;
 use super::kinds::{Motion, Screw, check_finite, product};
 use super::turn::Turn;
 use crate::base::error::{Result, check_range};
-use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::environment::with_default;
 
 /// The motion about a centre, given in the object's frame, that starts at `first` at time 0 and by the shortest turn reaches
@@ -16,8 +16,8 @@ use crate::base::simd::environment::with_default;
 /// from 0 to the largest double.
 pub fn motion_between(first: &Pose, second: &Pose, centre: &Vector, reach: f64) -> Result<(Screw, f64)> {
     with_default(|| {
-        first.check(ROTATION_LIMIT)?;
-        second.check(ROTATION_LIMIT)?;
+        first.check()?;
+        second.check()?;
         check_finite("centre", centre)?;
         check_range("reach", reach, 0.0..=f64::MAX)?;
         let rotation = shortest_turn(&product(&second.rotation(), &first.rotation().transpose()));

@@ -3,7 +3,7 @@
 use super::kinds::Motion;
 use super::turn::Turn;
 use crate::base::error::Result;
-use crate::base::math::{Pose, ROTATION_LIMIT, Vector};
+use crate::base::math::{Pose, Vector};
 use crate::shape::Shape;
 
 /// A shape and how it moves.
@@ -48,7 +48,7 @@ impl Carried<'_> {
         let pose = self.motion.pose(turn, time)?;
         let Some(place) = self.place else { return Ok(pose) };
         let whole = pose.after(place);
-        whole.check(ROTATION_LIMIT)?;
+        whole.check()?;
         Ok(whole)
     }
 }

@@ -1,6 +1,6 @@
 //! How deep two placed bodies are in each other at least: the ball around the origin in a tetrahedron of vertex differences.
 
-use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::Polyhedron;
 use crate::placed::exact::VertexPair;
@@ -31,7 +31,7 @@ impl Kernel for EnclosedBall<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> f64 {
         let &[p, q, r, s] = self.pairs else { return 0.0 };
-        let frame = Frame::<L>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
+        let frame = Frame::<L>::new(self.polyhedra, self.poses);
         if !frame.in_range {
             return 0.0;
         }

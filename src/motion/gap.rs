@@ -1,7 +1,7 @@
 //! The gap of two placed bodies along a given direction, rounded down.
 
 use super::bound::UNDERFLOW;
-use crate::base::math::{Pose, ROTATION_LIMIT, STRETCH, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{Pose, STRETCH, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::Polyhedron;
 use crate::body::polyhedron::fan::PointBlock;
@@ -58,7 +58,7 @@ impl Kernel for Along<'_> {
     /// Climbing proposes vertices; what they prove holds whichever they are (`distance/certificate/`).
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> f64 {
-        let frame = Frame::<L>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
+        let frame = Frame::<L>::new(self.polyhedra, self.poses);
         if !frame.in_range {
             return f64::NEG_INFINITY;
         }

@@ -4,7 +4,7 @@ use std::fmt;
 
 use super::turn::Turn;
 use crate::base::error::{Error, Result, check_range};
-use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
+use crate::base::math::{Matrix, Pose, Vector};
 use crate::base::simd::environment::with_callers;
 
 /// How an object moves. Every kind defines exactly, in real arithmetic on its doubles, where a point is at a time; answers hold
@@ -87,16 +87,16 @@ impl Motion<'_> {
     /// [`Error::Pose`], [`Error::Argument`].
     pub(super) fn check(&self) -> Result<()> {
         match self {
-            Motion::Fixed(pose) => pose.check(ROTATION_LIMIT),
+            Motion::Fixed(pose) => pose.check(),
             Motion::Screw(Screw { start, centre, velocity, rotation }) => {
                 check_finite("centre", centre)?;
                 check_finite("velocity", velocity)?;
                 check_finite("rotation", rotation)?;
-                start.check(ROTATION_LIMIT)
+                start.check()
             }
             Motion::Affine { start, end } => {
-                start.check(ROTATION_LIMIT)?;
-                end.check(ROTATION_LIMIT)?;
+                start.check()?;
+                end.check()?;
                 // Between orthonormal ends the middle is the worst.
                 check_at(&between(start, end, 0.5), "the affine motion", 0.5)
             }
@@ -147,7 +147,7 @@ pub(super) fn product(a: &Matrix, b: &Matrix) -> Matrix {
 }
 
 fn check_at(pose: &Pose, what: &str, time: f64) -> Result<()> {
-    pose.check(ROTATION_LIMIT).map_err(|error| Error::Pose(format!("{what} at time {time:?}: {}", error.message())))
+    pose.check().map_err(|error| Error::Pose(format!("{what} at time {time:?}: {}", error.message())))
 }
 
 pub(super) fn check_finite(name: &str, vector: &Vector) -> Result<()> {

@@ -8,7 +8,7 @@
 use super::signed_distance::SignedDistance;
 use crate::answer::Outcome;
 use crate::base::error::{Error, Result};
-use crate::base::math::{ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::body::polyhedron::Polyhedron;
 use crate::shape::Placed;
 
@@ -45,7 +45,7 @@ impl Default for Gradient {
 /// [`Error::Argument`] for an answer without a normal and witness points, and for a reference point that is not finite;
 /// [`Error::Pose`] for a pose that is refused.
 pub fn gradient(bodies: [Placed; 2], answer: &SignedDistance, references: [Option<[f64; 3]>; 2]) -> Result<Gradient> {
-    bodies.iter().try_for_each(|body| body.pose.check(ROTATION_LIMIT))?;
+    bodies.iter().try_for_each(|body| body.pose.check())?;
     let SignedDistance { outcome, lower, upper, world1, world2, normal, .. } = *answer;
     let are_there = [normal, world1, world2].as_flattened().iter().all(|x| x.is_finite());
     if !(matches!(outcome, Outcome::Separated | Outcome::Intersecting) && are_there) {

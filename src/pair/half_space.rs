@@ -7,7 +7,7 @@ use crate::answer::{Feature, Outcome};
 use crate::answer::{PlacedPoints, label, normalised, placed_points};
 use crate::answer::{Radii, moved};
 use crate::base::error::{Error, Result};
-use crate::base::math::{ROTATION_LIMIT, UNIT_ROUNDOFF, Vector, clamp};
+use crate::base::math::{UNIT_ROUNDOFF, Vector, clamp};
 use crate::base::memory::in_integers;
 use crate::base::simd::environment::with_default;
 use crate::body::tables;
@@ -72,7 +72,7 @@ impl HalfSpace {
 /// that is 0 or not finite and an offset that is not finite, [`Error::Memory`] where there is none for integers.
 pub fn half_space_distance(body: Placed, half_space: &HalfSpace) -> Result<SignedDistance> {
     half_space.check()?;
-    body.pose.check(ROTATION_LIMIT)?;
+    body.pose.check()?;
     in_integers(|| with_default(|| of_lowest(body, half_space)))
 }
 

@@ -21,9 +21,8 @@ use crate::shape::Placed;
 ///
 /// # Errors
 /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted (not finite, a reflection, an entry of RᵀR −
-/// I above `config.rotation_limit`), [`Error::Argument`](crate::base::error::Error::Argument) for a `max_distance` that is NaN or
-/// negative and for a rotation limit that is not from 0 to [`ROTATION_LIMIT`](crate::base::math::ROTATION_LIMIT). Then `answer`
-/// and `cache` are as they were. The fields of `config` that only [`approximate`] uses are ignored.
+/// I above [`ROTATION_LIMIT`](crate::base::math::ROTATION_LIMIT)), [`Error::Argument`](crate::base::error::Error::Argument) for a
+/// `max_distance` that is NaN or negative. Then `answer` and `cache` are as they were. The fields of `config` that only [`approximate`] uses are ignored.
 pub fn distance(
     bodies: [Placed; 2],
     cache: &mut PairCache,
@@ -128,7 +127,7 @@ pub fn depth(
 /// The distance of objects that are apart, minus the depth of those that intersect; each is as certain and as narrow as those of
 /// [`distance`] and [`depth()`]. For a pair beyond `config.max_distance` only `lower` is reported.
 ///
-/// The query uses `max_distance`, the rotation limit, the start and the levels of `config`.
+/// The query uses `max_distance`, the start and the levels of `config`.
 ///
 /// # Errors
 /// As of [`distance`]; then `answer` is as it was.

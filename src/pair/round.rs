@@ -12,7 +12,7 @@ use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::base::simd::{self, Kernel, Lanes, Portable};
 use crate::body::polyhedron::Polyhedron;
 use crate::distance::certificate::{Interval, reciprocal_length};
-use crate::placed::frame::{Frame, RIGID_TOGETHER, are_acceptable};
+use crate::placed::frame::{Frame, are_acceptable};
 use crate::placed::state::FeatureId;
 use crate::shape::Placed;
 
@@ -51,8 +51,6 @@ pub(super) struct Round<'a> {
     pub radii: &'a Radii,
     /// Beyond what distance nothing more is asked.
     pub tolerance: f64,
-    /// As in [`PairConfig`].
-    pub rotation_limit: f64,
 }
 
 /// The place of the answer, which stays as it is where nothing is proved.
@@ -68,7 +66,7 @@ impl Round<'_> {
     #[inline(always)]
     pub(super) fn answers(&self, place: Place) -> bool {
         let polyhedra = [self.bodies[0].shape.polyhedron(), self.bodies[1].shape.polyhedron()];
-        let is_simple = polyhedra[0].simple & polyhedra[1].simple & (self.rotation_limit >= RIGID_TOGETHER);
+        let is_simple = polyhedra[0].simple & polyhedra[1].simple;
         let mut rigid = OfRigid { round: self, polyhedra, place };
         if is_simple && let Some(is_answered) = simd::dispatch(&mut rigid) {
             return is_answered;
@@ -81,9 +79,9 @@ impl Round<'_> {
     #[inline(never)]
     fn answers_any(&self, polyhedra: [&Polyhedron; 2], place: Place) -> bool {
         let poses = self.poses();
-        let frame = Frame::<Portable>::new(polyhedra, poses, self.rotation_limit);
+        let frame = Frame::<Portable>::new(polyhedra, poses);
         // A point has no size that could be out of range: all errors are in proportion to the distance.
-        let are_points = frame.size == 0.0 && are_acceptable(poses, self.rotation_limit);
+        let are_points = frame.size == 0.0 && are_acceptable(poses);
         (frame.in_range || are_points) && self.is_filled(&frame, place)
     }
 

@@ -121,29 +121,23 @@ pub(crate) fn of_polyhedra(
 ) -> Result<()> {
     // The query that matches the last outcome runs first.
     if cache.depth.expects_overlap() {
-        if overlaps(bodies, cache, config, answer)? {
+        if overlaps(bodies, cache, answer)? {
             return Ok(());
         }
         cache.depth.expect_apart();
     }
     let mut apart = PairAnswer::default();
     ladder::ask(Query::Distance, Glances::Asked, bodies, &mut cache.distance, config, &mut apart)?;
-    if !(apart.outcome == Outcome::Intersecting && overlaps(bodies, cache, config, answer)?) {
+    if !(apart.outcome == Outcome::Intersecting && overlaps(bodies, cache, answer)?) {
         *answer = SignedDistance::from(&apart);
     }
     Ok(())
 }
 
 /// Whether objects overlap, with the answer if they do.
-fn overlaps(
-    bodies: &[Placed; 2],
-    cache: &mut SignedDistanceCache,
-    config: &PairConfig,
-    answer: &mut SignedDistance,
-) -> Result<bool> {
+fn overlaps(bodies: &[Placed; 2], cache: &mut SignedDistanceCache, answer: &mut SignedDistance) -> Result<bool> {
     let mut overlap = DepthAnswer::default();
-    let config = DepthConfig { rotation_limit: config.rotation_limit, ..DepthConfig::default() };
-    depth::of_polyhedra(bodies, &mut cache.depth, &config, &mut overlap)?;
+    depth::of_polyhedra(bodies, &mut cache.depth, &DepthConfig::default(), &mut overlap)?;
     let is_there = overlap.outcome == Outcome::Intersecting;
     if is_there {
         *answer = SignedDistance::from(&overlap);

@@ -41,7 +41,7 @@ pub(super) fn query(
     let tolerance = if is_verdict { 0.0 } else { config.max_distance };
     if are_round(bodies) {
         // Here a verdict costs no more than a distance.
-        let round = Round { bodies, radii, tolerance: config.max_distance, rotation_limit: config.rotation_limit };
+        let round = Round { bodies, radii, tolerance: config.max_distance };
         if round.answers(Place::Pair(query, answer)) {
             return Ok(());
         }
@@ -173,7 +173,7 @@ pub(super) fn depth(
     config.check()?;
     let mut signed = SignedDistance::default();
     if are_round(&bodies) {
-        let round = Round { bodies: &bodies, radii, tolerance: 0.0, rotation_limit: config.rotation_limit };
+        let round = Round { bodies: &bodies, radii, tolerance: 0.0 };
         if round.answers(Place::Signed(&mut signed)) {
             fill_depth(answer, &signed, DepthEnding::Narrow, DepthStatistics::default());
             return Ok(());
@@ -183,8 +183,7 @@ pub(super) fn depth(
     depth::of_polyhedra(&bodies, cache, config, &mut found)?;
     let (mut of_polyhedra, mut ending) = (SignedDistance::from(&found), found.ending);
     if found.outcome != Outcome::Intersecting {
-        let within =
-            PairConfig { max_distance: radii.upper, rotation_limit: config.rotation_limit, ..PairConfig::default() };
+        let within = PairConfig { max_distance: radii.upper, ..PairConfig::default() };
         let mut apart = PairAnswer::default();
         ladder::ask(Query::Distance, Glances::Asked, &bodies, &mut PairCache::default(), &within, &mut apart)?;
         (of_polyhedra, ending) = ((&apart).into(), DepthEnding::Narrow);
@@ -232,8 +231,7 @@ pub(super) fn signed_distance(
 ) -> Result<()> {
     config.check(Query::Distance)?;
     if are_round(bodies) {
-        let (tolerance, rotation_limit) = (config.max_distance, config.rotation_limit);
-        let round = Round { bodies, radii, tolerance, rotation_limit };
+        let round = Round { bodies, radii, tolerance: config.max_distance };
         if round.answers(Place::Signed(answer)) {
             return Ok(());
         }

@@ -135,14 +135,13 @@ pub struct Frame<'a, L> {
 }
 
 impl<'a, L: Lanes> Frame<'a, L> {
-    /// Prepares a pair, `rotation_limit` as in [`Pose::check`]. The frame is useless unless it is `in_range`.
+    /// Prepares a pair. The frame is useless unless it is `in_range`.
     #[inline(always)]
-    pub fn new(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2], rotation_limit: f64) -> Frame<'a, L> {
+    pub fn new(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2]) -> Frame<'a, L> {
         let placed = [PoseInLanes::<L>::new(poses[0]), PoseInLanes::<L>::new(poses[1])];
         let (mut in_range, mut skewed) = (true, [false; 2]);
-        // A limit below what counts as rigid is the caller's to set.
-        if rotation_limit < RIGID_TOGETHER || !PoseInLanes::are_rigid(&placed) {
-            (in_range, skewed) = look_closer(poses, rotation_limit);
+        if !PoseInLanes::are_rigid(&placed) {
+            (in_range, skewed) = look_closer(poses);
         }
         let [radius1, radius2] = [polyhedra[0].radius, polyhedra[1].radius];
         in_range &= (SMALLEST..=LARGEST).contains(&if radius1 > radius2 { radius1 } else { radius2 });
@@ -162,8 +161,7 @@ impl<'a, L: Lanes> Frame<'a, L> {
         Frame::assemble(polyhedra, &placed, &origins, in_range, skewed)
     }
 
-    /// [`Frame::new`] for [simple](Polyhedron::simple) bodies and a rotation limit of at least [`RIGID_TOGETHER`]: only
-    /// `in_range` if both poses are rigid and within range, without a closer look.
+    /// [`Frame::new`] for [simple](Polyhedron::simple) bodies: only `in_range` if both poses are rigid and within range, without a closer look.
     #[inline(always)]
     pub fn of_rigid(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2]) -> Frame<'a, L> {
         let placed = [PoseInLanes::<L>::new(poses[0]), PoseInLanes::<L>::new(poses[1])];
@@ -352,14 +350,14 @@ struct Origins<L> {
 }
 
 /// Whether poses are acceptable and within range.
-pub fn are_acceptable(poses: [&Pose; 2], limit: f64) -> bool {
-    poses.iter().all(|pose| pose.check(limit).is_ok() && pose.translation().amax() <= LARGEST)
+pub fn are_acceptable(poses: [&Pose; 2]) -> bool {
+    poses.iter().all(|pose| pose.check().is_ok() && pose.translation().amax() <= LARGEST)
 }
 
 /// For poses that are not both rigid and within range: whether they are acceptable and within range, and which are skewed.
 #[cold]
-fn look_closer(poses: [&Pose; 2], limit: f64) -> (bool, [bool; 2]) {
-    (are_acceptable(poses, limit), poses.map(|pose| !(pose.rotation_defect() <= RIGID)))
+fn look_closer(poses: [&Pose; 2]) -> (bool, [bool; 2]) {
+    (are_acceptable(poses), poses.map(|pose| !(pose.rotation_defect() <= RIGID)))
 }
 
 /// The additional data for bodies whose centres are not their origins.

@@ -4,7 +4,7 @@ use super::answer::SupportVertex;
 use super::check_finite;
 use crate::answer::{moved, normalised, placed_points};
 use crate::base::error::{Error, Result};
-use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::base::memory::in_integers;
 use crate::base::simd::environment::with_default;
 use crate::base::simd::{Lanes, Portable};
@@ -26,7 +26,7 @@ pub fn support(body: Placed, direction: [f64; 3]) -> Result<SupportVertex> {
         if direction == [0.0; 3] {
             return Err(Error::Argument("the direction is 0: give it a length".into()));
         }
-        body.pose.check(ROTATION_LIMIT)?;
+        body.pose.check()?;
         let polyhedron = body.shape.polyhedron();
         let (vertex, is_certain) = climb(polyhedron, body.pose, &direction.into());
         let vertex = match is_certain {

@@ -24,7 +24,6 @@ pub use line::SIDE;
 pub use query::Ray;
 
 use crate::base::error::Result;
-use crate::base::math::ROTATION_LIMIT;
 use crate::base::memory::in_integers;
 use crate::base::simd::environment::with_default;
 use crate::pair::Placed;
@@ -38,7 +37,7 @@ use crate::pair::Placed;
 pub fn cast_ray(body: Placed, ray: &Ray) -> Result<RayAnswer> {
     with_default(|| {
         ray.check()?;
-        body.pose.check(ROTATION_LIMIT)?;
+        body.pose.check()?;
         match body.shape.swept_radius() {
             0.0 => search::cast(body.shape.polyhedron(), body.pose, ray),
             radius => in_integers(|| swept::cast(body.shape.polyhedron(), body.pose, ray, radius)),

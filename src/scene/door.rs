@@ -4,9 +4,7 @@ use std::sync::Arc;
 
 #[cfg(doc)]
 use crate::base::error::Error;
-use crate::base::error::{Result, check_range};
-use crate::base::math::ROTATION_LIMIT;
-use crate::base::simd::environment::with_default;
+use crate::base::error::Result;
 use crate::base::workers::Workers;
 use crate::pair::Query;
 use crate::scene::change::{Change, Themselves};
@@ -17,19 +15,6 @@ use crate::scene::search::query::{SceneAnswer, SceneQuery, Subject};
 use crate::scene::world::content::World;
 use crate::scene::world::object::ObjectId;
 use crate::shape::Shape;
-
-/// How a scene is made.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub struct SceneOptions {
-    /// Largest accepted |RᵀR − I| entry of a pose, from 0 to [`ROTATION_LIMIT`] (the default).
-    pub rotation_limit: f64,
-}
-
-impl Default for SceneOptions {
-    fn default() -> Self {
-        SceneOptions { rotation_limit: ROTATION_LIMIT }
-    }
-}
 
 /// Objects, poses and the pairs that are tested.
 ///
@@ -48,19 +33,15 @@ pub struct Scene {
 
 impl Scene {
     /// An empty scene.
-    ///
-    /// # Errors
-    /// [`Error::Argument`] for a rotation limit that is negative, NaN or above [`ROTATION_LIMIT`].
-    pub fn new(options: &SceneOptions) -> Result<Scene> {
-        let rotation_limit = options.rotation_limit;
-        with_default(|| check_range("rotation_limit", rotation_limit, 0.0..=ROTATION_LIMIT))?;
-        Ok(Scene {
-            world: World::new(rotation_limit),
+    #[allow(clippy::new_without_default, reason = "`Default` would be a second way to say it")]
+    pub fn new() -> Scene {
+        Scene {
+            world: World::new(),
             near: BroadPhase::default(),
             search: Search::default(),
             recording: Recording::Off,
             workers: Workers::none(),
-        })
+        }
     }
 
     /// Does something to the scene, and writes it down if it was done; gives the object that it adds.

@@ -25,7 +25,7 @@ mod replay;
 
 pub use crate::base::workers::Workers;
 pub use crate::pair::Query;
-pub use door::{Scene, SceneOptions};
+pub use door::Scene;
 pub use replay::{Replay, ReplayAnswer, ReplayStep};
 pub use search::listener::{EventState, Listener, ListenerEvents, PairEvent, PointEvent};
 pub use search::query::{

@@ -11,7 +11,7 @@ use crate::base::locks::locked;
 use crate::base::memory::{lacking, push};
 use crate::pair::Query;
 use crate::scene::change::{Change, Numbers, Rename, Themselves};
-use crate::scene::door::{Scene, SceneOptions};
+use crate::scene::door::Scene;
 use crate::scene::recording::digest::Digest;
 use crate::scene::recording::format::{Decision, Record};
 use crate::scene::recording::reader::{Next, RecordReader};
@@ -30,7 +30,7 @@ use crate::shape::Shape;
 /// use swiftprox::scene::{Replay, Scene};
 ///
 /// let mut replay = Replay::open("crash.swiftprox".as_ref())?;
-/// let mut scene = Scene::new(&replay.scene_options())?;
+/// let mut scene = Scene::new();
 /// while let Some(step) = replay.read()? {
 ///     replay.change(&mut scene)?;
 ///     if step.query.is_some() {
@@ -44,7 +44,6 @@ pub struct Replay {
     reader: RecordReader,
     /// Bytes of the whole recording; 0 where it is not known.
     length: u64,
-    options: SceneOptions,
     is_whole: bool,
     shapes: Vec<Arc<Shape>>,
     /// All objects that there ever were, by number.
@@ -142,15 +141,14 @@ impl Replay {
     fn begin(source: Box<dyn Read + Send + Sync>, name: String, length: u64) -> Result<Replay> {
         let mut reader = RecordReader::new(source, name)?;
         let start = reader.position();
-        let (rotation_limit, is_whole) = match reader.next()? {
-            Next::Record(Record::Scene { rotation_limit, is_whole }) => (rotation_limit, is_whole),
+        let is_whole = match reader.next()? {
+            Next::Record(Record::Scene { is_whole }) => is_whole,
             Next::Record(_) => return Err(reader.damaged(start, "the first one is not about the scene")),
             Next::CutOff => return Err(reader.damaged(start, "it is cut off")),
         };
         Ok(Replay {
             reader,
             length,
-            options: SceneOptions { rotation_limit },
             is_whole,
             shapes: Vec::new(),
             ids: Vec::new(),
@@ -161,11 +159,6 @@ impl Replay {
             ahead: None,
             state: State::Reading,
         })
-    }
-
-    /// How the recorded scene was made. All steps must be done to one new scene made like this.
-    pub fn scene_options(&self) -> SceneOptions {
-        self.options
     }
 
     /// Whether the scene was recorded from its beginning.

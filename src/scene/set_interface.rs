@@ -169,8 +169,7 @@ impl Scene {
     }
 
     /// The contacts of objects, all or those of a set, with a ground that is in no scene, or up to `config.max_distance` apart from
-    /// it. Each piece gets the result of [`ground_contacts`](crate::ground::ground_contacts), with the default rotation limit for
-    /// objects; that of `config` is for the ground.
+    /// it. Each piece gets the result of [`ground_contacts`](crate::ground::ground_contacts).
     ///
     /// Objects are asked whose groups and mask go with the filter's; activation and the scene's filter are about pairs, and do
     /// not count. Fixed objects are left out, unless the set gives their poses. The set's `among` is not looked at.

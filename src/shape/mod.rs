@@ -15,6 +15,7 @@ use std::path::Path;
 
 use crate::base::error::{Error, Result, check_range};
 use crate::base::locality::{along_curve, in_order};
+use crate::base::mark::Mark;
 use crate::base::math::{Matrix, Vector};
 use crate::base::memory::{OnNeed, copied, found, in_integers, with_capacity};
 use crate::base::progress::Progress;
@@ -212,6 +213,7 @@ pub struct Shape {
     swept_radius: f64,
     /// Its support function for approximate distances, as far as it is made.
     pub(crate) support_map: SupportMap,
+    pub(crate) mark: Mark,
 }
 
 /// Tables, automatic levels and how far it reaches do not count: equal shapes make equal ones.
@@ -432,7 +434,7 @@ impl Shape {
         let extent = Extent::new(&polyhedron)?;
         let hierarchy = made.map_or_else(OnNeed::new, OnNeed::from);
         let support_map = SupportMap::new(&polyhedron)?;
-        Ok(Shape { polyhedron, extent, hierarchy, support_map, swept_radius })
+        Ok(Shape { polyhedron, extent, hierarchy, support_map, swept_radius, mark: Mark::new() })
     }
 
     /// The same body with other levels of detail, built at once if they are not automatic; those that it has are dropped.

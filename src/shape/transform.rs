@@ -2,7 +2,7 @@
 
 use crate::base::double_double::{DoubleDouble, two_product};
 use crate::base::error::{Error, Result};
-use crate::base::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
+use crate::base::math::{Matrix, Pose, Vector};
 use crate::base::memory::{copied, with_capacity};
 use crate::base::progress::Progress;
 use crate::body::mesh::check_vertex;
@@ -23,7 +23,7 @@ pub(super) fn transformed(points: &[Vector], by: &InputTransform, progress: &mut
         return Err(Error::Argument(format!("scale is {scale:?}, it must be positive and finite")));
     }
     Pose::new(rotation, translation)
-        .check(ROTATION_LIMIT)
+        .check()
         .map_err(|e| Error::Argument(format!("the input transform: {}", e.message())))?;
     if (*rotation, *translation, *scale) == (Matrix::identity(), Vector::zeros(), 1.0) {
         return copied(points);

@@ -14,7 +14,7 @@ use crate::answer::{Outcome, PairAnswer};
 use crate::answer::{Radii, sum_above, sum_below};
 use crate::base::double_double::{narrow, wide_cross, wide_dot, widen};
 use crate::base::error::{Error, Result};
-use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector, clamp, length};
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp, length};
 use crate::base::memory::listed;
 use crate::base::scalar::determinant;
 use crate::body::polyhedron::Polyhedron;
@@ -47,7 +47,7 @@ pub fn verify_depth(bodies: [Placed; 2], cache: &DepthCache, answer: &DepthAnswe
     let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
     let radii = Radii::of(&bodies).unwrap_or(Radii::NONE);
     in_default(|| {
-        poses.iter().try_for_each(|pose| pose.check(ROTATION_LIMIT))?;
+        poses.iter().try_for_each(|pose| pose.check())?;
         if answer.outcome != Outcome::None {
             check_numbers(&answer.into())?;
         }

@@ -10,7 +10,7 @@ use super::witness::{Witness, difference_of};
 use crate::answer::{FeatureKind, Outcome, PairAnswer};
 use crate::answer::{Radii, sum_above, sum_below};
 use crate::base::error::{Error, Result};
-use crate::base::math::{ROTATION_LIMIT, Vector, length};
+use crate::base::math::{Vector, length};
 use crate::body::polyhedron::{Face, Polyhedron};
 use crate::manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, id_of};
 use crate::shape::Placed;
@@ -60,7 +60,7 @@ pub fn verify_manifold(
 ) -> Result<()> {
     in_default(|| {
         config.check()?;
-        bodies.iter().try_for_each(|body| body.pose.check(ROTATION_LIMIT))?;
+        bodies.iter().try_for_each(|body| body.pose.check())?;
         let Some(points) = points.get(..manifold.point_count as usize) else {
             return Err(Error::Argument(format!("{} points of {}", points.len(), manifold.point_count)));
         };

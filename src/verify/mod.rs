@@ -15,7 +15,7 @@ mod manifold;
 use crate::answer::Radii;
 use crate::answer::{DecidedBy, Outcome, PairAnswer};
 use crate::base::error::{Error, Result};
-use crate::base::math::{Pose, ROTATION_LIMIT, Vector, length};
+use crate::base::math::{Pose, Vector, length};
 use crate::base::memory::listed;
 use crate::body::polyhedron::Polyhedron;
 use crate::placed::exact::{self, VertexPair};
@@ -83,7 +83,7 @@ fn check_answer(bodies: [Placed; 2], answer: &PairAnswer) -> Result<()> {
     let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
     let radii = Radii::of(&bodies).unwrap_or(Radii::NONE);
     for pose in poses {
-        pose.check(ROTATION_LIMIT)?;
+        pose.check()?;
     }
     if answer.outcome != Outcome::None {
         check_numbers(&answer.into())?;

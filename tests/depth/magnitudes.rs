@@ -4,7 +4,7 @@ use swiftprox::base::simd::Portable;
 use swiftprox::body::build::assembly::build;
 use swiftprox::body::polyhedron::Vertex;
 use swiftprox::depth::polytope::{Pyramid, Rounding};
-use swiftprox::math::{Pose, ROTATION_LIMIT, Vector};
+use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{DepthAnswer, DepthCache, Outcome};
 use swiftprox::placed::frame::Frame;
 use swiftprox::shape::Shape;
@@ -83,7 +83,7 @@ fn pyramids_prove_nothing_out_of_scale() {
         let prove = |place: [f64; 3]| {
             let mut pose = Pose::IDENTITY;
             (0..3).for_each(|i| pose.rows[i][3] = place[i] * scale);
-            let frame = Frame::<Portable>::new([&bodies[0], &bodies[1]], [&pose, &Pose::IDENTITY], ROTATION_LIMIT);
+            let frame = Frame::<Portable>::new([&bodies[0], &bodies[1]], [&pose, &Pose::IDENTITY]);
             assert!(frame.in_range);
             let base = [pair([-1., -1., 1.]), pair([1., -1., 1.]), pair([1., 1., 1.]), pair([-1., 1., 1.])];
             Pyramid::new(&base, pair([1., 1., -1.])).prove(&frame, &Rounding::of(&frame)).is_ok()

@@ -11,7 +11,7 @@ use swiftprox::body::tables::nearest_vertex::{AllVertices, NearestVertex};
 use swiftprox::body::tables::tuning::LEAST_VERTICES_FOR_TABLE;
 use swiftprox::body::tables::{LookupKind, LookupOptions, build_table, table};
 use swiftprox::error::Error;
-use swiftprox::math::{Pose, ROTATION_LIMIT, Vector};
+use swiftprox::math::{Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::start::policy::{self, StartFrom};
 use swiftprox::pair::start::{Guess, start_pair};
@@ -531,7 +531,7 @@ fn how_far_a_pair_has_moved_is_told() {
                 [Pose::new(&world, &origin), pose]
             };
             let [before, after] = [placed(0.0, 0.0), placed(around, turned)];
-            let frame = |[pose1, pose2]: &[Pose; 2]| Frame::<Portable>::new(polyhedra, [pose1, pose2], ROTATION_LIMIT);
+            let frame = |[pose1, pose2]: &[Pose; 2]| Frame::<Portable>::new(polyhedra, [pose1, pose2]);
             let mut marker = Marker::default();
             frame(&before).mark(&mut marker);
             // Going around is measured by the size of both bodies at least.
@@ -554,7 +554,7 @@ fn the_farther_a_pair_has_moved_the_less_its_last_features_say() {
     let polyhedra = [body.polyhedron(); 2];
     let mut random = Random::new(8);
     let there = Pose::new(&random.rotation(), &(random.direction() * 3.0));
-    let frame = |pose: &Pose| Frame::<Portable>::new(polyhedra, [&Pose::IDENTITY, pose], ROTATION_LIMIT);
+    let frame = |pose: &Pose| Frame::<Portable>::new(polyhedra, [&Pose::IDENTITY, pose]);
     let mut last = Marker::default();
     frame(&there).mark(&mut last);
     for axis in [Vector::y(), Vector::z()] {

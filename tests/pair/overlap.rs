@@ -3,7 +3,7 @@
 
 use swiftprox::base::simd::Portable;
 use swiftprox::distance::enclosure::encloses_origin;
-use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
+use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::contact;
 use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, distance, intersection};
 use swiftprox::placed::exact;
@@ -85,7 +85,7 @@ fn the_filter_accepts_only_what_integers_confirm() {
             continue;
         }
         let pairs = [[0, 0], [1, 0], [2, 0], [3, 0]];
-        let frame = Frame::<Portable>::new(polyhedra, [&pose, &Pose::IDENTITY], ROTATION_LIMIT);
+        let frame = Frame::<Portable>::new(polyhedra, [&pose, &Pose::IDENTITY]);
         assert!(frame.in_range);
         let truth = exact::encloses_origin(polyhedra[0], &pose, polyhedra[1], &Pose::IDENTITY, &pairs);
         match encloses_origin(&frame, &pairs) {

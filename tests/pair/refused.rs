@@ -3,9 +3,8 @@
 
 use swiftprox::error::{Error, Result};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
-use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
+use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::{self, DecidedBy, Levels, PairAnswer, PairCache, PairConfig, Placed, Start};
-use swiftprox::scene::{Scene, SceneOptions};
 use swiftprox::shape::{Shape, ShapeOptions};
 use testkit::models::ellipsoid;
 use testkit::shapes::at;
@@ -38,28 +37,6 @@ fn configurations() -> Vec<(Query, PairConfig)> {
 }
 
 #[test]
-fn a_pose_beyond_the_callers_own_limit_is_refused_whatever_the_cache_says() {
-    let body = body();
-    // Stretched by 1e-3: |RᵀR − I| is 2e-3, which the library would accept and this caller does not.
-    let stretched = |x: f64| Pose::new(&(Matrix::identity() * 1.001), &Vector::new(x, 0.0, 0.0));
-    for (query, config) in configurations() {
-        for x in [0.1, 5.0] {
-            let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-            query([body.at(&at(0.0, 0.0, 0.0)), body.at(&at(x, 0.0, 0.0))], &mut cache, &config, &mut answer).unwrap();
-            query([body.at(&at(0.0, 0.0, 0.0)), body.at(&stretched(x))], &mut cache, &config, &mut answer).unwrap();
-            let (cache_before, answer_before) = (cache, answer);
-            let strict = PairConfig { rotation_limit: 1e-3, ..config };
-            for poses in [[at(0.0, 0.0, 0.0), stretched(x)], [stretched(x), at(0.0, 0.0, 0.0)]] {
-                let result = query([body.at(&poses[0]), body.at(&poses[1])], &mut cache, &strict, &mut answer);
-                assert!(matches!(result, Err(Error::Pose(_))), "{result:?} of {strict:?} at {x}");
-                assert_eq!(cache, cache_before, "{strict:?} at {x}");
-                assert_eq!(format!("{answer:?}"), format!("{answer_before:?}"), "{strict:?} at {x}");
-            }
-        }
-    }
-}
-
-#[test]
 fn a_refused_query_leaves_cache_and_answer_alone() {
     let body = body();
     let mut coherent = 0;
@@ -77,15 +54,9 @@ fn a_refused_query_leaves_cache_and_answer_alone() {
                 let result = query([body.at(&pose), body.at(&at(x, 0.0, 0.0))], &mut cache, &config, &mut answer);
                 assert!(matches!(result, Err(Error::Pose(_))), "{result:?} of {config:?} at {pose:?}");
             }
-            for refused in [
-                PairConfig { max_distance: f64::NAN, ..config },
-                PairConfig { max_distance: -1.0, ..config },
-                PairConfig { rotation_limit: f64::NAN, ..config },
-                PairConfig { rotation_limit: -1e-9, ..config },
-                PairConfig { rotation_limit: ROTATION_LIMIT.next_up(), ..config },
-                PairConfig { rotation_limit: f64::INFINITY, ..config },
-                PairConfig { rotation_limit: 0.5, max_distance: 0.1, ..config },
-            ] {
+            for refused in
+                [PairConfig { max_distance: f64::NAN, ..config }, PairConfig { max_distance: -1.0, ..config }]
+            {
                 let result =
                     query([body.at(&at(0.0, 0.0, 0.0)), body.at(&at(x, 0.0, 0.0))], &mut cache, &refused, &mut answer);
                 assert!(matches!(result, Err(Error::Argument(_))), "{result:?} of {refused:?}");
@@ -115,33 +86,6 @@ fn exact_queries_do_not_look_at_what_is_for_approximate_ones() {
                 assert_eq!(ask(PairConfig { absolute_error: -1.0, ..config }), expected);
                 assert_eq!(ask(PairConfig { relative_error: f64::NAN, ..config }), expected);
                 assert_eq!(ask(PairConfig { step_budget: 0, ..config }), expected);
-            }
-        }
-    }
-}
-
-/// Intervals are proved for rotations up to there: nobody is left to believe that a larger limit admits more.
-#[test]
-fn a_pair_takes_the_rotation_limits_that_a_scene_takes_and_refuses_others_in_the_same_words() {
-    let body = body();
-    for rotation_limit in [0.0, 1e-20, 1e-6, ROTATION_LIMIT] {
-        Scene::new(&SceneOptions { rotation_limit }).unwrap();
-        for (query, config) in configurations() {
-            let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-            let config = PairConfig { rotation_limit, ..config };
-            query([body.at(&at(0.0, 0.0, 0.0)), body.at(&at(5.0, 0.0, 0.0))], &mut cache, &config, &mut answer)
-                .unwrap();
-        }
-    }
-    for rotation_limit in [-1.0, 2.0 * ROTATION_LIMIT, f64::INFINITY, f64::NAN] {
-        let of_scene = Scene::new(&SceneOptions { rotation_limit }).unwrap_err();
-        for (query, config) in configurations() {
-            for x in [0.1, 5.0] {
-                let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
-                let config = PairConfig { rotation_limit, ..config };
-                let result =
-                    query([body.at(&at(0.0, 0.0, 0.0)), body.at(&at(x, 0.0, 0.0))], &mut cache, &config, &mut answer);
-                assert_eq!(result, Err(of_scene.clone()), "{config:?}");
             }
         }
     }

@@ -24,7 +24,7 @@ use swiftprox::ffi::object_query::CSceneEvents;
 use swiftprox::ffi::object_set::{CMotions, CObjectSet, CPath, CSceneRayAnswer};
 use swiftprox::ffi::pair::{CPairCache, CPairConfig, CPlaced};
 use swiftprox::ffi::pair_batch::{CPairQuestion, CPoses};
-use swiftprox::ffi::query::{CSceneAnswer, CSceneContacts, CSceneQuery};
+use swiftprox::ffi::query::{CSceneAnswer, CSceneQuery};
 use swiftprox::ffi::record::CReplayStep;
 use swiftprox::ffi::scene::CSceneOptions;
 use swiftprox::ffi::scene_ground::{CSceneGroundAnswer, CSceneGroundConfig};
@@ -107,7 +107,7 @@ fn layouts() -> Vec<Layout> {
         swiftprox_placed = CPlaced { shape, pose },
         swiftprox_pair_cache = CPairCache { words },
         swiftprox_pair_config = CPairConfig {
-            struct_size, max_distance, rotation_limit, absolute_error, relative_error, step_budget,
+            struct_size, max_distance, absolute_error, relative_error, step_budget,
             tuning
         },
         swiftprox_depth_statistics = DepthStatistics { steps, supports, triangles, exact_iterations },
@@ -117,7 +117,7 @@ fn layouts() -> Vec<Layout> {
         },
         swiftprox_depth_cache = CDepthCache { words },
         swiftprox_depth_config = CDepthConfig {
-            struct_size, rotation_limit, absolute_error, relative_error, step_budget
+            struct_size, absolute_error, relative_error, step_budget
         },
         swiftprox_manifold_cache = CManifoldCache { words },
         swiftprox_signed_distance = SignedDistance {
@@ -128,9 +128,9 @@ fn layouts() -> Vec<Layout> {
         },
         swiftprox_manifold = Manifold { outcome, reference, lower, upper, normal, point_count, found_count },
         swiftprox_manifold_room = CManifoldRoom { points, capacity, distance },
-        swiftprox_manifold_config = CManifoldConfig { struct_size, rotation_limit, max_distance, reduces },
+        swiftprox_manifold_config = CManifoldConfig { struct_size, max_distance, reduces },
         swiftprox_scene_options = CSceneOptions {
-            struct_size, rotation_limit, worker_count, enqueue_task, finish_task, task_user
+            struct_size, worker_count, enqueue_task, finish_task, task_user
         },
         swiftprox_object_options = CObjectOptions { struct_size, user_data, pose, fixed, groups, mask },
         swiftprox_object_info = ObjectInfo { struct_size, user_data, piece_count, pose, fixed, groups, mask },
@@ -141,9 +141,10 @@ fn layouts() -> Vec<Layout> {
         swiftprox_pair_result = PairResult {
             object1, object2, user_data1, user_data2, piece1, piece2, answer
         },
-        swiftprox_scene_answer = CSceneAnswer { pairs, count, intersecting, found },
+        swiftprox_scene_answer = CSceneAnswer {
+            pairs, count, intersecting, found, contacts, contact_count, points, point_count
+        },
         swiftprox_contact = Contact { depth, manifold, first_point },
-        swiftprox_scene_contacts = CSceneContacts { contacts, count, points, point_count },
         swiftprox_pair_event = PairEvent {
             object1, object2, user_data1, user_data2, piece_user_data1, piece_user_data2, piece1, piece2, state,
             objects_state, result, first_point, point_count
@@ -298,10 +299,10 @@ macro_rules! defaults {
 fn constants_of_c_are_the_defaults_of_rust() {
     let defaults = [
         defaults!(swiftprox_shape_options = CShapeOptions::DEFAULT, { struct_size, input, rotation, translation, scale, convexity_tolerance, progress, progress_user, tuning, face_noise, swept_radius }),
-        defaults!(swiftprox_pair_config = CPairConfig::DEFAULT, { struct_size, max_distance, rotation_limit, absolute_error, relative_error, step_budget, tuning }),
-        defaults!(swiftprox_depth_config = CDepthConfig::DEFAULT, { struct_size, rotation_limit, absolute_error, relative_error, step_budget }),
-        defaults!(swiftprox_manifold_config = CManifoldConfig::DEFAULT, { struct_size, rotation_limit, max_distance, reduces }),
-        defaults!(swiftprox_scene_options = CSceneOptions::DEFAULT, { struct_size, rotation_limit, worker_count, enqueue_task, finish_task, task_user }),
+        defaults!(swiftprox_pair_config = CPairConfig::DEFAULT, { struct_size, max_distance, absolute_error, relative_error, step_budget, tuning }),
+        defaults!(swiftprox_depth_config = CDepthConfig::DEFAULT, { struct_size, absolute_error, relative_error, step_budget }),
+        defaults!(swiftprox_manifold_config = CManifoldConfig::DEFAULT, { struct_size, max_distance, reduces }),
+        defaults!(swiftprox_scene_options = CSceneOptions::DEFAULT, { struct_size, worker_count, enqueue_task, finish_task, task_user }),
         defaults!(swiftprox_object_options = CObjectOptions::DEFAULT, { struct_size, user_data, pose, fixed, groups, mask }),
         defaults!(swiftprox_scene_query = CSceneQuery::DEFAULT, { struct_size, max_distance, absolute_error, relative_error, error_budget, step_budget, early_exit, tuning, detail, mask }),
         defaults!(swiftprox_cast_config = CCastConfig::defaults(), { struct_size, time_begin, time_end, time_tolerance, max_distance, step_budget, ignores_parting }),

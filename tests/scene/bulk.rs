@@ -6,14 +6,14 @@ use swiftprox::error::Error;
 use swiftprox::math::Pose;
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::Query;
-use swiftprox::scene::{EventState, Listener, PairResult, Replay, Scene, SceneOptions, SceneQuery};
+use swiftprox::scene::{EventState, Listener, PairResult, Replay, Scene, SceneQuery};
 use swiftprox::shape::Shape;
 use testkit::random::Random;
 use testkit::random_scene::cuboid;
 use testkit::shapes::at;
 
 fn scene() -> Scene {
-    Scene::new(&SceneOptions::default()).unwrap()
+    Scene::new()
 }
 
 /// Boxes of several sizes at places of a cube.
@@ -68,7 +68,7 @@ fn all_or_none() {
     let refused = scene.add_shapes(&shapes, &options).unwrap_err();
     assert!(matches!(&refused, Error::Pose(message) if message.starts_with("options[13]: ")), "{refused}");
     assert!(matches!(scene.add_shapes(&shapes, &options[..19]), Err(Error::Argument(_))));
-    let foreign = Scene::new(&SceneOptions::default()).unwrap().add_shapes(&shapes[..1], &options[..1]).unwrap()[0];
+    let foreign = Scene::new().add_shapes(&shapes[..1], &options[..1]).unwrap()[0];
     let stale = scene.add_object(vec![shapes[0].clone()], &options[0]).unwrap();
     scene.remove_object(stale).unwrap();
     for (wrong, at) in [(ObjectId::NULL, 4), (foreign, 0), (stale, 19)] {
@@ -119,7 +119,7 @@ fn pieces_have_numbers() {
     scene.set_piece_user_data(copy, 0, 5).unwrap();
     scene.end_recording().unwrap();
     let mut replay = Replay::open(&file).unwrap();
-    let mut again = Scene::new(&replay.scene_options()).unwrap();
+    let mut again = Scene::new();
     while replay.read().unwrap().is_some() {
         replay.change(&mut again).unwrap();
     }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::motion::{CastConfig, CastOutcome, Motion, Screw};
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::scene::{ObjectSet, Scene, SceneCastAnswer, SceneOptions, SetScratch};
+use swiftprox::scene::{ObjectSet, Scene, SceneCastAnswer, SetScratch};
 use testkit::any_size::integers::place;
 use testkit::any_size::nearest::nearest;
 use testkit::casts::pose_at;
@@ -105,7 +105,7 @@ impl Course {
 
     /// Asks the scene, its trees fitted or not.
     fn cast(&self, is_prepared: bool) -> SceneCastAnswer {
-        let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+        let mut scene = Scene::new();
         let shape = |piece: &Piece| Arc::new(hull(&piece.points.iter().map(|p| Vector::from(*p)).collect::<Vec<_>>()));
         for piece in self.pieces.iter().filter(|piece| piece.of.is_none()) {
             let options = ObjectOptions { pose: piece.place, ..ObjectOptions::default() };

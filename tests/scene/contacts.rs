@@ -11,7 +11,7 @@ use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::{
     DecidedBy, DepthAnswer, DepthCache, DepthConfig, DepthEnding, Outcome, Placed, Query, SignedDistance, depth,
 };
-use swiftprox::scene::{Contact, ContactDetail, PairResult, Scene, SceneAnswer, SceneOptions, SceneQuery, Workers};
+use swiftprox::scene::{Contact, ContactDetail, PairResult, Scene, SceneAnswer, SceneQuery, Workers};
 use swiftprox::shape::Shape;
 use swiftprox::verify::{verify, verify_depth};
 use testkit::random::{Random, rotation};
@@ -30,7 +30,7 @@ fn families(random: &mut Random) -> Vec<Vec<Arc<Shape>>> {
 /// Objects in a cube of half side `size`, every tenth in the place of the one before.
 fn crowd(random: &mut Random, count: usize, size: f64) -> (Scene, Vec<ObjectId>) {
     let families = families(random);
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let mut last = Pose::IDENTITY;
     let ids = (0..count).map(|k| {
         let turn = if k % 2 == 0 { random.quarter_turns() } else { random.rotation() };
@@ -184,7 +184,7 @@ fn contacts_are_those_of_the_pair_functions() {
 #[test]
 fn depths_are_forgotten_when_pairs_come_apart_end_or_are_shrunk() {
     let cube = cuboid([0.5; 3]);
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let place = |scene: &mut Scene, x: f64| {
         let options = ObjectOptions { pose: at(x, 0.0, 0.0), ..ObjectOptions::default() };
         scene.add_object(vec![cube.clone()], &options).unwrap()
@@ -222,7 +222,7 @@ fn depths_are_forgotten_when_pairs_come_apart_end_or_are_shrunk() {
 fn balls_that_overlap_have_depths() {
     let mut random = Random::new(3);
     let ball = ellipsoid(&mut random, 200, [1.0; 3], Vector::zeros());
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     for x in [0.0, 1e-3] {
         let options = ObjectOptions { pose: at(x, 0.0, 0.0), ..ObjectOptions::default() };
         scene.add_object(vec![ball.clone()], &options).unwrap();
@@ -340,7 +340,7 @@ fn the_past_changes_no_verdict() {
         step(&mut random, &mut old, &ids, 0.02);
         old.query_contact(&query).unwrap();
     }
-    let mut new = Scene::new(&SceneOptions::default()).unwrap();
+    let mut new = Scene::new();
     for object in old.objects() {
         let options = ObjectOptions { pose: *object.pose(), user_data: object.user_data(), ..ObjectOptions::default() };
         new.add_object(object.pieces().to_vec(), &options).unwrap();
@@ -361,7 +361,7 @@ fn the_past_changes_no_verdict() {
 fn errors_and_budgets_of_depths_are_kept() {
     let mut random = Random::new(0xc3);
     let shape = ellipsoid(&mut random, 300, [1.0, 0.9, 0.8], Vector::zeros());
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     for x in [0.0, 1.1, 2.2, 3.3] {
         let pose = Pose::new(&random.rotation(), &Vector::new(x, 0.0, 0.0));
         scene.add_object(vec![shape.clone()], &ObjectOptions { pose, ..ObjectOptions::default() }).unwrap();
@@ -389,7 +389,7 @@ fn errors_and_budgets_of_depths_are_kept() {
 #[test]
 fn manifolds_are_those_of_listed_pairs() {
     let cube = cuboid([0.5; 3]);
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     for z in [0.0, 1.01, 2.06, 3.06] {
         let options = ObjectOptions { pose: at(0.0, 0.0, z), ..ObjectOptions::default() };
         scene.add_object(vec![cube.clone()], &options).unwrap();

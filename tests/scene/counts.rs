@@ -7,7 +7,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::motion::{CastConfig, CastOutcome, Motion, Screw};
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::scene::{ObjectSet, PairFilter, PoseOrder, Scene, SceneOptions, SetScratch};
+use swiftprox::scene::{ObjectSet, PairFilter, PoseOrder, Scene, SetScratch};
 use testkit::random::Random;
 use testkit::shapes::cuboid;
 
@@ -25,7 +25,7 @@ struct Counted {
 
 impl Counted {
     fn new(random: &mut Random) -> Counted {
-        let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+        let mut scene = Scene::new();
         let cube = Arc::new(cuboid([0.5; 3]));
         let mut add = |pose: Pose| {
             scene.add_object(vec![cube.clone()], &ObjectOptions { pose, ..ObjectOptions::default() }).unwrap()

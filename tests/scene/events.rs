@@ -3,14 +3,14 @@
 use std::sync::Arc;
 
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::scene::{Scene, SceneOptions};
+use swiftprox::scene::Scene;
 use swiftprox::shape::Shape;
 use testkit::random_scene::cuboid;
 use testkit::shapes::at;
 
 /// Unit cubes on the x axis.
 fn cubes(places: &[f64]) -> (Scene, Vec<ObjectId>) {
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let cube: Arc<Shape> = cuboid([0.5; 3]);
     let ids = places.iter().enumerate().map(|(k, &x)| {
         let options = ObjectOptions { pose: at(x, 0.0, 0.0), user_data: k as u64, ..Default::default() };

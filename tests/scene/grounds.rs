@@ -8,7 +8,7 @@ use swiftprox::manifold::{ManifoldConfig, ManifoldPoint, half_space_manifold};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::{HalfSpace, Outcome};
-use swiftprox::scene::{GroupFilter, ObjectSet, Scene, SceneGroundContact, SceneOptions, SetScratch};
+use swiftprox::scene::{GroupFilter, ObjectSet, Scene, SceneGroundContact, SetScratch};
 use swiftprox::shape::Shape;
 use testkit::models::prism;
 use testkit::random::{Random, rotation};
@@ -49,7 +49,7 @@ fn world(random: &mut Random, count: usize) -> World {
         [[0.4, 0.0, 0.6], [0.9, 0.0, 0.6], [0.4, 0.5, 0.6], [0.4, 0.0, -0.3]].map(Vector::from).into();
     let drum: Vec<Vector> = prism(12, 1.0).unwrap().vertices.iter().map(|v| v * 0.5).collect();
     let shapes = [cuboid([0.5, 0.4, 0.3]), hull(&round), hull(&drum), hull(&aside)].map(Arc::new);
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let mut objects = Vec::new();
     for number in 0..count {
         // Some are of two pieces.
@@ -217,7 +217,7 @@ fn no_size_hides_a_piece_from_a_half_space() {
         let corners = [(); 6].map(|()| random.vector() * size);
         let shape = Arc::new(hull(&corners));
         let pose = Pose::new(&random.rotation(), &(random.vector() * size * random.power(-3, 20)));
-        let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+        let mut scene = Scene::new();
         scene.add_object(vec![shape.clone()], &ObjectOptions { pose, ..ObjectOptions::default() }).unwrap();
         scene.prepare().unwrap();
         let normal = random.direction();

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use swiftprox::math::Pose;
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::scene::{
-    ContactDetail, EventState, Listener, ListenerEvents, Query, Replay, Scene, SceneAnswer, SceneOptions, SceneQuery,
+    ContactDetail, EventState, Listener, ListenerEvents, Query, Replay, Scene, SceneAnswer, SceneQuery,
 };
 use swiftprox::shape::Shape;
 use testkit::random::Random;
@@ -40,7 +40,7 @@ fn add(scene: &mut Scene, pieces: &[Arc<Shape>], pose: Pose, user_data: u64) -> 
 }
 
 fn scene() -> Scene {
-    Scene::new(&SceneOptions::default()).unwrap()
+    Scene::new()
 }
 
 /// Of each pair its caller's numbers, its state, that of its objects, and how many of its points are in which state.
@@ -203,7 +203,7 @@ fn listeners_hear_what_changed_for_themselves() {
         check(was, &answer, events);
     }
     let mut replay = Replay::open(&file).unwrap();
-    let mut again = Scene::new(&replay.scene_options()).unwrap();
+    let mut again = Scene::new();
     while let Some(step) = replay.read().unwrap() {
         replay.change(&mut again).unwrap();
         if step.query.is_some() {

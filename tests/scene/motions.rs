@@ -9,7 +9,7 @@ use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig};
-use swiftprox::scene::{PairResult, Scene, SceneOptions, SceneQuery};
+use swiftprox::scene::{PairResult, Scene, SceneQuery};
 use swiftprox::shape::{Shape, ShapeOptions};
 use testkit::models::{ELLIPSOIDS, cuboid, ellipsoid, random_hull};
 use testkit::random::Random;
@@ -153,7 +153,7 @@ fn check(scene: &mut Scene, without_tolerance: bool, what: &str) -> usize {
 fn run(motion: Motion, setting: Setting, family: &[Vec<Arc<Shape>>], what: &str) -> usize {
     let mut random = Random::new(0x5ce4e + motion as u64 * 17 + setting as u64);
     let size = if motion == Motion::Pile { 4.0 } else { 9.0 };
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let mut ids = Vec::new();
     for k in 0..OBJECTS {
         let fixed = setting == Setting::Fixed && k % 3 == 0;
@@ -201,7 +201,7 @@ fn answers_given_again_are_those_of_all_pairs() {
     for (name, family) in families() {
         for verdicts in [true, false] {
             let mut random = Random::new(0xa6a1);
-            let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+            let mut scene = Scene::new();
             let add = |scene: &mut Scene, random: &mut Random| {
                 let pose = anywhere(random, 5.0, Setting::Plain);
                 let options = ObjectOptions { pose, user_data: random.below(1000) as u64, ..Default::default() };

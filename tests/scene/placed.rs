@@ -4,7 +4,7 @@ use swiftprox::error::Error;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::object::ObjectOptions;
 use swiftprox::pair::Query;
-use swiftprox::scene::{PairResult, Replay, Scene, SceneOptions, SceneQuery};
+use swiftprox::scene::{PairResult, Replay, Scene, SceneQuery};
 use testkit::random::Random;
 use testkit::random_scene::cuboid;
 use testkit::shapes::at;
@@ -13,7 +13,7 @@ use testkit::shapes::at;
 /// widened by its half of the tolerance misses the former; it is widened where the scene keeps a list of near pairs.
 #[test]
 fn all_objects_within_the_tolerance_of_a_placed_shape_are_listed() {
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let cube = cuboid([0.5; 3]);
     for k in 0..60 {
         let gap = if k % 2 == 0 { 0.999 } else { 1.001 };
@@ -38,7 +38,7 @@ fn all_objects_within_the_tolerance_of_a_placed_shape_are_listed() {
 #[test]
 fn a_placed_body_of_several_pieces_asks_the_groups_of_its_mask() {
     let mut random = Random::new(0x91ec);
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let cube = cuboid([0.5; 3]);
     let mut pose = |scale: f64| {
         let [x, y, z] = [(); 3].map(|()| scale * random.uniform(-1.0, 1.0));
@@ -76,7 +76,7 @@ fn a_placed_body_of_several_pieces_asks_the_groups_of_its_mask() {
     assert!(scene.query_placed_pieces(&[], 1, Query::Distance, &SceneQuery::default()).is_err());
     scene.end_recording().unwrap();
     let mut replay = Replay::open(&file).unwrap();
-    let mut again = Scene::new(&replay.scene_options()).unwrap();
+    let mut again = Scene::new();
     let mut asked = 0;
     while let Some(step) = replay.read().unwrap() {
         replay.change(&mut again).unwrap();

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 use swiftprox::error::{Error, Result};
 use swiftprox::math::Pose;
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::scene::{ContactDetail, PairFilter, Query, Replay, Scene, SceneOptions, SceneQuery, Workers};
+use swiftprox::scene::{ContactDetail, PairFilter, Query, Replay, Scene, SceneQuery, Workers};
 use testkit::random_scene::{Random, cuboid, ellipsoid, random_pose};
 use testkit::shapes::at;
 
@@ -43,7 +43,7 @@ pub struct Played {
 /// Plays a recording to its end.
 pub fn play(bytes: &[u8], workers: Option<Workers>) -> Result<Played> {
     let mut replay = Replay::from_reader(io::Cursor::new(bytes.to_vec()))?;
-    let mut scene = Scene::new(&replay.scene_options())?;
+    let mut scene = Scene::new();
     scene.set_workers(workers);
     let mut played = Played::default();
     while let Some(step) = replay.read()? {
@@ -67,7 +67,7 @@ pub fn play(bytes: &[u8], workers: Option<Workers>) -> Result<Played> {
 }
 
 fn scene() -> Scene {
-    Scene::new(&SceneOptions::default()).unwrap()
+    Scene::new()
 }
 
 /// A filter, which is not asked of objects that are gone.
@@ -158,7 +158,7 @@ fn a_session_played_again_answers_the_same_bits() {
     }
     // Recording what is played gives the recording.
     let (tape, mut replay) = (Tape::default(), Replay::from_reader(io::Cursor::new(bytes.clone())).unwrap());
-    let mut scene = Scene::new(&replay.scene_options()).unwrap();
+    let mut scene = Scene::new();
     scene.record_to(tape.clone()).unwrap();
     while let Some(step) = replay.read().unwrap() {
         replay.change(&mut scene).unwrap();

@@ -9,7 +9,7 @@ use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::{self, Levels, Outcome, PairAnswer, PairCache, PairConfig, Start};
 use swiftprox::progress::Progress;
-use swiftprox::scene::{PairResult, Scene, SceneOptions, SceneQuery, SceneStatistics};
+use swiftprox::scene::{PairResult, Scene, SceneQuery, SceneStatistics};
 use swiftprox::shape::Shape;
 use swiftprox::verify::verify;
 use testkit::random_scene::{Random, cuboid, ellipsoid, random_pose};
@@ -236,7 +236,7 @@ fn answers_do_not_depend_on_the_past() {
 #[test]
 fn approximate_distances_and_a_budget_for_all() {
     let mut random = Random::new(77);
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let options = HierarchyOptions { kind: HierarchyKind::OuterCuts, ..HierarchyOptions::default() };
     let plain = ellipsoid(&mut random, 500, [0.6, 0.6, 0.1], Vector::zeros());
     let shape = Arc::new((*plain).clone().with_levels(&options, &mut Progress::new(&mut |_| true)).unwrap());
@@ -286,7 +286,7 @@ fn approximate_distances_and_a_budget_for_all() {
 fn maps_of_support_functions_spend_a_budget() {
     let mut random = Random::new(0x3a9);
     let shape = ellipsoid(&mut random, 600, [0.6, 0.6, 0.4], Vector::zeros());
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     for _ in 0..8 {
         let options = ObjectOptions { pose: random_pose(&mut random, 3.0), ..Default::default() };
         scene.add_object(vec![shape.clone()], &options).unwrap();
@@ -317,7 +317,7 @@ fn a_budget_holds_while_objects_move() {
     let options = HierarchyOptions { kind: HierarchyKind::Quadric, minimum_triangles: 12, ..Default::default() };
     let plain = ellipsoid(&mut random, 300, [0.6, 0.6, 0.4], Vector::zeros());
     let shape = Arc::new((*plain).clone().with_levels(&options, &mut Progress::new(&mut |_| true)).unwrap());
-    let (mut scene, mut ids) = (Scene::new(&SceneOptions::default()).unwrap(), Vec::new());
+    let (mut scene, mut ids) = (Scene::new(), Vec::new());
     for _ in 0..12 {
         let options = ObjectOptions { pose: random_pose(&mut random, 2.0), ..Default::default() };
         ids.push(scene.add_object(vec![shape.clone()], &options).unwrap());
@@ -368,7 +368,7 @@ fn approximate_distances_within_a_tolerance_cost_no_more_than_exact_ones() {
     ];
     let counts = queries.map(|query| {
         let is_exact = query == near;
-        let (mut scene, mut ids) = (Scene::new(&SceneOptions::default()).unwrap(), Vec::new());
+        let (mut scene, mut ids) = (Scene::new(), Vec::new());
         for _ in 0..4 {
             ids.push(scene.add_object(vec![shape.clone()], &ObjectOptions::default()).unwrap());
         }

@@ -3,16 +3,16 @@
 use std::sync::Arc;
 
 use swiftprox::error::Error;
-use swiftprox::math::{Matrix, Pose, ROTATION_LIMIT, Vector};
+use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::{FeatureKind, Outcome, PairAnswer};
 use swiftprox::placed::exact::solve;
-use swiftprox::scene::{PairResult, Scene, SceneOptions, SceneQuery};
+use swiftprox::scene::{PairResult, Scene, SceneQuery};
 use testkit::random_scene::{Random, cuboid, random_pose};
 use testkit::shapes::at;
 
 pub fn scene() -> Scene {
-    Scene::new(&SceneOptions::default()).unwrap()
+    Scene::new()
 }
 
 /// Unit cubes with their centres at the given places on the x axis; user data 100, 101, …
@@ -218,14 +218,13 @@ fn the_pose_limit_is_the_scenes() {
     let cube = cuboid([0.5; 3]);
     let options = ObjectOptions { pose: stretched, ..Default::default() };
     assert!(scene().add_object(vec![cube.clone()], &options).is_ok());
-    let mut strict = Scene::new(&SceneOptions { rotation_limit: 1e-6 }).unwrap();
-    refused(strict.add_object(vec![cube.clone()], &options), "orthonormal");
-    let id = strict.add_object(vec![cube], &ObjectOptions::default()).unwrap();
-    refused(strict.set_pose(id, &stretched), "orthonormal");
-    refused(strict.set_all_poses(&[stretched]), "pose 0 of 1");
-    for rotation_limit in [-1e-9, 2.0 * ROTATION_LIMIT, f64::NAN] {
-        refused(Scene::new(&SceneOptions { rotation_limit }), "rotation_limit");
-    }
+    // And (1 + 1e-2)² − 1 ≈ 2e-2.
+    let beyond = Pose::new(&(Matrix::identity() * (1.0 + 1e-2)), &Vector::zeros());
+    let mut scene = scene();
+    refused(scene.add_object(vec![cube.clone()], &ObjectOptions { pose: beyond, ..Default::default() }), "orthonormal");
+    let id = scene.add_object(vec![cube], &ObjectOptions::default()).unwrap();
+    refused(scene.set_pose(id, &beyond), "orthonormal");
+    refused(scene.set_all_poses(&[beyond]), "pose 0 of 1");
 }
 
 #[test]

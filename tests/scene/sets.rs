@@ -10,7 +10,7 @@ use swiftprox::motion::{CastAnswer, CastConfig, CastOutcome, Motion, Moving, Scr
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::PairCache;
 use swiftprox::ray::{Ray, RayOutcome};
-use swiftprox::scene::{ObjectSet, PairFilter, PoseOrder, RayHits, Scene, SceneOptions, SceneQuery, SetScratch};
+use swiftprox::scene::{ObjectSet, PairFilter, PoseOrder, RayHits, Scene, SceneQuery, SetScratch};
 use swiftprox::shape::Shape;
 use testkit::any_size::integers::place;
 use testkit::any_size::nearest::nearest;
@@ -48,7 +48,7 @@ fn pose_in(random: &mut Random, size: f64) -> Pose {
 
 impl World {
     fn new(random: &mut Random, count: usize, size: f64) -> World {
-        let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+        let mut scene = Scene::new();
         let mut objects: Vec<Known> = Vec::new();
         for number in 0..count {
             let pieces: Vec<Vec<Vector>> = (0..1 + random.below(2))
@@ -279,7 +279,7 @@ fn rays_meet_what_rationals_say() {
     let mut random = Random::new(0x3a7);
     let (mut scratch, mut counts) = (SetScratch::default(), [0; 2]);
     for _ in 0..12 {
-        let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+        let mut scene = Scene::new();
         let mut bodies = Vec::new();
         for number in 0..12 {
             let points: Vec<Vector> =
@@ -434,7 +434,7 @@ fn casts_end_with_the_earliest_of_all_pairs() {
 /// A bullet that a hundred samples step over, and a turn whose ends are free.
 #[test]
 fn what_lies_between_the_ends_is_met() {
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let mut add = |half: [f64; 3], pose: Pose, fixed: bool| {
         let options = ObjectOptions { pose, fixed, ..ObjectOptions::default() };
         scene.add_object(vec![Arc::new(cuboid(half))], &options).unwrap()
@@ -568,7 +568,7 @@ fn what_is_refused_says_why() {
 /// A program with a broad phase of its own says which pairs there are; two fixed objects make one only if the question moves one.
 #[test]
 fn given_pairs_and_fixed_objects_are_heeded() {
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let cube = Arc::new(cuboid([0.5; 3]));
     let [near, middle, far] = [0.0, 3.0, 10.0].map(|x| {
         let options = ObjectOptions { pose: at(x, 0.0, 0.0), fixed: x > 0.0, ..ObjectOptions::default() };

@@ -7,7 +7,7 @@ use std::sync::Arc;
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::{self, Outcome, PairAnswer, PairCache, PairConfig};
-use swiftprox::scene::{ObjectPair, PairFilter, PairResult, Query, Scene, SceneOptions, SceneQuery, Workers};
+use swiftprox::scene::{ObjectPair, PairFilter, PairResult, Query, Scene, SceneQuery, Workers};
 use swiftprox::shape::Shape;
 use testkit::random_scene::{Random, cuboid, ellipsoid, random_pose};
 
@@ -215,7 +215,7 @@ fn a_long_life() {
     shapes.push(ellipsoid(&mut random, 40, [0.6, 0.4, 0.2], Vector::zeros()));
     shapes.push(ellipsoid(&mut random, 12, [0.3, 0.3, 0.3], Vector::new(0.4, 0.0, 0.0)));
     shapes.push(ellipsoid(&mut random, 600, [0.6, 0.6, 0.6], Vector::new(3.0, 0.0, 0.1)));
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let mut tape = Some(Tape::default());
     scene.record_to(tape.clone().unwrap_or_default()).unwrap();
     let mut model = Model { objects: Vec::new(), inactive: Vec::new(), refused: None, given: None, events: Vec::new() };

@@ -8,7 +8,7 @@ use std::sync::atomic::{AtomicUsize, Ordering};
 use swiftprox::math::Pose;
 use swiftprox::object::ObjectId;
 use swiftprox::object::ObjectOptions;
-use swiftprox::scene::{PairResult, Scene, SceneAnswer, SceneOptions, SceneQuery, Workers};
+use swiftprox::scene::{PairResult, Scene, SceneAnswer, SceneQuery, Workers};
 use swiftprox::shape::{Shape, ShapeOptions};
 use testkit::models::ellipsoid;
 use testkit::random_scene::{Random, random_pose};
@@ -18,7 +18,7 @@ use testkit::shapes::{at, cuboid};
 fn flight(mut workers: impl FnMut(usize, &mut Scene)) -> Vec<String> {
     let mut random = Random::new(0x7f11);
     let shape = Arc::new(Shape::from_mesh(&ellipsoid([0.8, 0.7, 0.5], 60).unwrap(), &ShapeOptions::default()).unwrap());
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let mut poses: Vec<Pose> = (0..700).map(|_| random_pose(&mut random, 5.0)).collect();
     let add = |(k, pose): (usize, &Pose)| {
         let options = ObjectOptions { pose: *pose, user_data: k as u64, ..ObjectOptions::default() };
@@ -67,7 +67,7 @@ fn crowd(workers: Option<Workers>) -> Vec<String> {
     const COUNT: usize = 2600;
     let mut random = Random::new(0xc0d);
     let boxes = [[0.3; 3], [0.2, 0.4, 0.3]].map(|half| Arc::new(cuboid(half)));
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     scene.set_workers(workers);
     let mut ids = Vec::new();
     for k in 0..COUNT {
@@ -157,7 +157,7 @@ fn a_panic_while_objects_are_moved_hides_no_pair() {
     const COUNT: usize = 2300;
     let shape = Arc::new(cuboid([0.5; 3]));
     let scene_of = |poses: &[Pose]| {
-        let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+        let mut scene = Scene::new();
         for (k, pose) in poses.iter().enumerate() {
             let options = ObjectOptions { pose: *pose, user_data: k as u64, ..ObjectOptions::default() };
             scene.add_object(vec![shape.clone()], &options).unwrap();

@@ -7,7 +7,7 @@ use swiftprox::manifold::{Manifold, ManifoldConfig, ManifoldPoint, half_space_ma
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::ObjectOptions;
 use swiftprox::pair::{HalfSpace, Outcome, half_space_distance};
-use swiftprox::scene::{GroupFilter, Scene, SceneOptions, SetScratch};
+use swiftprox::scene::{GroupFilter, Scene, SetScratch};
 use swiftprox::shape::Shape;
 use testkit::random::Random;
 use testkit::shapes::at;
@@ -217,7 +217,7 @@ fn no_size_of_a_half_space_hides_a_height() {
         }
         points_seen += points.len();
         // The same in a scene, which looks at boxes first.
-        let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+        let mut scene = Scene::new();
         let options = ObjectOptions { pose, ..ObjectOptions::default() };
         scene.add_object(vec![Arc::new(body.clone())], &options).unwrap();
         scene.prepare().unwrap();

@@ -9,7 +9,7 @@ use swiftprox::object::ObjectOptions;
 use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, distance};
 use swiftprox::progress::Progress;
 use swiftprox::ray::{Ray, RayAnswer, RayOutcome};
-use swiftprox::scene::{ContactDetail, RayHits, Replay, Scene, SceneOptions, SceneQuery, SetScratch};
+use swiftprox::scene::{ContactDetail, RayHits, Replay, Scene, SceneQuery, SetScratch};
 use swiftprox::shape::Shape;
 use swiftprox::shape_file::{from_bytes, to_bytes};
 use testkit::random::Random;
@@ -23,7 +23,7 @@ fn a_scene_finds_what_all_pairs_are() {
     let mut random = Random::new(0x5ce1);
     let cloud: Vec<Vector> = (0..10).map(|_| random.vector() * 0.2).collect();
     let shapes = [sphere(0.3), capsule(0.4, 0.1), swept(&cloud, 0.15), swept(&cloud, 0.0)].map(Arc::new);
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     let mut ids = Vec::new();
     for k in 0..120 {
         let pose = Pose::new(&random.rotation(), &(random.vector() * 2.0));
@@ -81,7 +81,7 @@ fn a_ray_meets_what_is_there_in_any_order() {
     let ray = Ray { origin: [-5.0, 0.0, 0.0], direction: [1.0, 0.0, 0.0], t_max: f64::INFINITY };
     for (away, met) in [(100.0, 1), (3.0, 2)] {
         for ball_first in [false, true] {
-            let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+            let mut scene = Scene::new();
             let mut add = |is_ball: bool| {
                 let (shape, pose) =
                     if is_ball { (&ball, at(away, away - 3.0, 0.0)) } else { (&cube, at(0.0, 0.0, 0.0)) };
@@ -113,7 +113,7 @@ fn rays_meet_what_rationals_say() {
     for round in 0..6 {
         let poses: Vec<Pose> = (0..8).map(|_| Pose::new(&random.quarter_turns(), &random.lattice(2))).collect();
         let shapes: Vec<Arc<Shape>> = (0..4).map(|kind| Arc::new(swept(&clouds[kind], radii[kind]))).collect();
-        let mut scenes = [0, 1].map(|_| Scene::new(&SceneOptions::default()).unwrap());
+        let mut scenes = [0, 1].map(|_| Scene::new());
         for (backwards, scene) in scenes.iter_mut().enumerate() {
             for k in 0..8 {
                 let k = if backwards == 1 { 7 - k } else { k };
@@ -173,7 +173,7 @@ fn files_keep_the_radius() {
 #[test]
 fn a_box_contains_its_object() {
     let mut random = Random::new(0xb0c5);
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     for round in 0..60 {
         let radius = [0.0, 0.25][round % 2];
         let clouds = [1, 2, 30].map(|count| (0..count).map(|_| random.vector()).collect::<Vec<_>>());
@@ -217,7 +217,7 @@ impl std::io::Write for Shared {
 #[test]
 fn a_recording_is_replayed_with_its_radii() {
     let kept = Shared::default();
-    let mut scene = Scene::new(&SceneOptions::default()).unwrap();
+    let mut scene = Scene::new();
     scene.record_to(kept.clone()).unwrap();
     let shape: Arc<Shape> = Arc::new(sphere(0.5));
     for k in 0..4 {
@@ -229,7 +229,7 @@ fn a_recording_is_replayed_with_its_radii() {
     drop(scene);
     let bytes = kept.0.lock().unwrap().clone();
     let mut replay = Replay::from_reader(Cursor::new(bytes)).unwrap();
-    let mut again = Scene::new(&replay.scene_options()).unwrap();
+    let mut again = Scene::new();
     let mut asked = 0;
     while let Some(step) = replay.read().unwrap() {
         replay.change(&mut again).unwrap();

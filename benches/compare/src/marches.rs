@@ -6,7 +6,7 @@ use std::rc::Rc;
 use swiftprox::base::simd::{self, Kernel, Lanes};
 use swiftprox::distance::certificate::{Certify, Gap, Minimum};
 use swiftprox::distance::marching::{self, March, step_limit};
-use swiftprox::math::{Pose, ROTATION_LIMIT};
+use swiftprox::math::Pose;
 use swiftprox::pair::start::policy::StartFrom;
 use swiftprox::pair::start::start_pair;
 use swiftprox::placed::frame::Frame;
@@ -86,7 +86,7 @@ impl<const FIRST: bool> Kernel for Run<'_, FIRST> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self) {
         let polyhedron = self.shape.polyhedron();
-        let frame = Frame::<L>::new([polyhedron; 2], self.poses, ROTATION_LIMIT);
+        let frame = Frame::<L>::new([polyhedron; 2], self.poses);
         assert!(frame.in_range, "the poses are sound");
         let limit = step_limit([polyhedron; 2]);
         let (march, steps) = marching::march(&frame, self.state, limit, &mut self.keep);

@@ -281,7 +281,6 @@ class Detector final : public CollisionDetector
         query.max_distance = margin_for(option, result);
         query.detail = option.enableContact ? SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD : SWIFTPROX_CONTACT_DETAIL_NONE;
         const swiftprox_scene_answer answer = group.scene().query_contact(query);
-        const swiftprox_scene_contacts contacts = group.scene().get_contacts();
         for (std::size_t i = 0; i < answer.count && !found.is_enough(); ++i) {
             const auto a = reinterpret_cast<Object *>(static_cast<std::uintptr_t>(answer.pairs[i].user_data1));
             const auto b = reinterpret_cast<Object *>(static_cast<std::uintptr_t>(answer.pairs[i].user_data2));
@@ -289,7 +288,7 @@ class Detector final : public CollisionDetector
                 continue;
             }
             if (option.enableContact) {
-                found.add(a, b, contacts.contacts[i].manifold.normal, swiftprox::points(contacts, contacts.contacts[i]));
+                found.add(a, b, answer.contacts[i].manifold.normal, swiftprox::points(answer, answer.contacts[i]));
             } else {
                 found.add(a, b, nullptr, {});
             }

@@ -120,7 +120,7 @@ impl Program {
         tuning.levels = *u.choose(&LEVELS)? as i32;
         tuning.refinement = *u.choose(&REFINEMENTS)? as i32;
         query.tuning = &tuning;
-        let mut answer = CSceneAnswer { pairs: std::ptr::null(), count: 0, intersecting: 0, found: std::ptr::null() };
+        let mut answer = CSceneAnswer::EMPTY;
         // SAFETY: a living scene, query and answer; the results are the scene's until its next query.
         unsafe {
             let run = || swiftprox_scene_query_approximate(scene.handle, &query, &mut answer);

@@ -134,13 +134,9 @@ pub fn any_pose(u: &mut Unstructured) -> Result<Block> {
 pub fn pair_config(u: &mut Unstructured) -> Result<Option<Block>> {
     let mut last = 1.0;
     let tolerance = any_number(u, &mut last)?.to_ne_bytes();
-    let limit = any_number(u, &mut last)?.to_ne_bytes();
     let start = u.int_in_range(-1..=2_i32)?;
     let tuning = Block::of(&[CPairTuning { start, ..CPairTuning::DEFAULT }]);
-    let changes = [
-        (std::mem::offset_of!(CPairConfig, max_distance), &tolerance[..]),
-        (std::mem::offset_of!(CPairConfig, rotation_limit), &limit[..]),
-    ];
+    let changes = [(std::mem::offset_of!(CPairConfig, max_distance), &tolerance[..])];
     let config = options(u, &CPairConfig { tuning: tuning.at(), ..CPairConfig::DEFAULT }, &changes)?;
     Ok(config.map(|config: Block| config.with(Some(tuning))))
 }

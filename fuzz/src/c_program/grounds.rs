@@ -148,8 +148,7 @@ fn manifold_config(u: &mut Unstructured) -> Result<Option<Block>> {
     let mut config: CManifoldConfig = CManifoldConfig::DEFAULT;
     config.max_distance = any_number(u, &mut last)?.abs();
     config.reduces = u.arbitrary()?;
-    let limit = any_number(u, &mut last)?.to_ne_bytes();
-    options(u, &config, &[(std::mem::offset_of!(CManifoldConfig, rotation_limit), &limit[..])])
+    options(u, &config, &[])
 }
 
 /// A ground twice at two places, or as a solid, which the share given is returned for; null if it is refused.

@@ -31,10 +31,8 @@ impl Program {
             // SAFETY: a living scene that is not used again.
             return Ok(unsafe { swiftprox_scene_destroy(scene.handle) });
         }
-        let mut last = 1e-2;
-        let limit = any_number(u, &mut last)?.to_ne_bytes();
         let value: CSceneOptions = CSceneOptions::DEFAULT;
-        let options = options(u, &value, &[(std::mem::offset_of!(CSceneOptions, rotation_limit), &limit)])?;
+        let options = options(u, &value, &[])?;
         let mut handle = null_mut();
         // SAFETY: as large as it says or null, and room for the scene.
         let status = unsafe { swiftprox_scene_create(start(&options), &mut handle) };

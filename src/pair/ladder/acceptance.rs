@@ -4,7 +4,7 @@ use super::query::PairQuery;
 use crate::answer::Query;
 use crate::answer::contact;
 use crate::answer::{DecidedBy, Outcome};
-use crate::base::math::{ROTATION_LIMIT, divisor};
+use crate::base::math::divisor;
 use crate::base::simd::{Kernel, Lanes};
 use crate::distance::certificate::{Certify, CloserLook, Gap, Minimum};
 use crate::distance::marching;
@@ -75,7 +75,7 @@ impl<const BETWEEN_PLANES: bool> Kernel for Closely<'_, '_, BETWEEN_PLANES> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self) {
         let &mut Closely { ref mut acceptance, at } = self;
-        let frame = Frame::<L>::new(acceptance.pair.polyhedra(), acceptance.pair.poses(), ROTATION_LIMIT);
+        let frame = Frame::<L>::new(acceptance.pair.polyhedra(), acceptance.pair.poses());
         let mut closer = CloserLook::<L, BETWEEN_PLANES> { found: None };
         marching::march(&frame, at, 1, &mut closer);
         if let Some((minimum, gap)) = &closer.found {

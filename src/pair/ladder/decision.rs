@@ -6,7 +6,6 @@ use crate::answer::Query;
 use crate::answer::contact;
 use crate::answer::{DecidedBy, Outcome, Statistics};
 use crate::base::error::Result;
-use crate::base::math::ROTATION_LIMIT;
 use crate::base::memory::in_integers;
 use crate::base::simd::{self, Kernel, Lanes, Portable};
 use crate::body::tables::tuning::TURNED_AWAY;
@@ -145,7 +144,7 @@ impl PairQuery<'_> {
     }
 
     pub(super) fn remember_marker(&mut self) {
-        let frame = Frame::<Portable>::new(self.polyhedra(), self.poses(), ROTATION_LIMIT);
+        let frame = Frame::<Portable>::new(self.polyhedra(), self.poses());
         frame.mark(&mut self.cache.marker);
     }
 

@@ -55,7 +55,7 @@ impl PairQuery<'_> {
     #[cold]
     #[inline(never)]
     fn placed_balls_overlap(&mut self) -> bool {
-        if !are_acceptable(self.poses(), self.config.rotation_limit) {
+        if !are_acceptable(self.poses()) {
             return false;
         }
         let inner =

@@ -179,12 +179,10 @@ impl<'a> PairQuery<'a> {
     pub(super) fn may_ask_last_levels(&self) -> bool {
         let &PairQuery { query, bodies: [first, second], ref cache, config, .. } = self;
         let shapes = [first.shape, second.shape];
-        // A limit below rounding asks for a closer look at the poses.
         let is_common_case = (query == Query::Approximate)
             & cache.holds_level_state()
             & (cache.spent_before() == 0)
             & (config.step_budget >= TRIAL_STEPS)
-            & self.admits_rounding()
             & self.asks_cache();
         if !is_common_case || shapes[0].lacks_levels() | shapes[1].lacks_levels() {
             return false;
@@ -239,7 +237,6 @@ impl<'a> PairQuery<'a> {
             bodies,
             accuracy: self.accuracy_of_levels(),
             refinement: config.refinement,
-            rotation_limit: config.rotation_limit,
             at: from,
             is_trial,
             marker: self.last_marker().copied(),

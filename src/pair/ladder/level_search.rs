@@ -7,7 +7,7 @@ use crate::answer::Query;
 use crate::answer::contact;
 use crate::answer::{DecidedBy, Outcome, Statistics};
 use crate::base::error::Result;
-use crate::base::math::{Pose, ROTATION_LIMIT};
+use crate::base::math::Pose;
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::Polyhedron;
 use crate::distance::certificate::Interval;
@@ -215,7 +215,7 @@ impl Kernel for Glance<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Nearest {
-        let frame = Frame::<L>::new(self.polyhedra, self.poses, ROTATION_LIMIT);
+        let frame = Frame::<L>::new(self.polyhedra, self.poses);
         let direction = gjk::difference(&frame, self.vertices);
         let simplex =
             Simplex { count: 1, pairs: [self.vertices; 4], differences: [direction; 4], weights: [1.0, 0.0, 0.0, 0.0] };

@@ -9,7 +9,7 @@ use crate::body::polyhedron::Polyhedron;
 use crate::distance::certificate::Interval;
 use crate::distance::decide::Wanted;
 use crate::pair::cache::PairCache;
-use crate::placed::frame::{Frame, Marker, RIGID_TOGETHER};
+use crate::placed::frame::{Frame, Marker};
 use crate::placed::state::State;
 use crate::shape::Placed;
 
@@ -42,18 +42,11 @@ impl<'a> PairQuery<'a> {
         [self.bodies[0].pose, self.bodies[1].pose]
     }
 
-    /// Whether the quick rungs may look at it: bodies whose centres are their origins and whose sizes are in range, and a rotation
-    /// limit that refuses no pose which is right up to rounding.
+    /// Whether the quick rungs may look at it: bodies whose centres are their origins and whose sizes are in range.
     #[inline(always)]
     pub fn is_simple(&self) -> bool {
         let [body1, body2] = self.polyhedra();
-        body1.simple & body2.simple & self.admits_rounding()
-    }
-
-    /// Whether the rotation limit refuses no rotation that is right up to rounding.
-    #[inline(always)]
-    pub fn admits_rounding(&self) -> bool {
-        self.config.rotation_limit >= RIGID_TOGETHER
+        body1.simple & body2.simple
     }
 
     /// The accuracy that an approximate query needs.
@@ -74,7 +67,7 @@ impl<'a> PairQuery<'a> {
     /// Made in place by the caller: it is large.
     #[inline(always)]
     pub fn frame<L: Lanes>(&self) -> Frame<'a, L> {
-        Frame::new(self.polyhedra(), self.poses(), self.config.rotation_limit)
+        Frame::new(self.polyhedra(), self.poses())
     }
 
     /// The frame of bodies that are [simple](PairQuery::is_simple).
@@ -84,7 +77,7 @@ impl<'a> PairQuery<'a> {
     }
 
     pub fn check_poses(&self) -> Result<()> {
-        self.poses().iter().try_for_each(|pose| pose.check(self.config.rotation_limit))
+        self.poses().iter().try_for_each(|pose| pose.check())
     }
 
     /// Clears a cache that is not to be asked, unless the poses are refused: who is refused finds nothing changed.

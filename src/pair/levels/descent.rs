@@ -49,8 +49,6 @@ pub struct Descent<'a> {
     pub accuracy: Accuracy,
     /// How it goes to finer levels.
     pub refinement: Refinement,
-    /// Largest accepted entry of |RᵀR − I|.
-    pub rotation_limit: f64,
     /// The place of the search; the features are features of the levels.
     pub at: LevelState,
     /// Whether the first levels get but a few steps: they are those of an earlier query, and the bodies may have jumped.
@@ -77,7 +75,7 @@ impl Kernel for Descent<'_> {
         while self.at.levels != [0, 0] {
             let LevelState { levels, state } = self.at;
             let polyhedra = self.bodies.polyhedra(levels);
-            let frame = Frame::<L>::new(polyhedra, self.bodies.poses, self.rotation_limit);
+            let frame = Frame::<L>::new(polyhedra, self.bodies.poses);
             if frame.in_range {
                 if self.is_trial && levels_have_jumped(&frame, &self.bodies, self.marker.as_ref()) {
                     return Descended::Lost;
@@ -115,9 +113,8 @@ impl Kernel for Descent<'_> {
     }
 }
 
-/// The beginning of a search alone, the trial at its first levels, for [simple](Polyhedron::simple) levels and a rotation limit
-/// of at least [`RIGID_TOGETHER`](crate::placed::frame::RIGID_TOGETHER): its result, if any, the number of steps, and the pair's
-/// frame. It is the result that the search would find.
+/// The beginning of a search alone, the trial at its first levels, for [simple](Polyhedron::simple) levels: its result, if any, the
+/// number of steps, and the pair's frame. It is the result that the search would find.
 #[inline(always)]
 pub fn try_first<'a, L: Lanes>(
     bodies: &Leveled<'a>,

@@ -19,7 +19,7 @@ use crate::shape::file::{from_bytes, to_bytes};
 pub(crate) const MAGIC: [u8; 8] = *b"SWFTREC\x1a";
 
 /// The version that is written, and the only one that is read.
-pub(crate) const VERSION: u32 = 2;
+pub(crate) const VERSION: u32 = 3;
 
 /// Numbers of kinds of records, never used again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -96,7 +96,6 @@ pub(crate) enum Record<'a> {
     End,
     /// The first record; whether the scene had never had an object.
     Scene {
-        rotation_limit: f64,
         is_whole: bool,
     },
     /// The next number's.
@@ -136,10 +135,7 @@ impl Record<'_> {
     pub fn write(&self, to: &mut Writer) -> Result<()> {
         match self {
             Record::End | Record::Failed => Ok(()),
-            Record::Scene { rotation_limit, is_whole } => {
-                to.real(*rotation_limit)?;
-                to.flag(*is_whole)
-            }
+            Record::Scene { is_whole } => to.flag(*is_whole),
             Record::Shape(shape) => crate::base::memory::extend(&mut to.bytes, to_bytes(shape)?),
             Record::Change(change) => write_change(change, to),
             Record::Question { subject, kind, query } => {
@@ -166,7 +162,7 @@ impl Record<'_> {
     pub fn read(kind: Kind, from: &mut Reader) -> Result<Record<'static>> {
         let record = match kind {
             Kind::End => Record::End,
-            Kind::Scene => Record::Scene { rotation_limit: from.real()?, is_whole: from.flag()? },
+            Kind::Scene => Record::Scene { is_whole: from.flag()? },
             Kind::Shape => Record::Shape(Arc::new(from_bytes(from.take(from.rest.len())?)?)),
             Kind::Question => Record::Question { subject: from.subject()?, kind: from.choice()?, query: from.query()? },
             Kind::Decisions => {

@@ -190,8 +190,8 @@ impl Rename<Themselves, Numbers> for Numbering<'_> {
 
 /// Writes the state in which a recording begins, except decisions.
 fn write_world(recorder: &mut Recorder, world: &World) -> Result<()> {
-    let (rotation_limit, objects) = (world.rotation_limit, &world.objects);
-    recorder.write(&Record::Scene { rotation_limit, is_whole: objects.created() == 0 })?;
+    let objects = &world.objects;
+    recorder.write(&Record::Scene { is_whole: objects.created() == 0 })?;
     let mut write = |change: Change<Themselves>| {
         let change = change.renamed(&mut Numbering { recorder, objects })?;
         recorder.write(&Record::Change(change))

@@ -122,7 +122,7 @@ impl Search {
             Subject::AllPairs | Subject::Events => self.ask_all(searched, &request),
             Subject::Object(id) => self.ask_object(searched, *id, &request),
             Subject::Placed(body) => {
-                body.check(searched.world.rotation_limit)?;
+                body.check()?;
                 self.ask_placed(searched, body, &request)
             }
         }

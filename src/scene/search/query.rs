@@ -65,12 +65,12 @@ impl<Shape: Clone> PlacedBody<'_, Shape> {
     ///
     /// # Errors
     /// [`Error::Argument`], [`Error::Pose`].
-    pub fn check(&self, rotation_limit: f64) -> Result<()> {
+    pub fn check(&self) -> Result<()> {
         match &*self.pieces {
             [] => Err(Error::Argument("a placed body needs at least one piece".into())),
-            [(_, pose)] => pose.check(rotation_limit),
+            [(_, pose)] => pose.check(),
             pieces => (0..).zip(pieces).try_for_each(|(k, (_, pose)): (usize, _)| {
-                pose.check(rotation_limit).map_err(|error| error.about(&format!("pose {k} of {}", pieces.len())))
+                pose.check().map_err(|error| error.about(&format!("pose {k} of {}", pieces.len())))
             }),
         }
     }

@@ -2,7 +2,6 @@
 //! layer.
 
 use crate::base::error::Result;
-use crate::base::math::ROTATION_LIMIT;
 use crate::base::memory::push;
 use crate::ground::{GroundContact, GroundContacts, PlacedGround, add_contacts};
 use crate::manifold::{ManifoldConfig, ManifoldPoint, add_points, half_space_manifold_into};
@@ -92,8 +91,7 @@ pub(crate) fn find(question: Question, room: &mut Room) -> Result<()> {
     ground.points.clear();
     let within = Within::new(floor, config)?;
     // The scene has checked its poses.
-    let config = ManifoldConfig { rotation_limit: ROTATION_LIMIT, ..*config };
-    let mut asking = Asking { floor, config, within: &within, ground, contacts };
+    let mut asking = Asking { floor, config: *config, within: &within, ground, contacts };
     let proxies = &others.world.proxies;
     let is_tested = |label: &Label| label.groups & filter.mask != 0 && filter.groups & label.mask != 0;
     let Some(set) = set else {
@@ -133,7 +131,7 @@ impl<'a> Within<'a> {
         config.check()?;
         Ok(match floor {
             Floor::Ground(ground) => {
-                ground.pose.check(config.rotation_limit)?;
+                ground.pose.check()?;
                 let [lower, upper] = ground.world_box();
                 let (lower, upper) = (lower.add_scalar(-config.max_distance), upper.add_scalar(config.max_distance));
                 Within::Box(Aabb { lower: lower.map(below).into(), upper: upper.map(above).into() })

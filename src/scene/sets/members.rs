@@ -78,7 +78,7 @@ pub(crate) fn list(world: &World, set: &ObjectSet, boxes: Boxes, members: &mut V
                 None => None,
                 Some(poses) => {
                     let pose = &poses[k];
-                    let check = |pose: &Pose| pose.check(world.rotation_limit).map_err(named);
+                    let check = |pose: &Pose| pose.check().map_err(named);
                     check(pose)?;
                     match &object.arrangement {
                         None => Some(*pose),

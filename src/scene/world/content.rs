@@ -31,8 +31,6 @@ pub(crate) struct World {
     pub filter: Option<PairFilter>,
     /// The pairs of a program with a broad phase of its own; where there are none, the scene's own finds what is near.
     pub given: Option<Vec<[ObjectId; 2]>>,
-    /// Largest accepted |RᵀR − I| entry of a pose.
-    pub rotation_limit: f64,
     /// How many times queries have looked at pairs: what moves is stamped with it.
     pub passes: u64,
     /// Above this number of pairs of pieces, not all are kept.
@@ -40,7 +38,7 @@ pub(crate) struct World {
 }
 
 impl World {
-    pub fn new(rotation_limit: f64) -> World {
+    pub fn new() -> World {
         World {
             objects: ObjectTable::new(),
             proxies: Proxies::default(),
@@ -48,7 +46,6 @@ impl World {
             activation: Activation::default(),
             filter: None,
             given: None,
-            rotation_limit,
             passes: 0,
             kept_pair_limit: DEFAULT_KEPT_PAIRS,
         }
@@ -70,7 +67,7 @@ impl World {
     /// # Errors
     /// See [`Scene::add_object`](crate::scene::Scene::add_object).
     pub fn add(&mut self, pieces: &[Arc<Shape>], options: &ObjectOptions) -> Result<ObjectId> {
-        with_default(|| options.pose.check(self.rotation_limit))?;
+        with_default(|| options.pose.check())?;
         self.proxies.reserve(pieces.len())?;
         let first = self.proxies.len();
         let id = self.objects.insert(first..first + pieces.len())?;
@@ -94,7 +91,7 @@ impl World {
         with_default(|| {
             options.iter().enumerate().try_for_each(|(k, options)| {
                 let named = |error: Error| Error::Pose(format!("options[{k}]: {}", error.message()));
-                options.pose.check(self.rotation_limit).map_err(named)
+                options.pose.check().map_err(named)
             })
         })
     }

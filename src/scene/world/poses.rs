@@ -22,7 +22,7 @@ impl World {
             return with_default(move || self.set_pose(id, pose));
         }
         let object = self.objects.get_mut(id)?;
-        let defect = check(object, pose, self.rotation_limit)?;
+        let defect = check(object, pose)?;
         put(object, pose, defect, &mut self.proxies, self.passes);
         Ok(())
     }
@@ -60,7 +60,7 @@ impl World {
                 return self.put_in_parts(batch, &parts, workers);
             }
         } else {
-            with_default(|| batch.check(&self.objects, self.rotation_limit))?;
+            with_default(|| batch.check(&self.objects))?;
         }
         let (objects, proxies, passes) = (&mut self.objects, &mut self.proxies, self.passes);
         with_default(|| {
@@ -74,7 +74,7 @@ impl World {
     /// A batch in parts if none of it is refused; none where their objects are not in order of creation.
     fn checked_parts<'a>(&self, batch: &Batch<'a>, workers: &Workers) -> Result<Option<Vec<Part<'a>>>> {
         let size = workers.part_size(batch.count);
-        let check = |batch: Batch| batch.check(&self.objects, self.rotation_limit);
+        let check = |batch: Batch| batch.check(&self.objects);
         let checked = workers.map(batch.cut(size), check)?;
         let mut parts: Vec<Part> = with_capacity(checked.len())?;
         let mut are_in_order = true;
@@ -121,12 +121,12 @@ impl World {
         if at >= own.len() {
             return Err(Error::Argument(format!("piece {piece} of an object of {} pieces", own.len())));
         }
-        let (proxies, passes, limit) = (&mut self.proxies, self.passes, self.rotation_limit);
+        let (proxies, passes) = (&mut self.proxies, self.passes);
         with_default(|| {
-            pose.check(limit)?;
+            pose.check()?;
             let whole = object.arrangement.as_ref().map_or(proxies.poses[own.start], |arrangement| arrangement.pose);
             let world = whole.after(pose);
-            let defect = world.checked_defect(limit)?;
+            let defect = world.checked_defect()?;
             let arrangement = match &mut object.arrangement {
                 Some(arrangement) => arrangement,
                 none => {
@@ -175,13 +175,13 @@ impl<'a> Batch<'a> {
     }
 
     /// Refuses poses that are not accepted; gives the rows of all objects if these are in order of creation.
-    fn check(&self, objects: &ObjectTable, limit: f64) -> Result<Option<Range<usize>>> {
+    fn check(&self, objects: &ObjectTable) -> Result<Option<Range<usize>>> {
         let mut rows = None;
         let mut are_in_order = true;
         for (k, (id, pose)) in (self.first..).zip(self.ids.iter().zip(self.poses)) {
             let of = || format!("pose {k} of {}", self.count);
             let object = objects.get(*id).map_err(|e| Error::Handle(format!("{}: {}", of(), e.message())))?;
-            check(object, pose, limit).map_err(|e| Error::Pose(format!("{}: {e}", of())))?;
+            check(object, pose).map_err(|e| Error::Pose(format!("{}: {e}", of())))?;
             let own = object.proxies();
             let Range { start, end } = rows.unwrap_or(own.start..own.start);
             are_in_order &= end <= own.start;
@@ -193,12 +193,12 @@ impl<'a> Batch<'a> {
 
 /// Refuses a pose that is not accepted, also of one of the pieces, for which the rotation of both is rounded; gives its defect.
 #[inline(always)]
-fn check(object: &Entry, pose: &Pose, limit: f64) -> Result<f64> {
-    let defect = pose.checked_defect(limit)?;
+fn check(object: &Entry, pose: &Pose) -> Result<f64> {
+    let defect = pose.checked_defect()?;
     if let Some(arrangement) = &object.arrangement {
         for (k, piece_pose) in arrangement.piece_poses.iter().enumerate() {
             let world = pose.after(piece_pose);
-            world.check(limit).map_err(|e| Error::Pose(format!("with the pose of piece {k}: {}", e.message())))?;
+            world.check().map_err(|e| Error::Pose(format!("with the pose of piece {k}: {}", e.message())))?;
         }
     }
     Ok(defect)

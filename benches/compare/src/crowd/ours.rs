@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use swiftprox::math::Pose;
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::scene::{ContactDetail, Scene, SceneOptions, SceneQuery, Workers};
+use swiftprox::scene::{ContactDetail, Scene, SceneQuery, Workers};
 use swiftprox::shape::{Shape, ShapeOptions};
 
 use super::world::{Step, World};
@@ -28,7 +28,7 @@ impl Ours {
     pub fn new(world: &World, question: Question, workers: usize) -> Result<Ours, String> {
         let shapes = world.meshes.iter().map(|mesh| Shape::from_mesh(mesh, &ShapeOptions::default()).map(Arc::new));
         let shapes: Vec<_> = shapes.collect::<Result<_, _>>().map_err(|e| e.to_string())?;
-        let mut scene = Scene::new(&SceneOptions::default()).map_err(|e| e.to_string())?;
+        let mut scene = Scene::new();
         scene.set_workers((workers > 1).then(|| Workers::threads(workers)));
         let mut add = |mesh: &u32| scene.add_object(vec![shapes[*mesh as usize].clone()], &ObjectOptions::default());
         let ids = world.mesh_of.iter().map(&mut add).collect::<Result<_, _>>().map_err(|e| e.to_string())?;
