@@ -160,7 +160,7 @@ fn contacts_with_grounds_allocate_nothing_once_there_is_room() {
     let mut counts = [[0; 2]; 2];
     for counts in &mut counts {
         for reduces in [false, true] {
-            let config = ManifoldConfig { max_distance: 0.05, reduces, ..ManifoldConfig::default() };
+            let config = ManifoldConfig { max_distance: 0.05, reduces };
             for (shape, pose) in &bodies {
                 let ask = || ground_contacts(shape.at(pose), ground.at(&here), &config, &mut found).unwrap();
                 counts[0] += allocations(ask);

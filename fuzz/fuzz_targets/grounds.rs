@@ -239,7 +239,7 @@ fn check_contacts(
 ) -> Result<()> {
     let mut last = 1.0;
     let max_distance = if u.arbitrary()? { 0.0 } else { any_number(u, &mut last)? };
-    let config = ManifoldConfig { max_distance, reduces: u.arbitrary()?, ..ManifoldConfig::default() };
+    let config = ManifoldConfig { max_distance, reduces: u.arbitrary()? };
     let ask = || {
         let mut found = GroundContacts::default();
         ground_contacts(body, ground, &config, &mut found).map(|()| found)

@@ -178,8 +178,7 @@ fn check_half_space(u: &mut Unstructured, body: &Body, pose: &Pose, environment:
     assert_eq!(answer.outcome == Outcome::Separated, is_apart, "{}", described());
     assert!(answer.lower <= answer.distance && answer.distance <= answer.upper, "{}", described());
     let mut points = [ManifoldPoint::default(); 2 * MOST_POINTS];
-    let config =
-        ManifoldConfig { max_distance: any_number(u, &mut last)?.abs(), reduces: u.arbitrary()?, ..Default::default() };
+    let config = ManifoldConfig { max_distance: any_number(u, &mut last)?.abs(), reduces: u.arbitrary()? };
     let found = match half_space_manifold(placed, &half_space, &config, &mut points) {
         Ok(found) => found,
         Err(error) => {

@@ -41,7 +41,7 @@ fn find(bodies: &[PlacedCompound; 2], config: &ManifoldConfig, found: &mut Compo
         let first_point = found.points.len() as u32;
         let (mut cache, mut distance) = (ManifoldCache::default(), SignedDistance::default());
         let manifold = with_pieces(bodies, pieces, |placed| {
-            add_points(&mut found.points, |sink| manifold_into(placed, &mut cache, &config, sink, &mut distance))
+            add_points(&mut found.points, |sink| manifold_into(placed, &mut cache, config, sink, &mut distance))
         })??;
         if manifold.outcome != Outcome::Beyond {
             let [piece1, piece2] = pieces;

@@ -117,7 +117,7 @@ unsafe fn find<'a>(
             let set = set.as_ref().map(|set| read_set(set)).transpose()?;
             let CSceneGroundConfig { max_distance, reduces, groups, mask, .. } =
                 read_struct(config, CSceneGroundConfig::DEFAULT)?;
-            let config = ManifoldConfig { max_distance, reduces: reduces != 0, ..ManifoldConfig::default() };
+            let config = ManifoldConfig { max_distance, reduces: reduces != 0 };
             let filter = GroupFilter {
                 groups: if groups == 0 { 1 } else { groups },
                 mask: if mask == 0 { u32::MAX } else { mask },

@@ -69,7 +69,7 @@ fn any_soup_is_answered_as_its_triangles_are() {
         (met, apart) = (met + usize::from(is_met), apart + usize::from(!is_met));
         let mut contacts = GroundContacts::default();
         for (max_distance, reduces) in [(0.0, true), (0.2 * scale, false), (f64::INFINITY, true)] {
-            let config = ManifoldConfig { max_distance, reduces, ..ManifoldConfig::default() };
+            let config = ManifoldConfig { max_distance, reduces };
             ground_contacts(body.at(&pose), ground.at(&place), &config, &mut contacts).unwrap();
             for contact in &contacts.contacts {
                 let normal = Vector::from(contact.manifold.normal);

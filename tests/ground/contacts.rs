@@ -11,7 +11,7 @@ use testkit::random::Random;
 use testkit::shapes::{at, cuboid, hull};
 
 pub fn contacts(body: &Shape, pose: &Pose, ground: &Ground, max_distance: f64, reduces: bool) -> GroundContacts {
-    let config = ManifoldConfig { max_distance, reduces, ..ManifoldConfig::default() };
+    let config = ManifoldConfig { max_distance, reduces };
     let mut found = GroundContacts::default();
     ground_contacts(body.at(pose), ground.at(&Pose::IDENTITY), &config, &mut found).unwrap();
     found

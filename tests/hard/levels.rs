@@ -95,7 +95,6 @@ fn any_config(random: &mut Random, size: f64) -> PairConfig {
         levels: [Levels::Automatic, Levels::None, Levels::All, Levels::All][random.below(4)],
         refinement: REFINEMENTS[random.below(4)],
         start: STARTS[random.below(5)],
-        ..PairConfig::default()
     }
 }
 

@@ -116,7 +116,6 @@ impl Session<'_> {
             levels: random.pick(&[Levels::Automatic, Levels::None, Levels::All, Levels::All]),
             refinement: random.pick(&REFINEMENTS),
             start: random.pick(&[Start::Automatic, Start::Automatic, Start::Cache, Start::Table, Start::Cold]),
-            ..PairConfig::default()
         }
     }
 

@@ -119,7 +119,7 @@ fn check(scene: &Scene, query: &SceneQuery, said: &Said) -> [usize; 2] {
             assert_eq!((contact.manifold.outcome, points.len()), (Outcome::None, 0));
             continue;
         }
-        let config = ManifoldConfig { max_distance: query.max_distance, reduces, ..ManifoldConfig::default() };
+        let config = ManifoldConfig { max_distance: query.max_distance, reduces };
         let (own, own_points) = own_manifold(&bodies, &config);
         let told = &contact.manifold;
         assert_eq!(told.outcome, result.answer.outcome);

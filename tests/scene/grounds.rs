@@ -116,7 +116,7 @@ fn a_scene_on_a_ground_is_its_objects_on_it() {
         } else {
             Pose::IDENTITY
         };
-        let config = ManifoldConfig { max_distance: 0.02, reduces: round % 2 == 1, ..ManifoldConfig::default() };
+        let config = ManifoldConfig { max_distance: 0.02, reduces: round % 2 == 1 };
         let filter = if round < 2 { GroupFilter::default() } else { GroupFilter { groups: 2, mask: 3 } };
         let (contacts, points) = one_by_one(free(&world), filter, on_ground(&config, ground.at(&place)));
         // With trees and without, with a scratch that has seen other questions and a new one.
@@ -179,7 +179,7 @@ fn a_scene_on_a_half_space_is_its_objects_on_it() {
         let upwards = Vector::z() + random.vector() * 0.01;
         let half_space = HalfSpace { normal: (upwards * size).into(), offset: random.uniform(-0.3, 0.9) * size };
         let reduces = round % 2 == 0;
-        let config = ManifoldConfig { max_distance: [0.0, 0.05, 0.3][round % 3], reduces, ..ManifoldConfig::default() };
+        let config = ManifoldConfig { max_distance: [0.0, 0.05, 0.3][round % 3], reduces };
         let filter = GroupFilter { groups: 1 << (round % 3), mask: [u32::MAX, 3, 4][round % 3] };
         let (contacts, points) = one_by_one(free(&world), filter, |shape, pose, found| {
             found.contacts.clear();

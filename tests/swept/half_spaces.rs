@@ -23,7 +23,7 @@ fn manifold(
     reduces: bool,
 ) -> (Manifold, Vec<ManifoldPoint>) {
     let mut points = vec![ManifoldPoint::default(); 64];
-    let config = ManifoldConfig { max_distance, reduces, ..ManifoldConfig::default() };
+    let config = ManifoldConfig { max_distance, reduces };
     let found = half_space_manifold(body.at(pose), half_space, &config, &mut points).unwrap();
     points.truncate(found.point_count as usize);
     (found, points)

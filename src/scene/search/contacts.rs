@@ -37,9 +37,9 @@ impl Details {
             ContactDetail::ReducedManifold => Some(true),
         };
         let SceneQuery { absolute_error, relative_error, step_budget, .. } = *query;
-        let depth = DepthConfig { absolute_error, relative_error, step_budget, ..DepthConfig::default() };
+        let depth = DepthConfig { absolute_error, relative_error, step_budget };
         let max_distance = query.max_distance.min(f64::MAX);
-        let manifold = reduces.map(|reduces| ManifoldConfig { max_distance, reduces, ..ManifoldConfig::default() });
+        let manifold = reduces.map(|reduces| ManifoldConfig { max_distance, reduces });
         Ok(Some(Details { depth, manifold }))
     }
 

@@ -63,7 +63,6 @@ impl Request {
             levels: query.levels,
             refinement: query.refinement,
             start: query.start,
-            ..PairConfig::default()
         };
         let is_shared = kind == Query::Approximate && query.error_budget < f64::INFINITY;
         Ok(Request {
