@@ -1,5 +1,5 @@
-/* Calls with shapes, grounds, compounds and scenes that were given back: each is refused with a message, as long as nothing else has
- * taken their memory. Not under valgrind, which reports such a call first. */
+/* Calls with shapes, grounds, compounds and scenes that were given back: each is refused with a message until other data take their
+ * memory. Not under valgrind, which reports such a call first. */
 #include "check.h"
 
 #include <swiftprox.h>

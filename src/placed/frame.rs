@@ -161,7 +161,8 @@ impl<'a, L: Lanes> Frame<'a, L> {
         Frame::assemble(polyhedra, &placed, &origins, in_range, skewed)
     }
 
-    /// [`Frame::new`] for [simple](Polyhedron::simple) bodies: only `in_range` if both poses are rigid and within range, without a closer look.
+    /// [`Frame::new`] for [simple](Polyhedron::simple) bodies: only `in_range` if both poses are rigid and within range, without a
+    /// closer look.
     #[inline(always)]
     pub fn of_rigid(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2]) -> Frame<'a, L> {
         let placed = [PoseInLanes::<L>::new(poses[0]), PoseInLanes::<L>::new(poses[1])];
