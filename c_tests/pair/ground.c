@@ -51,6 +51,60 @@ static void a_cube_on_a_level_grid(void)
     swiftprox_shape_release(body);
 }
 
+/* From above and from below, past the rim, and what is refused. */
+static void rays(void)
+{
+    double heights[25] = {0};
+    const swiftprox_ground *ground = NULL;
+    const swiftprox_placed_ground placed = {NULL, identity};
+    swiftprox_ray ray = {{2.1, 1.9, 4}, {0, 0, -2}, INFINITY};
+    swiftprox_ground_ray_answer answer;
+    CHECK_OK(swiftprox_ground_create_from_heights(5, 5, 1, 1, heights, &ground));
+    const swiftprox_placed_ground here = {ground, identity};
+    CHECK_OK(swiftprox_ground_cast_ray(here, &ray, &answer));
+    CHECK(answer.answer.outcome == SWIFTPROX_RAY_OUTCOME_HIT && answer.triangle < 32 && answer.answer.normal[2] == 1);
+    CHECK(answer.answer.entry[0] <= 2 && 2 <= answer.answer.entry[1]);
+    ray.t_max = 1.5;
+    CHECK_OK(swiftprox_ground_cast_ray(here, &ray, &answer));
+    CHECK(answer.answer.outcome == SWIFTPROX_RAY_OUTCOME_MISS && answer.triangle == 32);
+    ray.direction[2] = 0;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "direction", swiftprox_ground_cast_ray(here, &ray, &answer));
+    CHECK(answer.answer.outcome == SWIFTPROX_RAY_OUTCOME_NONE);
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ground", swiftprox_ground_cast_ray(placed, &ray, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ray", swiftprox_ground_cast_ray(here, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_ground_cast_ray(here, &ray, NULL));
+    swiftprox_ground_release(ground);
+}
+
+/* A cube that falls on it, one that flies past, and what is refused. */
+static void casts(void)
+{
+    double heights[25] = {0};
+    const swiftprox_shape *body = box(0.5, 0.5, 0.5);
+    const swiftprox_ground *ground = NULL;
+    swiftprox_motion motion = {SWIFTPROX_MOTION_KIND_SCREW, {1, 0, 0, 2.1, 0, 1, 0, 1.9, 0, 0, 1, 3}};
+    swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
+    swiftprox_ground_cast_answer answer;
+    CHECK_OK(swiftprox_ground_create_from_heights(5, 5, 1, 1, heights, &ground));
+    const swiftprox_placed_ground here = {ground, identity};
+    const swiftprox_moving falling = {body, &motion};
+    motion.velocity[2] = -4;
+    CHECK_OK(swiftprox_pair_ground_cast(falling, here, NULL, &answer));
+    CHECK(answer.answer.outcome == SWIFTPROX_CAST_OUTCOME_HIT && answer.triangle < 32);
+    CHECK(answer.answer.time_lower <= 0.625 && 0.625 <= answer.answer.time_upper);
+    CHECK(answer.answer.time_upper - answer.answer.time_lower <= 1e-9 && fabs(answer.answer.contact.normal[2] - 1) < 1e-12);
+    motion.velocity[2] = -2;
+    CHECK_OK(swiftprox_pair_ground_cast(falling, here, NULL, &answer));
+    CHECK(answer.answer.outcome == SWIFTPROX_CAST_OUTCOME_FREE && answer.triangle == 32);
+    CHECK(0 < answer.answer.clearance && answer.answer.clearance <= 0.5);
+    config.ignores_parting = 1;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "ignores_parting", swiftprox_pair_ground_cast(falling, here, &config, &answer));
+    CHECK(answer.answer.outcome == SWIFTPROX_CAST_OUTCOME_NONE);
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_pair_ground_cast(falling, here, NULL, NULL));
+    swiftprox_ground_release(ground);
+    swiftprox_shape_release(body);
+}
+
 /* Two tiles as one ground, and that as a solid: it pushes out a cube that is wholly below. */
 static void tiles_and_solids(void)
 {
@@ -247,6 +301,8 @@ int main(void)
 {
     a_cube_on_a_level_grid();
     objects_of_a_scene();
+    rays();
+    casts();
     tiles_and_solids();
     what_a_program_may_do_wrong();
     return check_report("ground");

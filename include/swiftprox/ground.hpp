@@ -2,7 +2,7 @@
 #ifndef SWIFTPROX_GROUND_HPP
 #define SWIFTPROX_GROUND_HPP
 
-#include "pair.hpp"
+#include "motion.hpp"
 
 namespace swiftprox
 {
@@ -120,6 +120,23 @@ inline Result<swiftprox_ground_distance> try_ground_distance(swiftprox_query_kin
                                        swiftprox_placed_ground{ground.ground(), ground.pose()}, &c, &result.value);
     return result;
 }
+/** Where a ray first meets the surface. */
+inline Result<swiftprox_ground_ray_answer> try_ground_cast_ray(PlacedGround ground, const swiftprox_ray &ray) noexcept
+{
+    Result<swiftprox_ground_ray_answer> result;
+    result.status = swiftprox_ground_cast_ray(swiftprox_placed_ground{ground.ground(), ground.pose()}, &ray, &result.value);
+    return result;
+}
+/** Whether a moving body stays apart from a ground at rest, or when it first does not. */
+inline Result<swiftprox_ground_cast_answer> try_ground_cast(Moving body, PlacedGround ground, const CastConfig &config = {}) noexcept
+{
+    const swiftprox_cast_config c = config.to_c();
+    Result<swiftprox_ground_cast_answer> result;
+    result.status =
+        swiftprox_pair_ground_cast(swiftprox_moving{body.shape(), body.motion()},
+                                   swiftprox_placed_ground{ground.ground(), ground.pose()}, &c, &result.value);
+    return result;
+}
 /** Writes as many contacts and points as there is room for. */
 inline Result<swiftprox_ground_count> try_ground_contacts(Placed body, PlacedGround ground,
                                                           Range<swiftprox_ground_contact> contacts,
@@ -141,6 +158,14 @@ inline swiftprox_ground_distance ground_distance(swiftprox_query_kind kind, Plac
                                                  const PairConfig &config = {})
 {
     return take(try_ground_distance(kind, body, ground, config));
+}
+inline swiftprox_ground_ray_answer ground_cast_ray(PlacedGround ground, const swiftprox_ray &ray)
+{
+    return take(try_ground_cast_ray(ground, ray));
+}
+inline swiftprox_ground_cast_answer ground_cast(Moving body, PlacedGround ground, const CastConfig &config = {})
+{
+    return take(try_ground_cast(body, ground, config));
 }
 inline swiftprox_ground_count ground_contacts(Placed body, PlacedGround ground, Range<swiftprox_ground_contact> contacts,
                                               Range<swiftprox_manifold_point> points, const ManifoldConfig &config = {})

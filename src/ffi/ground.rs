@@ -12,9 +12,11 @@ use super::pointers::{array, handle, input, output, release, retained};
 use crate::base::math::Pose;
 use crate::base::memory::with_capacity;
 use crate::ground::{
-    Ground, GroundContact, GroundContacts, GroundDistance, HeightGrid, PlacedGround, ground_contacts, ground_distance,
+    Ground, GroundContact, GroundContacts, GroundDistance, GroundRayAnswer, HeightGrid, PlacedGround, ground_contacts,
+    ground_distance,
 };
 use crate::manifold::ManifoldPoint;
+use crate::ray::{Ray, RayAnswer};
 
 /// Creates a ground from triangles. The caller owns it and gives it back with swiftprox_ground_release. The arrays are copied.
 ///
@@ -191,6 +193,23 @@ pub unsafe extern "C" fn swiftprox_pair_ground_distance(
         let query = read_enumerator(kind, "kind", "swiftprox_query_kind")?;
         let (object, ground) = (body(object, ["object.shape", "object.pose"])?, read_placed(ground)?);
         output(answer, "answer", ground_distance(query, object, ground, &read_config(config)?)?)
+    })
+}
+
+/// Casts a ray at a ground and finds where it first meets the surface, from either side. Guarantees are as for
+/// swiftprox_shape_cast_ray; the triangle is named, and the normal is its plane's, against the ray.
+///
+/// On failure the answer is reset. Same errors as swiftprox_shape_cast_ray. The call allocates about 4 kB.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_ground_cast_ray(
+    ground: CPlacedGround,
+    ray: *const Ray,
+    answer: *mut GroundRayAnswer,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    guard(|| unsafe {
+        output(answer, "answer", GroundRayAnswer { answer: RayAnswer::default(), triangle: 0 })?;
+        output(answer, "answer", read_placed(ground)?.cast_ray(input(ray, "ray")?)?)
     })
 }
 

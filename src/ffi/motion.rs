@@ -5,6 +5,7 @@ use std::fmt::Display;
 
 use super::enumerators::{CastOutcomeNumber, read_enumerator, unknown};
 use super::failure::{Checked, Failure, StatusCode};
+use super::ground::{CPlacedGround, read_placed};
 use super::guard::{call_out, guard};
 use super::pair::CPairCache;
 use super::pointers::{exclusive, handle, input, output};
@@ -12,6 +13,7 @@ use super::structs::{Versioned, read_struct};
 use crate::base::enumerator::{Enumerator, enumerator};
 use crate::base::math::{Pose, Vector};
 use crate::base::memory::{collected, with_capacity};
+use crate::ground::{GroundCastAnswer, ground_cast};
 use crate::motion::{
     Callback, CastAnswer, CastConfig, CastOutcome, Clearance, ClearanceConfig, Motion, Moving, Screw, cast, clearance,
     motion_between, verify_cast,
@@ -226,6 +228,30 @@ pub unsafe extern "C" fn swiftprox_pair_cast(
             Ok(cast(bodies, cache, &config, answer)?)
         })
     }
+}
+
+/// Decides whether a moving object stays farther from a ground at rest than config->max_distance, or when it first does not.
+/// Guarantees and members are as for swiftprox_pair_cast, but a hit's times are up to two time tolerances apart. The ground is object
+/// 2, as a set of points, and its triangle is named. There is no cache.
+///
+/// On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: also if config->ignores_parting is set. Else same errors as
+/// swiftprox_pair_cast. The call allocates about 4 kB.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_pair_ground_cast(
+    object: CMoving,
+    ground: CPlacedGround,
+    config: *const CCastConfig,
+    answer: *mut GroundCastAnswer,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    guard(|| unsafe {
+        output(answer, "answer", GroundCastAnswer { answer: CastAnswer::default(), triangle: 0 })?;
+        let (shape, motion) = (handle(object.shape, "object.shape")?, input(object.motion, "object.motion")?);
+        let pose = called(motion);
+        let motion = read_motion(motion, &pose, "object.motion")?;
+        let said = ground_cast(Moving { shape, motion: &motion }, read_placed(ground)?, &cast_config(config)?)?;
+        output(answer, "answer", said)
+    })
 }
 
 /// Computes the least distance of two moving objects over the range of times, as a guaranteed interval [lower, upper]. It is as

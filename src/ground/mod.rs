@@ -11,6 +11,8 @@ mod surface;
 mod reach;
 mod normals;
 mod distance;
+mod ray;
+mod cast;
 mod room;
 mod answer;
 mod grouping;
@@ -23,9 +25,11 @@ mod contacts;
 
 use crate::base::math::Pose;
 pub use answer::{GroundContact, GroundContacts};
+pub use cast::{GroundCastAnswer, ground_cast};
 pub(crate) use contacts::add_contacts;
 pub use contacts::ground_contacts;
 pub use distance::{GroundDistance, ground_distance};
+pub use ray::GroundRayAnswer;
 pub use surface::{Ground, HeightGrid};
 
 /// A ground where it is.

@@ -15,7 +15,7 @@ fn least_stretch(pose: &Pose) -> f64 {
 
 /// A bound of the rounding of an entry of R⁻¹, of products with it and of sums of a few of these, relative to the lengths that go
 /// in, with a margin of 4.
-const ROUNDING: f64 = 256.0 * UNIT_ROUNDOFF;
+pub(super) const ROUNDING: f64 = 256.0 * UNIT_ROUNDOFF;
 
 impl PlacedGround<'_> {
     /// A box in the world around all that the ground acts on, a little larger than it need be: its least and its greatest corner.

@@ -24,8 +24,14 @@ impl Bounds {
         Bounds { lower, upper }
     }
 
-    fn union(&self, other: &Bounds) -> Bounds {
+    pub fn union(&self, other: &Bounds) -> Bounds {
         Bounds { lower: self.lower.zip_map(&other.lower, f64::min), upper: self.upper.zip_map(&other.upper, f64::max) }
+    }
+
+    /// A box that reaches so much farther each way, rounded outward.
+    pub fn grown(&self, by: f64) -> Bounds {
+        debug_assert!(by >= 0.0);
+        Bounds { lower: self.lower.map(|x| (x - by).next_down()), upper: self.upper.map(|x| (x + by).next_up()) }
     }
 
     /// How far two boxes are apart, at least: differences of ends are right to u, the norm of them to 3u more.

@@ -1,11 +1,13 @@
 //! Grounds: distances against all triangles in rational numbers; contacts that no inner edge gives a normal of its own.
 
 mod attack;
+mod casts;
 mod contacts;
 mod distances;
 mod input;
 mod kicks;
 mod nearest;
+mod rays;
 mod soups;
 
 use swiftprox::ground::{Ground, HeightGrid};

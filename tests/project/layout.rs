@@ -31,7 +31,7 @@ use swiftprox::ffi::scene_ground::{CSceneGroundAnswer, CSceneGroundConfig};
 use swiftprox::ffi::shape::{CFace, CFaceRoom, ShapeInfo};
 use swiftprox::ffi::shape_options::CShapeOptions;
 use swiftprox::ffi::tuning::{CPairTuning, CShapeTuning, TuningInfo};
-use swiftprox::ground::{GroundContact, GroundDistance};
+use swiftprox::ground::{GroundCastAnswer, GroundContact, GroundDistance, GroundRayAnswer};
 use swiftprox::manifold::{Manifold, ManifoldPoint};
 use swiftprox::motion::{CastAnswer, Clearance};
 use swiftprox::object::ObjectId;
@@ -184,6 +184,8 @@ fn layouts() -> Vec<Layout> {
         swiftprox_ground_info = GroundInfo { vertex_count, triangle_count, bytes },
         swiftprox_placed_ground = CPlacedGround { ground, pose },
         swiftprox_ground_distance = GroundDistance { answer, triangle },
+        swiftprox_ground_cast_answer = GroundCastAnswer { answer, triangle },
+        swiftprox_ground_ray_answer = GroundRayAnswer { answer, triangle },
         swiftprox_ground_contact = GroundContact { manifold, triangle, first_point },
         swiftprox_ground_room = CGroundRoom { contacts, contact_capacity, points, point_capacity },
         swiftprox_ground_count = GroundCount { contact_count, point_count },

@@ -1,0 +1,150 @@
+//! When a moving body first meets a ground: its way is cut into parts, and the triangles near each part are cast at one by one.
+
+use super::PlacedGround;
+use super::reach::Reach;
+use super::tree::{Bounds, Visit};
+use crate::base::error::{Error, Result};
+use crate::base::simd::environment::with_default;
+use crate::motion::{CastAnswer, CastConfig, CastOutcome, Motion, Moving, Place, Swept, cast};
+use crate::pair::PairCache;
+use crate::shape::TriangleShape;
+
+/// The answer of a cast of a body at a ground.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct GroundCastAnswer {
+    /// As of [`cast`] for the body, object 1, and the surface as a set of points; a hit's times are up to two time tolerances apart.
+    /// Of several triangles that are hit so soon, contact and proof are those of one, at times of its own.
+    pub answer: CastAnswer,
+    /// The triangle that is hit, or nearly; the number of triangles if none is.
+    pub triangle: u32,
+}
+
+/// Whether a moving body stays farther from a ground at rest than `config.max_distance`, or when it first does not. Certain as
+/// [`cast`] is.
+///
+/// # Errors
+/// As of [`cast`]. [`Error::Argument`] also for `config.ignores_parting`: a body that rests on a ground parts from some triangles
+/// alone. [`Error::Memory`]: about 4 kB are requested.
+pub fn ground_cast(body: Moving, ground: PlacedGround, config: &CastConfig) -> Result<GroundCastAnswer> {
+    with_default(|| {
+        config.check()?;
+        if config.ignores_parting {
+            return Err(Error::Argument("ignores_parting is for pairs of bodies: clear it for a ground".into()));
+        }
+        ground.pose.check()?;
+        let count = ground.ground.triangle_count() as u32;
+        let fixed = Motion::Fixed(*ground.pose);
+        let free = CastAnswer { outcome: CastOutcome::Free, time_lower: config.time_end, ..CastAnswer::default() };
+        let mut first = First {
+            body,
+            fixed: &fixed,
+            ground,
+            config: *config,
+            scratch: ground.ground.triangle_shape().copy()?,
+            found: GroundCastAnswer { answer: free, triangle: count },
+            lower: config.time_end,
+            clearance: f64::INFINITY,
+            queries: 0,
+            bounds: None,
+            stretch: 1.0,
+        };
+        let swept = Swept::new(body.into(), config.range())?;
+        let mut before: Option<(f64, Bounds)> = None;
+        for place in swept.places() {
+            let Place { time, pose, off } = place?;
+            let reach = Reach::new(body.shape.at(&pose), ground)?;
+            let beyond = ((off + config.max_distance) / reach.stretch).next_up();
+            let here = reach.bounds.grown(beyond);
+            if let Some((from, there)) = before.replace((time, here)) {
+                let bounds = here.union(&there);
+                first.stretch = reach.stretch;
+                first.bounds = Some(bounds);
+                (first.config.time_begin, first.config.time_end) = (from, time);
+                ground.ground.tree().walk(&bounds, &mut first)?;
+                // A near miss at the end of a part may be the contact with which the next one begins.
+                if matches!(first.found.answer.outcome, CastOutcome::Hit | CastOutcome::Budget) {
+                    break;
+                }
+            }
+        }
+        Ok(first.answer())
+    })
+}
+
+/// The first contact with the triangles that walks have reached.
+struct First<'a> {
+    body: Moving<'a>,
+    fixed: &'a Motion<'a>,
+    ground: PlacedGround<'a>,
+    /// Its range is that of the part, up to the first contact so far.
+    config: CastConfig,
+    scratch: TriangleShape,
+    found: GroundCastAnswer,
+    /// Free of all triangles up to here.
+    lower: f64,
+    /// Free bodies are so far from all triangles, beyond `max_distance`.
+    clearance: f64,
+    queries: u32,
+    /// What the body sweeps over in the part, grown by `max_distance`, in the frame of the ground.
+    bounds: Option<Bounds>,
+    stretch: f64,
+}
+
+impl Visit for First<'_> {
+    fn goes_to(&mut self, _: &Bounds, gap: f64) -> bool {
+        if gap > 0.0 {
+            self.clearance = self.clearance.min(gap * self.stretch);
+        }
+        // A NaN, of boxes beyond the doubles, rules nothing out.
+        !(gap > 0.0)
+    }
+
+    fn triangle(&mut self, triangle: u32) -> Result<bool> {
+        let own = self.ground.ground.triangle(triangle);
+        let bounds = Bounds::of(&own.corners);
+        let gap = self.bounds.map_or(0.0, |swept| bounds.gap(&swept));
+        if !self.goes_to(&bounds, gap) {
+            return Ok(true);
+        }
+        let mut answer = CastAnswer::default();
+        let other = Moving { shape: self.scratch.of(&own), motion: self.fixed };
+        cast([self.body, other], &mut PairCache::default(), &self.config, &mut answer)?;
+        self.queries += answer.queries;
+        match answer.outcome {
+            CastOutcome::Free | CastOutcome::None => {
+                self.clearance = self.clearance.min(answer.clearance - self.config.max_distance);
+            }
+            CastOutcome::Hit | CastOutcome::Near | CastOutcome::Budget => {
+                self.lower = self.lower.min(answer.time_lower);
+                let known = &self.found.answer;
+                let is_first = match (known.outcome, answer.outcome) {
+                    (CastOutcome::Hit, CastOutcome::Hit) => answer.time_upper < known.time_upper,
+                    (CastOutcome::Hit, _) => false,
+                    (_, CastOutcome::Hit) => true,
+                    (CastOutcome::Free, _) => true,
+                    _ => answer.time_lower < known.time_lower,
+                };
+                if is_first {
+                    self.found = GroundCastAnswer { answer, triangle };
+                }
+                let end = if answer.outcome == CastOutcome::Hit { answer.time_upper } else { self.config.time_end };
+                self.config.time_end = self.config.time_end.min(end);
+            }
+        }
+        // At the beginning of the part, nothing can be earlier.
+        Ok(self.found.answer.outcome != CastOutcome::Hit || self.lower > self.config.time_begin)
+    }
+}
+
+impl First<'_> {
+    fn answer(self) -> GroundCastAnswer {
+        let mut found = self.found;
+        found.answer.queries = self.queries;
+        match found.answer.outcome {
+            CastOutcome::Free => found.answer.clearance = self.config.max_distance + self.clearance.max(0.0),
+            _ => found.answer.time_lower = self.lower,
+        }
+        found
+    }
+}
