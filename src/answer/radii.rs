@@ -37,22 +37,26 @@ impl Radii {
 
     /// The radii of a body and a partner without one.
     pub fn of_one(radius: f64) -> Radii {
+        debug_assert!(radius >= 0.0);
         Radii { each: [radius, 0.0], lower: radius, upper: radius }
     }
 
     /// An interval of the signed distance of the polyhedra as one of the swept bodies: of sets that are offset by r it is r less,
     /// be they apart or in each other, as the support function of their difference is r more along every direction.
     pub fn off(&self, [lower, upper]: [f64; 2]) -> [f64; 2] {
+        debug_assert!(lower <= upper || lower.is_nan() || upper.is_nan());
         [sum_below(lower, -self.upper), sum_above(upper, -self.lower)]
     }
 
     /// The least interval of the polyhedra that contains the result of [`Radii::off`] for this.
     pub fn back_on(&self, [lower, upper]: [f64; 2]) -> [f64; 2] {
+        debug_assert!(lower <= upper);
         [sum_below(lower, self.lower), sum_above(upper, self.upper)]
     }
 
     /// Polyhedra of bodies no farther apart than this are no farther apart than …
     pub fn with(&self, length: f64) -> f64 {
+        debug_assert!(length >= 0.0);
         sum_above(length, self.upper)
     }
 

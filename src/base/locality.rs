@@ -49,6 +49,7 @@ pub fn for_each_cell(points: &[Vector], progress: &mut Progress, mut visit: impl
 
 /// The number of each point's cell along the curve, with its index; in order.
 fn cells(indices: &[u32], points: &[Vector], progress: &mut Progress) -> Result<Vec<(u64, u32)>> {
+    debug_assert!(indices.iter().all(|i| (*i as usize) < points.len()));
     let mut low = Vector::repeat(f64::INFINITY);
     let mut high = Vector::repeat(f64::NEG_INFINITY);
     for &i in indices {

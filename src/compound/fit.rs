@@ -1,6 +1,6 @@
 //! Boxes around points: along the axes of the body, and turned to fit.
 
-use crate::base::math::{Matrix, UNIT_ROUNDOFF as U, Vector, are_finite};
+use crate::base::math::{Matrix, UNIT_ROUNDOFF as U, Vector, are_finite, is_unit};
 
 /// A box: the points x with |a·(x − `centre`)| ≤ `half` for each of three axes a. Of each array the last number is 0.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -41,6 +41,7 @@ impl Cloud<'_> {
     /// A product with an axis of length 1 + 16u is off by at most 6u·reach, the centre is by 16u·reach along each axis, and the
     /// differences by u of themselves: 32u·reach in all, and twice that is added.
     pub fn box_along(&self, axes: &[Vector; 3]) -> Fitted {
+        debug_assert!(axes.iter().all(is_unit));
         let ends = [0, 1, 2].map(|k| self.ends(&axes[k]));
         let middles = ends.map(|[low, high]| 0.5 * low + 0.5 * high);
         let centre = axes[0] * middles[0] + axes[1] * middles[1] + axes[2] * middles[2];

@@ -8,7 +8,7 @@ use super::normals::TILT;
 use super::reach::Reach;
 use super::vertices::Vertices;
 use crate::answer::{feature_of_vertices, label};
-use crate::base::math::{Matrix, UNIT_ROUNDOFF, Vector};
+use crate::base::math::{Matrix, UNIT_ROUNDOFF, Vector, is_unit};
 use crate::body::polyhedron::Face;
 use crate::pair::{Feature, FeatureKind, Outcome, Placed, SignedDistance};
 use crate::placed::state::FeatureId;
@@ -90,6 +90,7 @@ impl<'a> Search<'a> {
     }
 
     fn lowest(&self, normal: &Vector, start: u32) -> Low {
+        debug_assert!(is_unit(normal));
         let vertex = self.vertices.lowest(normal, start);
         Low { normal: *normal, vertex, point: self.point(vertex) }
     }

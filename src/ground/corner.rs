@@ -5,7 +5,7 @@ use super::PlacedGround;
 use super::lowest::{Limit, Lowest, local_point};
 use super::tree::Bounds;
 use crate::answer::label;
-use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{UNIT_ROUNDOFF as U, Vector, is_unit};
 use crate::body::polyhedron::{NONE, Polyhedron};
 use crate::pair::{Feature, FeatureKind, Placed, SignedDistance};
 use crate::placed::state::FeatureId;
@@ -120,6 +120,7 @@ fn gap_of_own_box(body: Placed, bounds: &Bounds) -> f64 {
 
 /// The face of a solid body at a vertex that is most parallel to a direction. `None` for a vertex without edges.
 fn most_parallel(polyhedron: &Polyhedron, vertex: u32, towards: &Vector) -> Option<u32> {
+    debug_assert!(is_unit(towards));
     let edges = polyhedron.neighbour_blocks(vertex).flat_map(|block| block.edge).filter(|edge| *edge != NONE);
     let mut best = (None, f64::NEG_INFINITY);
     for edge in edges {

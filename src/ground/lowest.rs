@@ -5,7 +5,7 @@ use super::PlacedGround;
 use super::reach::Reach;
 use super::vertices::Vertices;
 use crate::answer::Radii;
-use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp};
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp, is_unit};
 use crate::pair::{Feature, FeatureKind, Outcome, Placed, SignedDistance};
 use crate::shape::Triangle;
 
@@ -31,6 +31,7 @@ impl Lowest {
     /// direction to 4u of it, the length of the direction to 4u, the order of two heights to 8u, and the direction inside the body
     /// to 7u of twice its radius: all in all less than 64u of those lengths.
     pub fn new(body: &Vertices, ground: PlacedGround, triangle: &Triangle, up: &Vector, start: u32) -> Lowest {
+        debug_assert!(is_unit(up));
         let (polyhedron, pose, up) = (body.polyhedron(), body.pose(), *up);
         let vertex = body.lowest(&up, start);
         let world = body.point(vertex);
@@ -94,6 +95,7 @@ pub(super) struct Limit {
 impl Limit {
     /// Whether a polyhedron that is at least so far away belongs to a body beyond `max_distance`.
     pub fn is_beyond(&self, lower: f64) -> bool {
+        debug_assert!(!lower.is_nan());
         Radii::of_one(self.radius).off([lower, lower])[0] > self.max_distance
     }
 

@@ -18,6 +18,7 @@ impl Ground {
     /// triangle is farther out along it than the point that is touched.
     pub(super) fn allows(&self, triangle: u32, normal: &Vector) -> bool {
         debug_assert!(is_unit(normal));
+        debug_assert!(is_unit(normal));
         let own = self.normal(triangle);
         if (normal - own).norm() <= TILT {
             return true;
@@ -40,6 +41,7 @@ impl Ground {
 
     /// Neither triangle beside the edge leads farther out.
     fn is_normal_at_edge(&self, half_edge: u32, normal: &Vector) -> bool {
+        debug_assert!(is_unit(normal));
         let tail = self.tail(half_edge);
         let along = (self.tail(next(half_edge)) - tail).normalize();
         let is_no_farther = |half_edge: u32| {
@@ -87,12 +89,14 @@ impl Ground {
 
     /// No corner of these triangles is farther out than a point.
     fn do_not_lead_out(&self, covers: &[(u32, u32)], point: &Vector, normal: &Vector) -> bool {
+        debug_assert!(is_unit(normal));
         let corners = covers.iter().flat_map(|(_, cover)| (3 * cover..3 * cover + 3).map(|corner| self.tail(corner)));
         corners.map(|corner| corner - point).all(|to| normal.dot(&to) <= TILT * to.norm())
     }
 
     /// None of the edges around the vertex at which a half-edge begins leads farther out.
     pub(super) fn is_normal_at_vertex(&self, half_edge: u32, normal: &Vector) -> bool {
+        debug_assert!(is_unit(normal));
         let vertex = self.tail(half_edge);
         // The edge nearest to leading out, as the sine of its angle and a half-edge on it.
         let mut nearest = (f64::NEG_INFINITY, half_edge);

@@ -57,6 +57,7 @@ impl<'a> Vertices<'a> {
     /// Two heights are each right to 4u of |p|₁, so another may be lower by 8u of that.
     pub fn lowest(&self, up: &Vector, start: u32) -> u32 {
         debug_assert!(is_unit(up));
+        debug_assert!(is_unit(up));
         if self.blocks.is_empty() {
             return self.polyhedron().support(&self.pose().rotate_back(&-up), start).0;
         }

@@ -57,6 +57,7 @@ impl Travel {
     /// # Errors
     /// [`Error::Argument`] for values so large that doubles do not bound them.
     pub fn new(body: &Carried, turn: &Turn, range: [f64; 2]) -> Result<Travel> {
+        debug_assert!(range[0] <= range[1]);
         let motion = body.motion;
         let longest = range[0].abs().max(range[1].abs());
         let reach = reach(body);
@@ -79,6 +80,7 @@ impl Travel {
     /// A turning point accelerates towards the axis, by ω²·r. Only the part of the direction across the axis counts; its rounding
     /// error is below 32u.
     pub fn acceleration(&self, direction: &Vector) -> f64 {
+        debug_assert!(direction.norm_squared() <= 1.0 + 1e-9);
         match self.bend {
             Bend::None => 0.0,
             Bend::Turn { axis, most } => {
@@ -159,6 +161,7 @@ pub const OF_TURN: f64 = 96.0;
 ///
 /// *Affine.* Each entry errs by 3u of its two terms, the Frobenius norm of R is at most 1.77.
 pub(super) fn rounding_of_pose(motion: &Motion, turn: &Turn, longest: f64, reach: f64) -> f64 {
+    debug_assert!(longest >= 0.0 && reach >= 0.0);
     let length = |v: &Vector| v.norm() * (1.0 + 8.0 * U);
     match motion {
         Motion::Fixed(_) => 0.0,
@@ -197,6 +200,7 @@ pub(super) fn is_exact(motion: &Motion, time: f64) -> bool {
 /// (1 − s)g₀ + s·g₁ − B·s(1 − s) is least at s = (B − (g₁ − g₀))/2B, if that is between 0 and 1. Directions are of unit length up
 /// to 4u: with the rounding here that is less than 32u.
 pub(super) fn least_between(gaps: [f64; 2], sag: f64) -> f64 {
+    debug_assert!(sag >= 0.0 || sag.is_nan());
     let [first, last] = gaps;
     let rise = last - first;
     let least = if sag > rise.abs() { least_within(first, rise, sag) } else { first.min(last) };

@@ -46,6 +46,7 @@ pub(crate) fn cast_carried(
 }
 
 fn run<'a>(pair: &'a MovingPair<'a>, sweep: &mut Sweep<'a>, config: &CastConfig) -> Result<CastAnswer> {
+    debug_assert!(config.time_begin <= config.time_end);
     let wanted = wanted(config);
     let start = pair.at(config.time_begin)?;
     let parted = if config.ignores_parting { sweep.parted(&start, config.time_end, &wanted)? } else { None };

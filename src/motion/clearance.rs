@@ -169,6 +169,7 @@ impl Search<'_> {
 
     /// The gap that must be proved, given what is known.
     fn wanted(&self, moment: &Moment) -> f64 {
+        debug_assert!(self.upper >= 0.0);
         let ClearanceConfig { absolute_error, relative_error, .. } = self.config;
         // Whichever error allows more.
         let asked = (self.upper - absolute_error).min(self.upper / (1.0 + relative_error));

@@ -8,7 +8,7 @@ use super::kinds::Motion;
 use super::turn::Turn;
 use crate::answer::{Radii, sum_below};
 use crate::base::error::{Error, Result};
-use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, is_unit};
 use crate::body::polyhedron::Polyhedron;
 use crate::pair::{PairCache, Placed};
 
@@ -83,6 +83,7 @@ impl<'a> MovingPair<'a> {
 
     /// A lower bound of the gap of the motion along a direction of about unit length, from body 2 to body 1.
     pub fn gap(&self, moment: &Moment, direction: &Vector, vertices: &mut Option<[u32; 2]>) -> f64 {
+        debug_assert!(direction.norm_squared() <= 1.0 + 1e-6);
         let polyhedra = self.polyhedra();
         let gap = Along { polyhedra, poses: [&moment.poses[0], &moment.poses[1]], direction, vertices }.gap();
         sum_below(sum_below(gap, -self.radii.upper), -moment.rounding)
@@ -108,6 +109,8 @@ impl<'a> MovingPair<'a> {
     /// B of the gap along a direction that turns from the first of two unit vectors at one moment to the second at another;
     /// infinite where they are more than 60 degrees apart.
     pub fn sag(&self, ends: [&Moment; 2], [first, last]: [&Vector; 2]) -> f64 {
+        debug_assert!(is_unit(first) && is_unit(last));
+        debug_assert!(ends[0].time <= ends[1].time);
         let h = ends[1].time - ends[0].time;
         let of_bend = |acceleration: f64| 0.5 * acceleration * h * h;
         if first == last {
@@ -126,6 +129,7 @@ impl<'a> MovingPair<'a> {
     /// For a body, a point p gains v·ΔT + (ΔRᵀv)·p, most at a corner of its box. ΔRᵀv errs by 13u|v|, its products and sums by
     /// less than 30u of the sizes below, ΔT by u.
     fn advance(&self, ends: [&Moment; 2], along: &Vector) -> f64 {
+        debug_assert!(along.norm_squared() <= 1.0 + 1e-9);
         let (mut most, mut size) = (0.0, 0.0);
         for (i, sign) in [(0, 1.0), (1, -1.0)] {
             let [from, to] = ends.map(|moment| &moment.poses[i]);

@@ -346,6 +346,7 @@ pub(super) fn is_contact(answer: &PairAnswer, moment: &Moment, max_distance: f64
 
 /// The distance of the motion at a moment is at most this, by an answer about its poses.
 pub(super) fn upper_bound(answer: &PairAnswer, moment: &Moment) -> f64 {
+    debug_assert!(moment.rounding >= 0.0);
     if moment.rounding == 0.0 { answer.upper } else { (answer.upper + moment.rounding).next_up() }
 }
 

@@ -37,6 +37,7 @@ impl Turn {
     ///   matrix is I + 2w\[a\] + 2\[a\]². It errs by 2·4u·|a| + 2·11.5u·|w| + 4·11.5u·|a| < 60u, as w² + |a|² = 1.
     /// - Its entries are rounded by 2u off the diagonal and 5u on it, in all 10u in the Frobenius norm.
     pub fn by(&self, time: f64) -> Matrix {
+        debug_assert!((time * self.speed).abs() <= LARGEST_ANGLE * (1.0 + 1e-9));
         let (sine, w) = sin_cos(half_angle(time, self.speed));
         let rows = rotation_of(self.axis.into(), sine, w);
         Matrix::from_fn(|i, k| rows[i][k])
@@ -109,6 +110,7 @@ const COSINE: [f64; 8] = [
 /// break off below 2⁻⁶³. The sine's rounding is u of r, and 6u of the rest, which is less than 0.1; the cosine's u of 1, and
 /// twice u of r²/2 < 0.31. So both are off by less than 1.7u + 2u.
 fn sin_cos(angle: f64) -> (f64, f64) {
+    debug_assert!(angle.abs() <= LARGEST_ANGLE);
     let multiple = (angle * std::f64::consts::FRAC_2_PI).round();
     let r = reduced(angle, multiple);
     let (sine, cosine) = (sine(r), cosine(r));

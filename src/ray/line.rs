@@ -2,7 +2,7 @@
 //! through a polygon.
 
 use super::Ray;
-use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector, is_unit};
 use crate::base::scalar::determinant;
 use crate::body::polyhedron::{Face, LARGEST, Polyhedron, SMALLEST};
 
@@ -87,6 +87,7 @@ impl<'a> Line<'a> {
     /// Off by at most 8u·`reach`: u for the difference of translation and origin, 3u for each component of the two rotated vectors,
     /// 5.3u of their length, and u for each of the two sums.
     pub fn vertex(&self, vertex: u32) -> Vector {
+        debug_assert!((vertex as usize) < self.polyhedron.vertices.len());
         self.pose.rotate(&self.polyhedron.vertices[vertex as usize].position) + self.centre
     }
 
@@ -98,6 +99,7 @@ impl<'a> Line<'a> {
     /// From the centre to about where the line along a unit vector comes into the sphere around the body, or passes it; of length 1
     /// or less.
     pub fn towards_sphere(&self, along: &Vector) -> Vector {
+        debug_assert!(is_unit(along));
         let across = along * self.centre.dot(along) - self.centre;
         let depth = (self.sphere() * self.sphere() - across.norm_squared()).max(0.0).sqrt();
         let way = across - along * depth;

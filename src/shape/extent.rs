@@ -74,11 +74,13 @@ impl Extent {
 
     /// How far the body reaches from its centre when placed so; `radius` is that of the placed bounding sphere.
     pub(crate) fn reach(&self, pose: &Pose, radius: f64) -> Reach {
+        debug_assert!(radius >= 0.0);
         if self.points.is_empty() { self.reach_of_box(pose, radius) } else { self.reach_of_points(pose, radius) }
     }
 
     /// |R|·half about R·middle, computed to about 8u of the radius.
     fn reach_of_box(&self, pose: &Pose, radius: f64) -> Reach {
+        debug_assert!(radius >= 0.0);
         let error = 32.0 * U * radius;
         let mut reach = Reach { lower: [-radius; 3], upper: [radius; 3] };
         for (axis, [x, y, z, _]) in pose.rows.iter().enumerate() {
@@ -98,6 +100,7 @@ impl Extent {
     /// Over all vertices, in single precision: R and p rounded, three products and two sums are off by at most 5.2·2⁻²⁴ of
     /// |R's row|·|p| ≤ 1.02ρ.
     fn reach_of_points(&self, pose: &Pose, radius: f64) -> Reach {
+        debug_assert!(radius >= 0.0);
         let error = 12.0 * f64::from(f32::EPSILON / 2.0) * radius;
         let mut turned = Turned { pose, points: &self.points, ends: [[0.0; 2]; 3] };
         simd::dispatch(&mut turned);

@@ -429,6 +429,7 @@ impl Shape {
     /// # Errors
     /// [`Error::Memory`].
     pub(crate) fn from_parts(polyhedron: Polyhedron, hierarchy: Hierarchy, swept_radius: f64) -> Result<Shape> {
+        debug_assert!(swept_radius >= 0.0);
         let is_to_be_made = hierarchy.kind == HierarchyKind::Automatic && hierarchy.levels.is_empty();
         let made = if is_to_be_made { None } else { Some(hierarchy) };
         let extent = Extent::new(&polyhedron)?;

@@ -42,6 +42,7 @@ impl Shape {
 
 /// The hull of points, a ball of this radius swept over it.
 fn swept(points: &[Vector], radius: f64) -> Result<Shape> {
+    debug_assert!(!points.is_empty());
     check_range("radius", radius, 0.0..=LARGEST_SWEPT_RADIUS)?;
     Shape::from_points(
         points,

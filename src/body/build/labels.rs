@@ -112,6 +112,8 @@ fn faces_of_polygons(
     near: f64,
     progress: &mut Progress,
 ) -> Result<FacesOfPolygons> {
+    debug_assert!(mesh.divides_indices());
+    debug_assert!(near >= 0.0);
     let around = FacesAround::new(polyhedron, &mut progress.part(0.0, 0.4))?;
     let progress = &mut progress.part(0.4, 1.0);
     let hull_vertices = hull_vertices_of(polyhedron, points)?;

@@ -55,6 +55,7 @@ impl<'a> RiseBounds<'a> {
     /// An upper bound, rounded up, of max over the hull of n·x minus n·(position of `start`); at least 0. `None` if that takes a
     /// look at more than `effort` neighbours of vertices.
     pub fn rise(&mut self, normal: &Vector, start: u32, mut effort: usize) -> Option<f64> {
+        debug_assert!((start as usize) < self.positions.len());
         self.round += 1;
         self.stack.clear();
         self.stack.push(start);

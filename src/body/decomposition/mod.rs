@@ -47,6 +47,7 @@ impl Decomposition {
     /// The triangles of piece `k`.
     pub fn piece(&self, k: usize) -> &[[u32; 3]] {
         debug_assert!(k < self.piece_count());
+        debug_assert!(k < self.piece_count());
         &self.triangles[self.starts[k] as usize..self.starts[k + 1] as usize]
     }
 }

@@ -18,6 +18,7 @@ struct Bounds {
 
 impl Bounds {
     fn of(surface: &Surface, vertices: &[u32]) -> Bounds {
+        debug_assert!(!vertices.is_empty());
         let mut bounds = Bounds { low: Vector::repeat(f64::INFINITY), high: Vector::repeat(f64::NEG_INFINITY) };
         vertices.iter().for_each(|v| bounds.take_in(&surface.position[*v as usize]));
         bounds

@@ -360,12 +360,14 @@ impl Polyhedron {
 
     /// A vertex in the object's frame, as the caller gave it (after the input transform).
     pub fn local_position(&self, vertex: u32) -> Vector {
+        debug_assert!((vertex as usize) < self.vertices.len());
         self.centre + self.vertices[vertex as usize].position
     }
 
     /// The caller's polygons merged into a face, ascending; see `face_labels`.
     #[inline]
     pub fn labels_of_face(&self, face: u32) -> &[u32] {
+        debug_assert!((face as usize) < self.faces.len());
         let face = face as usize;
         &self.face_labels[self.face_label_starts[face] as usize..self.face_label_starts[face + 1] as usize]
     }
@@ -411,12 +413,14 @@ impl Polyhedron {
     /// Lanes in the neighbour blocks of a vertex: an upper bound of the number of its neighbours, by less than eight.
     #[inline]
     pub fn neighbour_capacity(&self, vertex: u32) -> usize {
+        debug_assert!((vertex as usize) < self.vertices.len());
         8 * (1 + self.vertices[vertex as usize].more as usize)
     }
 
     /// A vertex that is farthest along `direction` as far as plain doubles tell, and the number of steps from `start`: hill
     /// climbing along the steepest edge of the triangulated hull until none leads up.
     pub fn support(&self, direction: &Vector, start: u32) -> (u32, u32) {
+        debug_assert!((start as usize) < self.vertices.len());
         // A step is taken only if it certainly leads up, so no vertex comes twice.
         let largest = direction.amax();
         let direction = if largest > 0.0 { direction / largest } else { *direction };

@@ -1,7 +1,7 @@
 //! Which of the caller's polygons on a face holds a point: if they are few, all are looked at, if many, a search tells.
 
 use crate::base::error::Result;
-use crate::base::math::{Vector, clamp};
+use crate::base::math::{Vector, clamp, is_unit};
 use crate::body::polyhedron::Polyhedron;
 use crate::body::polyhedron::polygon_search::{FEW_POLYGONS, Partitions, Polygons, holds};
 
@@ -9,6 +9,7 @@ impl Polyhedron {
     /// The caller's polygon that holds a (centred) point of a face, the lowest where several do; the one that misses it least if
     /// rounding puts it in none: that alone takes time in proportion to the polygons merged into the face.
     pub fn polygon_at(&self, face: u32, point: &Vector) -> u32 {
+        debug_assert!((face as usize) < self.faces.len());
         debug_assert!((face as usize) < self.faces.len());
         let labels = self.labels_of_face(face);
         if labels.len() == 1 || self.polygon_starts.is_empty() {
@@ -75,6 +76,8 @@ impl Polyhedron {
 /// How far a point over a convex polygon's plane lies out of its prism: 0 inside, else the distance to the nearest side. At the
 /// sharp corner of a sliver a point may violate the sides by next to nothing and still be far away.
 fn misses_polygon(corners: &[Vector], normal: &Vector, point: &Vector) -> f64 {
+    debug_assert!(corners.len() >= 3);
+    debug_assert!(is_unit(normal));
     if holds(corners, normal, point) {
         return 0.0;
     }

@@ -193,6 +193,7 @@ impl Partitions {
 
 /// Whether a point over a polygon's plane is in its prism.
 pub fn holds(corners: &[Vector], normal: &Vector, point: &Vector) -> bool {
+    debug_assert!(corners.len() >= 3);
     let Some(mut last) = corners.last() else { return false };
     corners.iter().all(|corner| {
         let along = corner - last;

@@ -148,6 +148,7 @@ pub fn nearest_of(polyhedron: &Polyhedron, point: &Vector, vertices: &[u32]) -> 
 }
 
 fn at_vertex(polyhedron: &Polyhedron, point: &Vector, vertex: u32) -> Candidate {
+    debug_assert!((vertex as usize) < polyhedron.vertices.len());
     let position = polyhedron.vertices[vertex as usize].position;
     Candidate { point: position, square: (position - point).norm_squared(), feature: SurfaceFeature::Vertex(vertex) }
 }

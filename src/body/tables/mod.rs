@@ -166,6 +166,7 @@ fn all_vertices(polyhedron: &Polyhedron) -> Result<Vec<VertexBlock>> {
 
 /// Cells along a side such that a shell has a few for every vertex.
 fn resolution_for(vertex_count: usize) -> usize {
+    debug_assert!(vertex_count > 0);
     ((4 * vertex_count).isqrt().next_power_of_two()).clamp(16, 128)
 }
 
@@ -309,6 +310,7 @@ impl NearestVertices<'_> {
     }
 
     fn sample(&self, factor: f64, direction: &Vector) -> Vector {
+        debug_assert!(is_unit(direction));
         debug_assert!(is_unit(direction) && factor > 0.0);
         self.centre + direction * (factor * self.radius)
     }

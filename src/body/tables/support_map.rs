@@ -178,6 +178,8 @@ pub struct Grid {
 /// The direction of a map at (u, v) of a face: faces 2k and 2k + 1 are those where axis k is 1 and −1.
 pub fn direction_of_map(face: usize, u: f64, v: f64) -> Vector {
     debug_assert!(face < 6);
+    debug_assert!(u.abs() <= 1.0 && v.abs() <= 1.0);
+    debug_assert!(face < 6);
     let axis = face / 2;
     let mut direction = Vector::zeros();
     direction[axis] = if face.is_multiple_of(2) { 1.0 } else { -1.0 };
@@ -325,6 +327,7 @@ struct Highest {
 /// By a climb with a proved end: on a convex body a vertex all of whose neighbours are behind is the farthest. Where one may be
 /// level with it, as along the normal of a face, all vertices are looked at.
 fn highest(polyhedron: &Polyhedron, direction: &Vector, start: u32) -> Highest {
+    debug_assert!((start as usize) < polyhedron.vertices.len());
     let length = direction.lp_norm(1);
     // Three products and two sums.
     let rounding = 4.0 * U * length * polyhedron.radius;

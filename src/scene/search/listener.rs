@@ -274,6 +274,7 @@ impl PointEvent {
 
     /// `before`: the ids of the pair's points when the listener last asked, ascending.
     fn listed(id: u64, point: usize, before: &[u64]) -> PointEvent {
+        debug_assert!(before.is_sorted());
         let state = if before.binary_search(&id).is_ok() { EventState::Persists } else { EventState::Began };
         PointEvent { id, point, state }
     }

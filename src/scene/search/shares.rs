@@ -72,6 +72,7 @@ pub(crate) fn deal(
 /// The largest power of two that so many pairs may take; 0 where it is subnormal.
 fn share_of(budget: f64, count: usize) -> f64 {
     debug_assert!(budget >= 0.0 && count > 0);
+    debug_assert!(budget >= 0.0 && count > 0);
     let equal = (budget / count as f64).next_down();
     f64::from_bits(equal.max(0.0).to_bits() & (0x7ff << 52))
 }

@@ -12,6 +12,7 @@ const LARGEST_SQUARE: f64 = 1e300;
 /// The square is off by less than 8u of itself, its root by 5u, the sum of the radii by 2u; below [`TINY`] squares underflow.
 #[inline(always)]
 pub(crate) fn of_spheres(one: &Spheres, other: &Spheres) -> f64 {
+    debug_assert!(one.outer >= 0.0 && other.outer >= 0.0);
     let [x, y, z] = [0, 1, 2].map(|k| one.centre[k] - other.centre[k]);
     let radii = f64::from(one.outer) + f64::from(other.outer);
     root(x * x + y * y + z * z) - radii * (1.0 + 4.0 * U) - TINY

@@ -3,7 +3,7 @@
 
 use std::sync::Arc;
 
-use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
+use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF, Vector};
 use crate::scene::world::boxes::{Aabb, above, below};
 use crate::scene::world::object::ObjectId;
 use crate::shape::Shape;
@@ -211,6 +211,7 @@ pub(crate) fn grown_box(shape: &Shape, pose: &Pose, spheres: &Spheres, grown: f6
 /// d ≤ 1e-2; d as computed is off by at most 4u.
 #[inline]
 pub(crate) fn placed(shape: &Shape, pose: &Pose, defect: f64) -> (Spheres, bool) {
+    debug_assert!((0.0..=ROTATION_LIMIT).contains(&defect));
     let polyhedron = shape.polyhedron();
     let stretch = 2.0 * (defect + 8.0 * U);
     let error = centre_error(shape, pose);
@@ -237,6 +238,7 @@ fn centre_error(shape: &Shape, pose: &Pose) -> f64 {
 /// and 0, it is ‖ΔR‖_F/√2. Rotations within [`RIGID`] are within 24u of exact ones (in norm; 42u in ‖·‖_F), which costs less than
 /// 2e-14.
 fn way_bound(old: &Pose, new: &Pose, lever: f64, rigid: bool) -> f64 {
+    debug_assert!(lever >= 0.0);
     let (mut turned, mut shifted) = (0.0, 0.0);
     for (old, new) in old.rows.iter().zip(&new.rows) {
         let [x, y, z, t] = [0, 1, 2, 3].map(|k| new[k] - old[k]);

@@ -80,6 +80,7 @@ struct Quadric {
 impl Quadric {
     /// Adds `weight` times the squared distance from the plane through the vertex with the given unit normal.
     fn add_plane(&mut self, normal: &Vector, weight: f64) {
+        debug_assert!(weight >= 0.0);
         let [x, y, z] = [normal.x, normal.y, normal.z];
         for (sum, term) in self.a.iter_mut().zip([x * x, x * y, x * z, y * y, y * z, z * z]) {
             *sum += weight * term;

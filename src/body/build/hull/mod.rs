@@ -114,6 +114,8 @@ fn hull_in_order(points: &[Vector], progress: &mut Progress) -> Result<Hull> {
 
 /// The hull of the points named in `some`, ascending and without duplicates.
 fn hull_of_some(points: &[Vector], some: &[u32], progress: &mut Progress) -> Result<Hull> {
+    debug_assert!(some.is_sorted_by(|a, b| a < b));
+    debug_assert!(some.iter().all(|v| (*v as usize) < points.len()));
     let chosen: Vec<Vector> = collected(some.iter().map(|&v| points[v as usize]))?;
     let mut hull = hull_in_order(&chosen, progress)?;
     for v in hull.vertices.iter_mut().chain(hull.triangles.iter_mut().flatten()) {

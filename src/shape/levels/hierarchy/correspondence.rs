@@ -139,6 +139,7 @@ pub fn by_identity(
 /// The index of each id in a list of some of 0..`count`; NONE for the others.
 fn index_of(ids: &[u32], count: usize) -> Result<Vec<u32>> {
     debug_assert!(ids.iter().all(|id| (*id as usize) < count));
+    debug_assert!(ids.iter().all(|id| (*id as usize) < count));
     let mut index = filled(NONE, count)?;
     for (i, id) in (0..).zip(ids) {
         index[*id as usize] = i;
@@ -219,6 +220,7 @@ fn hints_for_children(parents: &Links, above: &Polyhedron) -> Result<Vec<u32>> {
 
 /// From vertex to nearer neighbour until none is nearer.
 fn nearest_vertex_by_walking(polyhedron: &Polyhedron, point: &Vector, start: u32) -> u32 {
+    debug_assert!((start as usize) < polyhedron.vertices.len());
     let distance = |v: u32| (polyhedron.vertices[v as usize].position - point).norm_squared();
     let mut nearest = (distance(start), start);
     loop {
