@@ -70,7 +70,7 @@ fn round(u: &mut Unstructured, points: &[Vector]) -> Result<Shape> {
 
 fn check(case: &Case, answers: &[CastAnswer; 2]) {
     for answer in answers {
-        let told = || format!("{:?} {:?}\n{answer:?}", case.motions, case.config);
+        let told = || format!("{:?} {:?} {}\n{answer:?}", case.motions, case.config, bodies_of(case));
         let free_for_sure = answer.outcome != CastOutcome::Budget || answer.time_lower > case.config.time_begin;
         assert!(answer.outcome != CastOutcome::None && (free_for_sure || answer.queries > 0), "{}", told());
         if let Err(error) = verify_cast(case.bodies(), &case.config, answer) {
@@ -85,6 +85,15 @@ fn check(case: &Case, answers: &[CastAnswer; 2]) {
         }
     }
     check_clearance(case, &answers[0]);
+}
+
+fn bodies_of(case: &Case) -> String {
+    let points = |shape: &Arc<Shape>| {
+        let polyhedron = shape.polyhedron();
+        let points = (0..polyhedron.vertices.len() as u32).map(|v| polyhedron.local_position(v));
+        format!("{:?} with radius {:?}", points.collect::<Vec<_>>(), shape.swept_radius())
+    };
+    case.shapes.each_ref().map(points).join(" and ")
 }
 
 /// What contradicts an answer that holds: free up to where it hits, a hit up to where it is free.

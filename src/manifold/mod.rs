@@ -48,7 +48,7 @@ use patch::{COINCIDENT, Patches, STICKY, STICKY_INCIDENT, choose, facing};
 use places::{CommonPoint, Origin, View};
 use reduction::{Thinned, four_of};
 pub(crate) use sink::{Fill, Sink};
-use steady::steady;
+use steady::name_by_place;
 
 /// The manifold of two objects, written to `points` as far as there is room. For objects farther apart than `max_distance` there is
 /// none.
@@ -236,10 +236,7 @@ fn make(
     }
     points.push(|point| {
         *point = witness(contact);
-        let polyhedra = bodies.map(|body| body.shape.polyhedron());
-        point.feature1 = steady(polyhedra[0], point.feature1);
-        point.feature2 = steady(polyhedra[1], point.feature2);
-        point.id = id_of(&point.feature1, &point.feature2);
+        name_by_place(bodies.map(|body| body.shape.polyhedron()), point);
     });
     (answer.point_count, answer.found_count) = (points.written as u32, 1);
     answer
@@ -261,6 +258,9 @@ fn choose_patches(bodies: [Placed; 2], contact: &SignedDistance, last: &Referenc
 
 /// Larger objects are not clipped, and their manifold is the pair of witness points: squares of lengths must not overflow.
 const LARGEST: f64 = 1e150;
+
+/// Edges of bodies of which any number of points are named by their places.
+const MOST_NAMED: usize = 1024;
 
 /// Writes the points that both patches have in common; how many there are.
 fn clip(
@@ -308,10 +308,21 @@ fn clip(
     *now = Reference { body: patches.reference as u32 + 1, patches: numbers, kept: [0; FOUR] };
     let mut overlay = Overlay::NONE;
     let are_few = overlay.fill(&view).is_some();
+    // Any number of points times all features would take as long as their squares.
+    let are_named = config.reduces || polyhedra.iter().all(|polyhedron| polyhedron.edges.len() <= MOST_NAMED);
+    let fill = |point: &mut ManifoldPoint, place: &CommonPoint| {
+        match place.origin {
+            Origin::Witness => *point = witness(contact),
+            Origin::Corner(corner) => view.fill(point, place, corner),
+        }
+        if are_named {
+            name_by_place(polyhedra, point);
+        }
+    };
     if !config.reduces {
         let mut write = |place: &CommonPoint| match place.origin {
-            Origin::Witness => points.insist(|point| *point = witness(contact)),
-            Origin::Corner(corner) => points.push(|point| view.fill(point, place, corner)),
+            Origin::Witness => points.insist(|point| fill(point, place)),
+            Origin::Corner(_) => points.push(|point| fill(point, place)),
         };
         if !are_few {
             return view.sweep(write);
@@ -325,10 +336,7 @@ fn clip(
         for (place, key) in four_of(places, &kept, size).into_iter().zip(&mut now.kept) {
             let Some(place) = place else { continue };
             *key = place.key();
-            points.push(|point| match place.origin {
-                Origin::Witness => *point = witness(contact),
-                Origin::Corner(corner) => view.fill(point, place, corner),
-            });
+            points.push(|point| fill(point, place));
         }
     };
     if are_few {

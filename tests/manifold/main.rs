@@ -5,6 +5,7 @@ mod contact_faces;
 mod gaps;
 mod reduction;
 mod signed_distance;
+mod thin;
 mod verify;
 
 use swiftprox::manifold::manifold;
