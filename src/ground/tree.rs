@@ -1,7 +1,7 @@
 //! A static tree of boxes over the triangles of a ground. Boxes are exact: least and greatest coordinates of vertices.
 
 use crate::base::error::Result;
-use crate::base::math::Vector;
+use crate::base::math::{Vector, length};
 use crate::base::memory::{collected, copied, push, with_capacity};
 
 /// So many triangles are looked at one by one.
@@ -34,9 +34,10 @@ impl Bounds {
         Bounds { lower: self.lower.map(|x| (x - by).next_down()), upper: self.upper.map(|x| (x + by).next_up()) }
     }
 
-    /// How far two boxes are apart, at least: differences of ends are right to u, the norm of them to 3u more.
+    /// How far two boxes are apart, at least: differences of ends are right to u, the norm of them to 5u more. It is finite: a
+    /// square or a difference beyond the doubles leaves a length that may be one.
     pub fn gap(&self, other: &Bounds) -> f64 {
-        self.way_to(other).norm() * (1.0 - 8.0 * f64::EPSILON)
+        (length(&self.way_to(other)) * (1.0 - 8.0 * f64::EPSILON)).min(f64::MAX)
     }
 
     /// The shortest way to another box.

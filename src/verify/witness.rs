@@ -139,7 +139,8 @@ impl<'a> Witness<'a> {
             [*local, *world, pose.translation(), polyhedron.centre].map(|v| 0.125 * v);
         let apart = length(&(pose.rotate(&local) + translation - world));
         // Two ways to compute R·p + T, some ten roundings each, of a point between vertices that the body's size rounds; |R| ≤ 1.8.
-        let sizes = 0.125 * (polyhedron.radius + radius);
+        // Beside a far longer body a point may be as far out as that body's rounding, and it is p that rounds.
+        let sizes = 0.125 * (polyhedron.radius + radius) + length(&local);
         let rounding = 64.0 * U * (sizes + length(&centre) + length(&translation));
         if !(apart <= rounding + 64.0 * f64::from_bits(1)) {
             let apart = 8.0 * apart;

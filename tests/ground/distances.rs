@@ -4,7 +4,7 @@ use super::hills;
 use swiftprox::error::Error;
 use swiftprox::ground::{Ground, HeightGrid, ground_distance};
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::{FeatureKind, Outcome, PairConfig, Query};
+use swiftprox::pair::{FeatureKind, Outcome, PairAnswer, PairConfig, Query};
 use testkit::oracle::{Polytope, Truth, truth};
 use testkit::random::Random;
 use testkit::shapes::{at, cuboid, hull};
@@ -156,6 +156,26 @@ fn few_triangles_are_asked_about_from_far_away() {
             }));
             assert!(nearest - 1.5 < distance && distance < nearest, "{above}: {distance} {nearest}");
             assert!(asked < 20 * scanned, "{above}: {asked:?}, all heights {scanned:?}");
+        }
+    }
+}
+
+/// Squares of lengths from 1.3·10¹⁵⁴ on are no doubles: the bound of a verdict was infinite, though the distance was not.
+#[test]
+fn the_bound_of_a_verdict_is_finite_where_squares_are_not() {
+    let vertices = [[0.0, 0.0, 29.0], [1.0, 0.0, 0.0], [1.0, 29.0, 29.0]].map(Vector::from);
+    let ground = Ground::from_triangles(&vertices, &[[0, 1, 2]]).unwrap();
+    for size in [7e162, 1.6e268, 1.2e308] {
+        let cloud = [Vector::new(size, 0.5 * size, -32.0)];
+        let body = hull(&cloud);
+        let pose = Pose::new(&Matrix::identity(), &Vector::new(size / 3.0, 0.0, 0.0));
+        let truths = of_all(&cloud, &pose, &vertices, &[[0, 1, 2]], &Pose::IDENTITY);
+        for query in [Query::Intersection, Query::Distance] {
+            let config = PairConfig::default();
+            let found = ground_distance(query, body.at(&pose), ground.at(&Pose::IDENTITY), &config).unwrap();
+            let PairAnswer { outcome, lower, upper, .. } = found.answer;
+            assert_eq!(outcome, Outcome::Separated);
+            assert!(lower.is_finite() && truths[0].lies_between(lower, upper), "{query:?} {size:e}: {found:?}");
         }
     }
 }

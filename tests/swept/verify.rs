@@ -300,3 +300,32 @@ fn manifolds_of_crossing_edges_pass_at_poses_that_stretch() {
     }
     assert!(worst < 1e-13, "{worst:e}");
 }
+
+/// A common point of a cube and a bar 8·10³¹ long is known to the bar's rounding, and is as far out of the cube. The check of both
+/// frames allowed for the rounding of the cube alone, and refused a true answer: the world's point was 2 off, of 4.5·10¹⁵. A point
+/// that is farther off is refused as before.
+#[test]
+fn a_point_that_a_long_body_rounds_is_the_same_in_both_frames() {
+    let (thin, far) = (0.9999999999999998, 8.112963841460668e31);
+    let corners = |half: [f64; 3]| -> Vec<Vector> {
+        (0..8).map(|k| Vector::from_fn(|i, _| if k >> i & 1 == 0 { -half[i] } else { half[i] })).collect()
+    };
+    let mut bar = corners([thin, 32.0, far]);
+    bar.iter_mut().for_each(|p| *p = Vector::new(p.x, p.z, -p.y));
+    let bodies = [swept(&corners([32.0; 3]), 127.0), swept(&bar, 3.2198325245797027e32)];
+    let places = [Vector::new(-1.0, 1.0, -1.0), Vector::new(-34.99999999999999, -far, -2.0)];
+    let poses = places.map(|place| Pose::new(&Matrix::identity(), &place));
+    let placed = [bodies[0].at(&poses[0]), bodies[1].at(&poses[1])];
+    let motions = poses.map(Motion::Fixed);
+    let moving = [0, 1].map(|i| Moving { shape: &bodies[i], motion: &motions[i] });
+    let mut hit = CastAnswer::default();
+    cast(moving, &mut PairCache::default(), &CastConfig::default(), &mut hit).unwrap();
+    assert_eq!((hit.outcome, hit.contact.outcome), (CastOutcome::Hit, Outcome::Intersecting));
+    for answer in [hit.contact, ask(contact, placed)] {
+        verify(placed, &answer).unwrap();
+        let mut forged = answer;
+        forged.world1[1] += 1e-12 * answer.local1[1].abs().max(100.0);
+        assert!(verify(placed, &forged).is_err(), "{forged:?}");
+    }
+    verify_cast(moving, &CastConfig::default(), &hit).unwrap();
+}
