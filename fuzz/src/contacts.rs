@@ -172,7 +172,7 @@ fn description(bodies: [Placed; 2]) -> String {
     let of = |body: Placed| {
         let polyhedron = body.shape.polyhedron();
         let vertices: Vec<_> = (0..polyhedron.vertices.len() as u32).map(|v| polyhedron.local_position(v)).collect();
-        format!("{vertices:?} at {:?}", body.pose)
+        format!("{vertices:?} with radius {:?} at {:?}", body.shape.swept_radius(), body.pose)
     };
     bodies.map(of).join(" and ")
 }
