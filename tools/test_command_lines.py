@@ -140,6 +140,17 @@ class CommandLines(unittest.TestCase):
                 self.assertIn(option, done.stderr)
                 self.assertNotIn("SWIFTPROX_", done.stderr)
 
+    def test_advice_about_a_vertex_of_no_face_is_right(self):
+        # The cube [-1, 1]³ and a vertex at x = 5 that is in no face, twice, 8 apart: 6 between the cubes, 2 from that vertex.
+        stray = os.path.join(MODELS, "..", "..", "tests", "fixtures", "meshes", "stray.obj")
+        poses = self.file("poses.txt", "1 0 0 0  0 1 0 0  0 0 1 0  1 0 0 8  0 1 0 0  0 0 1 0\n")
+        refused = run("swiftprox-query", stray, stray, poses)
+        self.assertEqual(refused.returncode, 2)
+        self.assertLess(refused.stderr.index("--input patch takes the hull of the faces"), refused.stderr.index("--input hull"))
+        for policy, distance in (("patch", 6), ("hull", 2)):
+            done = run("swiftprox-query", stray, stray, poses, "--input", policy)
+            self.assertEqual((done.returncode, float(done.stdout.split()[0])), (0, distance), done.stderr)
+
     def test_a_damaged_recording_is_named_once(self):
         recording = os.path.join(self.folder, "recording")
         subprocess.run([RECORDER, recording], check=True, timeout=60)
