@@ -401,6 +401,59 @@ swiftprox_status swiftprox_shape_create_capsule(double half_length,
                                                 const struct swiftprox_shape **shape);
 
 /**
+ * Creates a cylinder about the z axis, from z = -half_height to half_height. Release it with swiftprox_shape_release. On failure
+ * `*shape` is null.
+ *
+ * Queries run on a prism inside the cylinder, which reaches farther than it by at most `deviation`; 0 sets that to 1e-4 of the
+ * radius. Intervals hold for the cylinder: they are wider by the deviation. Where it hides whether objects intersect, the outcome
+ * is SWIFTPROX_OUTCOME_UNDECIDED. Points and features are the prism's: vertex k of n is at the bottom, at the angle 2 pi k / n
+ * from x; vertex n + k is above it. Grounds, gradients and compounds refuse the shape.
+ *
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: a length is not from 2^-960 to 2^1000, the deviation is negative, above 2^1000, NaN, or so
+ * small that the prism had more than 2048 sides; the message tells the least.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_shape_create_cylinder(double radius,
+                                                 double half_height,
+                                                 double deviation,
+                                                 const struct swiftprox_shape **shape);
+
+/**
+ * Creates a cone about the z axis, with its base at z = -half_height and its tip at z = half_height. Release it with
+ * swiftprox_shape_release. On failure `*shape` is null.
+ *
+ * The deviation is as in swiftprox_shape_create_cylinder. Vertex k of n is on the base as there, vertex n is the tip.
+ *
+ * Errors as of swiftprox_shape_create_cylinder.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_shape_create_cone(double radius,
+                                             double half_height,
+                                             double deviation,
+                                             const struct swiftprox_shape **shape);
+
+/**
+ * Creates an ellipsoid about the local origin with three semi-axes along x, y and z. Release it with swiftprox_shape_release. On
+ * failure `*shape` is null.
+ *
+ * The deviation is as in swiftprox_shape_create_cylinder; 0 sets it to 1e-3 of the largest semi-axis. For a sphere
+ * swiftprox_shape_create_sphere is exact.
+ *
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: a semi-axis is not from 2^-960 to 2^1000, the deviation is negative, above 2^1000, NaN, or so
+ * small that the polyhedron had more than 4002 vertices; the message tells the least.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_shape_create_ellipsoid(const double *semi_axes,
+                                                  double deviation,
+                                                  const struct swiftprox_shape **shape);
+
+/**
  * Adds one reference to a shape and returns the shape. Each call needs its own swiftprox_shape_release. Safe from any thread. Null
  * returns null.
  *
@@ -449,6 +502,11 @@ typedef struct swiftprox_shape_info {
   double inertia[9];
   /** Radius of the swept ball (swiftprox_shape_options), in the local frame. All other members describe the body without it. */
   double swept_radius;
+  /**
+   * How far a cylinder, cone or ellipsoid reaches beyond its polyhedron at most, at any pose; 0 for other shapes. Volume, box
+   * and inertia are the polyhedron's.
+   */
+  double deviation;
 } swiftprox_shape_info;
 
 /**
@@ -527,7 +585,11 @@ typedef enum swiftprox_outcome SWIFTPROX_INT32 {
   SWIFTPROX_OUTCOME_BEYOND = 2,
   /** The closed objects have a common point (touching included). */
   SWIFTPROX_OUTCOME_INTERSECTING = 3,
-  /** The step budget of an approximate query ran out before the verdict: `0 = lower <= distance <= upper`. */
+  /**
+   * The objects may be disjoint or not, `0 = lower <= distance <= upper`: the step budget of an approximate query ran out before
+   * the verdict (SWIFTPROX_DECIDED_BY_BUDGET), or the deviation of a cylinder, cone or ellipsoid hides it. Then normal, points and
+   * features are those of the polyhedra.
+   */
   SWIFTPROX_OUTCOME_UNDECIDED = 4
 } swiftprox_outcome;
 
@@ -1447,7 +1509,8 @@ typedef struct swiftprox_scene_answer {
 
 /**
  * Lists the intersecting pairs, touching ones included. Each answer has only outcome, decided_by, proof, statistics, and distance,
- * lower and upper, which are 0. A null `query` means the defaults. On failure the answer is empty.
+ * lower and upper, which are 0. Cylinders, cones and ellipsoids that may intersect are listed, too, as undecided; `intersecting`
+ * does not count them. A null `query` means the defaults. On failure the answer is empty.
  *
  * No accepted pair makes a query fail. SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of query is out of range, even one this query
  * does not use. SWIFTPROX_ERROR_MEMORY: no memory for a changed list of pairs; the next query tries again.

@@ -124,6 +124,9 @@ static void shapes()
     CHECK(Shape::try_box(1, 2, 3, 0.5).value.try_info().value.swept_radius == 0.5);
     CHECK(Shape::try_sphere(2).value.try_info().value.swept_radius == 2);
     CHECK(Shape::try_capsule(1, 2).value.try_info().value.vertex_count == 2);
+    CHECK(Shape::try_cylinder(1, 2).value.try_info().value.deviation <= 1e-4);
+    CHECK(Shape::try_cone(1, 2, 0.01).value.try_info().value.deviation <= 0.01);
+    CHECK(Shape::try_ellipsoid(1, 2, 3).value.try_info().value.deviation <= 3e-3);
     CHECK(Shape::try_box(1, 0, 3).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
     const auto large = box.try_scaled(2);
     CHECK(large && large.value.try_info().value.volume == 8);

@@ -194,9 +194,47 @@ static void boxes(void)
     swiftprox_shape_release(capsule);
 }
 
+/* A drum of radius 1 and height 2 beside a ball: 1 apart; within the deviation of each other; and 0.5 in each other. */
+static void drums(void)
+{
+    const swiftprox_shape *drum = NULL, *cone = NULL, *egg = NULL, *ball = NULL, *none = NULL;
+    const double semi_axes[3] = {1, 0.5, 0.5}, gaps[3] = {1, 0.004, -0.5};
+    const swiftprox_outcome outcomes[3] = {SWIFTPROX_OUTCOME_SEPARATED, SWIFTPROX_OUTCOME_UNDECIDED, SWIFTPROX_OUTCOME_INTERSECTING};
+    swiftprox_shape_info info;
+    CHECK_OK(swiftprox_shape_create_cylinder(1, 1, 0.01, &drum));
+    CHECK_OK(swiftprox_shape_create_cone(1, 1, 0.01, &cone));
+    CHECK_OK(swiftprox_shape_create_ellipsoid(semi_axes, 0.01, &egg));
+    CHECK_OK(swiftprox_shape_create_sphere(0.5, &ball));
+    for (int i = 0; i < 3; ++i) {
+        const swiftprox_shape *bodies[3] = {drum, cone, egg};
+        /* Beside the drum and the egg, under the cone. */
+        info.struct_size = sizeof info;
+        CHECK_OK(swiftprox_shape_get_info(bodies[i], &info));
+        CHECK(info.deviation > 0.001 && info.deviation <= 0.01);
+        for (int k = 0; k < 3; ++k) {
+            const double there[12] = {1, 0, 0, (i == 1 ? 0 : 1.5 + gaps[k]), 0, 1, 0, 0, 0, 0, 1, (i == 1 ? -1.5 - gaps[k] : 0)};
+            const swiftprox_placed object1 = {bodies[i], identity}, object2 = {ball, there};
+            swiftprox_pair_cache cache = {0};
+            swiftprox_pair_answer answer;
+            CHECK_OK(swiftprox_pair_distance(object1, object2, &cache, NULL, &answer));
+            CHECK(answer.outcome == outcomes[k] && answer.lower <= fmax(gaps[k], 0) && fmax(gaps[k], 0) <= answer.upper);
+            CHECK_OK(swiftprox_pair_verify(object1, object2, &answer));
+        }
+    }
+    CHECK(swiftprox_shape_create_cylinder(1, 1, 1e-9, &none) == SWIFTPROX_ERROR_INVALID_ARGUMENT && none == NULL);
+    CHECK(strstr(swiftprox_library_last_error_message(), "at least 1.") != NULL);
+    CHECK(swiftprox_shape_create_cone(0, 1, 0, &none) == SWIFTPROX_ERROR_INVALID_ARGUMENT && none == NULL);
+    CHECK(swiftprox_shape_create_ellipsoid(NULL, 0, &none) == SWIFTPROX_ERROR_NULL_POINTER && none == NULL);
+    swiftprox_shape_release(drum);
+    swiftprox_shape_release(cone);
+    swiftprox_shape_release(egg);
+    swiftprox_shape_release(ball);
+}
+
 int main(void)
 {
     spheres();
+    drums();
     a_capsule_on_the_ground();
     faces();
     boxes();

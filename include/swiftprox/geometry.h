@@ -245,7 +245,12 @@ typedef enum swiftprox_ray_outcome SWIFTPROX_INT32 {
   /** The ray enters the body, or touches it, from its origin on. */
   SWIFTPROX_RAY_OUTCOME_HIT = 2,
   /** The ray begins in the body, at a place that is not the first of its line in it. */
-  SWIFTPROX_RAY_OUTCOME_INSIDE = 3
+  SWIFTPROX_RAY_OUTCOME_INSIDE = 3,
+  /**
+   * The deviation of a cylinder, cone or ellipsoid hides whether the ray meets it, or whether it begins in it. If it meets it,
+   * it enters and leaves within the intervals.
+   */
+  SWIFTPROX_RAY_OUTCOME_UNDECIDED = 4
 } swiftprox_ray_outcome;
 
 /** The part of a ray that is in a body, `entry <= t <= exit`. Unset numbers are NaN. */
@@ -306,11 +311,11 @@ const char *swiftprox_library_ray_outcome_string(swiftprox_ray_outcome outcome);
 
 /** What of a ray is asked. */
 typedef enum swiftprox_ray_hits SWIFTPROX_INT32 {
-  /** The first that it meets. */
+  /** The first that it meets, or may meet where a curved one is undecided. */
   SWIFTPROX_RAY_HITS_FIRST = 0,
   /** All, in order. */
   SWIFTPROX_RAY_HITS_ALL = 1,
-  /** Any, found soonest. */
+  /** Any, found soonest; an undecided one where it certainly meets none. */
   SWIFTPROX_RAY_HITS_ANY = 2
 } swiftprox_ray_hits;
 
@@ -369,7 +374,9 @@ typedef enum swiftprox_point_location SWIFTPROX_INT32 {
   /** On its surface; for a body without interior, any point of it. */
   SWIFTPROX_POINT_LOCATION_ON = 2,
   /** Not in the body. */
-  SWIFTPROX_POINT_LOCATION_OUTSIDE = 3
+  SWIFTPROX_POINT_LOCATION_OUTSIDE = 3,
+  /** Inside, on or outside: the deviation of a cylinder, cone or ellipsoid hides it. */
+  SWIFTPROX_POINT_LOCATION_UNDECIDED = 4
 } swiftprox_point_location;
 
 /** Position of a point relative to a body, and the nearest feature of the surface. Unset numbers are NaN. */
@@ -382,7 +389,7 @@ typedef struct swiftprox_point_answer {
   double distance;
   /** Lower end of the rigorous interval; above 0 only outside. */
   double lower;
-  /** Upper end of the rigorous interval; at most 0 unless outside. */
+  /** Upper end of the rigorous interval; at most 0 unless outside or undecided. */
   double upper;
   /** The nearest point of the surface, in the body's local frame. */
   double local[3];
@@ -419,7 +426,7 @@ typedef struct swiftprox_support_vertex {
   double world[3];
   /**
    * `height[0]` <= direction * x <= `height[1]` for its exact place x in the world: the largest over the body, the ball that is
-   * swept over it included.
+   * swept over it included, or the deviation of a curved body at the upper end.
    */
   double height[2];
 } swiftprox_support_vertex;

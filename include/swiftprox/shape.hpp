@@ -102,6 +102,28 @@ class Shape
             return swiftprox_shape_create_capsule(half_length, radius, shape);
         });
     }
+    /** From z = -half_height to half_height. It reaches at most the deviation beyond its prism; 0: 1e-4 of the radius. */
+    static Result<Shape> try_cylinder(double radius, double half_height, double deviation = 0)
+    {
+        return made(ShapeOptions{}, [&](const swiftprox_shape_options *, const swiftprox_shape **shape) {
+            return swiftprox_shape_create_cylinder(radius, half_height, deviation, shape);
+        });
+    }
+    /** The base at z = -half_height, the tip at half_height; the deviation as of a cylinder. */
+    static Result<Shape> try_cone(double radius, double half_height, double deviation = 0)
+    {
+        return made(ShapeOptions{}, [&](const swiftprox_shape_options *, const swiftprox_shape **shape) {
+            return swiftprox_shape_create_cone(radius, half_height, deviation, shape);
+        });
+    }
+    /** With semi-axes along x, y and z. The deviation as of a cylinder; 0: 1e-3 of the largest semi-axis. */
+    static Result<Shape> try_ellipsoid(double x, double y, double z, double deviation = 0)
+    {
+        const double semi_axes[3] = {x, y, z};
+        return made(ShapeOptions{}, [&](const swiftprox_shape_options *, const swiftprox_shape **shape) {
+            return swiftprox_shape_create_ellipsoid(semi_axes, deviation, shape);
+        });
+    }
     static Result<Shape> try_from_file(const std::string &path, const ShapeOptions &options = {})
     {
         return made(options, [&](const swiftprox_shape_options *c, const swiftprox_shape **shape) {
@@ -221,6 +243,18 @@ class Shape
     static Shape box(double x, double y, double z, double radius = 0) { return take(try_box(x, y, z, radius)); }
     static Shape sphere(double radius) { return take(try_sphere(radius)); }
     static Shape capsule(double half_length, double radius) { return take(try_capsule(half_length, radius)); }
+    static Shape cylinder(double radius, double half_height, double deviation = 0)
+    {
+        return take(try_cylinder(radius, half_height, deviation));
+    }
+    static Shape cone(double radius, double half_height, double deviation = 0)
+    {
+        return take(try_cone(radius, half_height, deviation));
+    }
+    static Shape ellipsoid(double x, double y, double z, double deviation = 0)
+    {
+        return take(try_ellipsoid(x, y, z, deviation));
+    }
     static Shape from_file(const std::string &path, const ShapeOptions &options = {})
     {
         return take(try_from_file(path, options));

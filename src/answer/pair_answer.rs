@@ -14,7 +14,9 @@ pub enum Outcome {
     Beyond = 2,
     /// The closed objects have a common point (touching included).
     Intersecting = 3,
-    /// The step budget of an approximate query ran out before the verdict: `0 = lower ≤ distance ≤ upper`.
+    /// The objects may be disjoint or not, `0 = lower ≤ distance ≤ upper`: the step budget of an approximate query ran out before
+    /// the verdict ([`DecidedBy::Budget`]), or the deviation of a cylinder, cone or ellipsoid hides it. Then normal, points and
+    /// features are those of the polyhedra.
     Undecided = 4,
 }
 

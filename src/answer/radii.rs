@@ -1,5 +1,10 @@
 //! The radii of the balls that are swept over two bodies: what they take off a distance, rounded outwards, and where they move
 //! witness points to.
+//!
+//! A curved body holds its polyhedron P, and reaches no farther from it than its deviation δ. With h the support function,
+//! h_P ≤ h ≤ h_P + δ along every direction, so the signed distance of two such bodies is that of the polyhedra less a number from
+//! 0 to δ₁ + δ₂: the deviations count in the upper sum of what is taken off, and not in the lower one. Poses may stretch the body;
+//! δ holds for all that are accepted.
 
 use super::contact::PlacedPoints;
 use crate::base::double_double::two_sum;
@@ -12,49 +17,80 @@ use crate::shape::Placed;
 pub struct Radii {
     /// The radii of body 1 and body 2.
     pub each: [f64; 2],
-    /// Their sum, rounded down.
+    /// The sum of the deviations, rounded up.
+    pub deviation: f64,
+    /// The sum of the radii, rounded down.
     pub lower: f64,
-    /// Their sum, rounded up.
+    /// The sum of the radii and the deviation, rounded up.
     pub upper: f64,
 }
 
 impl Radii {
     /// The radii of bodies without any.
-    pub const NONE: Radii = Radii { each: [0.0; 2], lower: 0.0, upper: 0.0 };
+    pub const NONE: Radii = Radii { each: [0.0; 2], deviation: 0.0, lower: 0.0, upper: 0.0 };
 
     /// `None` of two bodies without.
     #[inline(always)]
     pub fn of(bodies: &[Placed; 2]) -> Option<Radii> {
-        let each = [bodies[0].shape.swept_radius(), bodies[1].shape.swept_radius()];
-        // By their bits: where subnormal numbers are flushed, a tiny radius would compare as 0.
-        (each.map(f64::to_bits) != [0; 2]).then(|| {
-            with_default(|| {
-                let [lower, upper] = [sum_below(each[0], each[1]), sum_above(each[0], each[1])];
-                Radii { each, lower, upper }
-            })
-        })
+        Radii::are_there(bodies).then(|| with_default(|| Radii::of_both(bodies)))
     }
 
-    /// The radii of a body and a partner without one.
-    pub fn of_one(radius: f64) -> Radii {
-        debug_assert!(radius >= 0.0);
-        Radii { each: [radius, 0.0], lower: radius, upper: radius }
+    /// Whether a body has a radius or a deviation.
+    #[inline(always)]
+    pub fn are_there(bodies: &[Placed; 2]) -> bool {
+        // By their bits: where subnormal numbers are flushed, a tiny radius would compare as 0.
+        let bits = |body: &Placed| body.shape.swept_radius().to_bits() | body.shape.deviation().to_bits();
+        bits(&bodies[0]) | bits(&bodies[1]) != 0
+    }
+
+    /// Those of any bodies, in the default floating-point environment.
+    #[inline(always)]
+    pub fn of_both(bodies: &[Placed; 2]) -> Radii {
+        let each = [bodies[0].shape.swept_radius(), bodies[1].shape.swept_radius()];
+        let [lower, upper] = [sum_below(each[0], each[1]), sum_above(each[0], each[1])];
+        let radii = Radii { each, deviation: 0.0, lower, upper };
+        let deviations = [bodies[0].shape.deviation(), bodies[1].shape.deviation()];
+        if deviations.map(f64::to_bits) == [0; 2] { radii } else { radii.deviating(deviations) }
+    }
+
+    /// The same of curved bodies.
+    #[cold]
+    fn deviating(self, [deviation1, deviation2]: [f64; 2]) -> Radii {
+        let deviation = sum_above(deviation1, deviation2);
+        Radii { deviation, upper: sum_above(self.upper, deviation), ..self }
+    }
+
+    /// The radius and the deviation of a body, and of a partner without any.
+    pub fn of_one(radius: f64, deviation: f64) -> Radii {
+        debug_assert!(radius >= 0.0 && deviation >= 0.0);
+        Radii { each: [radius, 0.0], deviation, lower: radius, upper: sum_above(radius, deviation) }
     }
 
     /// An interval of the signed distance of the polyhedra as one of the swept bodies: of sets that are offset by r it is r less,
     /// be they apart or in each other, as the support function of their difference is r more along every direction.
+    #[inline]
     pub fn off(&self, [lower, upper]: [f64; 2]) -> [f64; 2] {
         debug_assert!(lower <= upper || lower.is_nan() || upper.is_nan());
         [sum_below(lower, -self.upper), sum_above(upper, -self.lower)]
     }
 
-    /// The least interval of the polyhedra that contains the result of [`Radii::off`] for this.
+    /// The least interval of the polyhedra that contains the result of [`Radii::off`] for this. Integers, which may have narrowed
+    /// it, know the sum of the radii no better than its two ends; they are not asked where there is a deviation.
     pub fn back_on(&self, [lower, upper]: [f64; 2]) -> [f64; 2] {
         debug_assert!(lower <= upper);
+        if self.deviation > 0.0 {
+            return [sum_below(lower, self.upper), sum_above(upper, self.lower)];
+        }
         [sum_below(lower, self.lower), sum_above(upper, self.upper)]
     }
 
+    /// The lengths whose sum is the most that is taken off, for integers.
+    pub fn most(&self) -> [f64; 3] {
+        [self.each[0], self.each[1], self.deviation]
+    }
+
     /// Polyhedra of bodies no farther apart than this are no farther apart than …
+    #[inline]
     pub fn with(&self, length: f64) -> f64 {
         debug_assert!(length >= 0.0);
         sum_above(length, self.upper)
@@ -99,6 +135,7 @@ fn inverted(pose: &Pose, normal: &Vector) -> Vector {
 }
 
 /// a + b, rounded down: at most the largest double where both are finite; infinite or NaN only if a or b is.
+#[inline]
 pub fn sum_below(a: f64, b: f64) -> f64 {
     let sum = two_sum(a, b);
     if !sum.hi.is_finite() {
@@ -108,6 +145,7 @@ pub fn sum_below(a: f64, b: f64) -> f64 {
 }
 
 /// a + b, rounded up: the same of the other side.
+#[inline]
 pub fn sum_above(a: f64, b: f64) -> f64 {
     let sum = two_sum(a, b);
     if !sum.hi.is_finite() {

@@ -88,7 +88,8 @@ impl Compound {
             return Err(Error::Limit(format!("{} pieces, more than the limit of {MOST_PIECES}", pieces.len())));
         }
         for (k, piece) in pieces.iter().enumerate() {
-            piece.pose.check().map_err(|error| error.about(&format!("piece {k}")))?;
+            let sound = piece.pose.check().and_then(|()| piece.shape.refuse_deviation("compounds"));
+            sound.map_err(|error| error.about(&format!("piece {k}")))?;
         }
         let mut points: Vec<Vec<Vector>> = with_capacity(pieces.len())?;
         for Piece { shape, pose } in &pieces {

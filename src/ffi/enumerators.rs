@@ -40,8 +40,8 @@ enumerator!(DecidedBy {
 enumerator!(FeatureKind { None, Vertex, Edge, Face });
 enumerator!(ContactDetail { None, Depth, Manifold, ReducedManifold });
 enumerator!(DepthEnding { None, Narrow, Separated, Integers, Budget, Stalled });
-enumerator!(RayOutcome { None, Miss, Hit, Inside });
-enumerator!(PointLocation { None, Inside, On, Outside });
+enumerator!(RayOutcome { None, Miss, Hit, Inside, Undecided });
+enumerator!(PointLocation { None, Inside, On, Outside, Undecided });
 enumerator!(PoseOrder { Bisection, InOrder });
 enumerator!(RayHits { First, All, Any });
 enumerator!(CastOutcome { None, Free, Hit, Near, Budget });

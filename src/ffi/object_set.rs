@@ -110,8 +110,8 @@ pub struct CPath {
 }
 
 /// Finds a time at which a set of objects is within max_distance of any other object, or of one another if set->among is not 0.
-/// set->poses and poses of untried times are not read. Only pairs that queries test count, but both objects may be fixed. Threads
-/// and scratch: as for swiftprox_scene_least_distance.
+/// A pair that a deviation leaves undecided is one, too. set->poses and poses of untried times are not read. Only pairs that
+/// queries test count, but both objects may be fixed. Threads and scratch: as for swiftprox_scene_least_distance.
 ///
 /// On failure time and tried are 0, the pair's ids null. SWIFTPROX_ERROR_INVALID_ARGUMENT: an empty set, an unknown order, or
 /// max_distance is negative, infinite or NaN.

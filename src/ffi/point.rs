@@ -64,6 +64,7 @@ pub extern "C" fn swiftprox_library_point_location_string(location: PointLocatio
         Some(PointLocation::Inside) => c"inside",
         Some(PointLocation::On) => c"on the surface",
         Some(PointLocation::Outside) => c"outside",
+        Some(PointLocation::Undecided) => c"undecided",
         None => c"no location of a point",
     };
     string.as_ptr()

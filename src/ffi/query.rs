@@ -135,7 +135,8 @@ fn pointer_to<T>(slice: &[T]) -> *const T {
 }
 
 /// Lists the intersecting pairs, touching ones included. Each answer has only outcome, decided_by, proof, statistics, and distance,
-/// lower and upper, which are 0. A null `query` means the defaults. On failure the answer is empty.
+/// lower and upper, which are 0. Cylinders, cones and ellipsoids that may intersect are listed, too, as undecided; `intersecting`
+/// does not count them. A null `query` means the defaults. On failure the answer is empty.
 ///
 /// No accepted pair makes a query fail. SWIFTPROX_ERROR_INVALID_ARGUMENT: a member of query is out of range, even one this query
 /// does not use. SWIFTPROX_ERROR_MEMORY: no memory for a changed list of pairs; the next query tries again.

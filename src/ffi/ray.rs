@@ -42,6 +42,7 @@ pub extern "C" fn swiftprox_library_ray_outcome_string(outcome: RayOutcomeNumber
         Some(RayOutcome::Miss) => c"miss",
         Some(RayOutcome::Hit) => c"hit",
         Some(RayOutcome::Inside) => c"inside",
+        Some(RayOutcome::Undecided) => c"undecided",
         None => c"no outcome of a ray cast",
     };
     string.as_ptr()

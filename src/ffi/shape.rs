@@ -46,6 +46,9 @@ pub struct ShapeInfo {
     pub inertia: [f64; 9],
     /// Radius of the swept ball (swiftprox_shape_options), in the local frame. All other members describe the body without it.
     pub swept_radius: f64,
+    /// How far a cylinder, cone or ellipsoid reaches beyond its polyhedron at most, at any pose; 0 for other shapes. Volume, box
+    /// and inertia are the polyhedron's.
+    pub deviation: f64,
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.
@@ -70,6 +73,7 @@ impl ShapeInfo {
         bytes: 0,
         inertia: [f64::NAN; 9],
         swept_radius: f64::NAN,
+        deviation: f64::NAN,
     };
 }
 
@@ -175,6 +179,65 @@ pub unsafe extern "C" fn swiftprox_shape_create_capsule(
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
     create(shape, || Ok(Shape::from_capsule(half_length, radius)?))
+}
+
+/// Creates a cylinder about the z axis, from z = -half_height to half_height. Release it with swiftprox_shape_release. On failure
+/// `*shape` is null.
+///
+/// Queries run on a prism inside the cylinder, which reaches farther than it by at most `deviation`; 0 sets that to 1e-4 of the
+/// radius. Intervals hold for the cylinder: they are wider by the deviation. Where it hides whether objects intersect, the outcome
+/// is SWIFTPROX_OUTCOME_UNDECIDED. Points and features are the prism's: vertex k of n is at the bottom, at the angle 2 pi k / n
+/// from x; vertex n + k is above it. Grounds, gradients and compounds refuse the shape.
+///
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a length is not from 2^-960 to 2^1000, the deviation is negative, above 2^1000, NaN, or so
+/// small that the prism had more than 2048 sides; the message tells the least.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_shape_create_cylinder(
+    radius: f64,
+    half_height: f64,
+    deviation: f64,
+    shape: *mut *const Shape,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    create(shape, || Ok(Shape::from_cylinder(radius, half_height, deviation)?))
+}
+
+/// Creates a cone about the z axis, with its base at z = -half_height and its tip at z = half_height. Release it with
+/// swiftprox_shape_release. On failure `*shape` is null.
+///
+/// The deviation is as in swiftprox_shape_create_cylinder. Vertex k of n is on the base as there, vertex n is the tip.
+///
+/// Errors as of swiftprox_shape_create_cylinder.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_shape_create_cone(
+    radius: f64,
+    half_height: f64,
+    deviation: f64,
+    shape: *mut *const Shape,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    create(shape, || Ok(Shape::from_cone(radius, half_height, deviation)?))
+}
+
+/// Creates an ellipsoid about the local origin with three semi-axes along x, y and z. Release it with swiftprox_shape_release. On
+/// failure `*shape` is null.
+///
+/// The deviation is as in swiftprox_shape_create_cylinder; 0 sets it to 1e-3 of the largest semi-axis. For a sphere
+/// swiftprox_shape_create_sphere is exact.
+///
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a semi-axis is not from 2^-960 to 2^1000, the deviation is negative, above 2^1000, NaN, or so
+/// small that the polyhedron had more than 4002 vertices; the message tells the least.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_shape_create_ellipsoid(
+    semi_axes: *const f64,
+    deviation: f64,
+    shape: *mut *const Shape,
+) -> StatusCode {
+    // SAFETY: the header's pointer rules.
+    create(shape, || unsafe {
+        let semi_axes = read_vectors(semi_axes, 1, "semi_axes")?;
+        Ok(Shape::from_ellipsoid(&semi_axes[0], deviation)?)
+    })
 }
 
 /// Creates a shape from a mesh file. Release it with swiftprox_shape_release. The format is that of a registered reader
@@ -319,6 +382,7 @@ pub unsafe extern "C" fn swiftprox_shape_get_info(shape: *const Shape, info: *mu
             bytes: shape.bytes(),
             inertia: std::array::from_fn(|k| inertia[(k / 3, k % 3)]),
             swept_radius: shape.swept_radius(),
+            deviation: shape.deviation(),
         };
         // SAFETY: the header's pointer rules.
         unsafe { write_struct(info, "info", &value) }

@@ -96,13 +96,13 @@ impl Limit {
     /// Whether a polyhedron that is at least so far away belongs to a body beyond `max_distance`.
     pub fn is_beyond(&self, lower: f64) -> bool {
         debug_assert!(!lower.is_nan());
-        Radii::of_one(self.radius).off([lower, lower])[0] > self.max_distance
+        Radii::of_one(self.radius, 0.0).off([lower, lower])[0] > self.max_distance
     }
 
     /// Outcome, interval and estimate of the body for those of its polyhedron, without points; `None` where rounding hides which
     /// sign the distance has, or whether it is more than `max_distance`.
     pub fn distance(&self, of_polyhedron: [f64; 2], estimate: f64) -> Option<SignedDistance> {
-        let [lower, upper] = Radii::of_one(self.radius).off(of_polyhedron);
+        let [lower, upper] = Radii::of_one(self.radius, 0.0).off(of_polyhedron);
         let is_open = |limit: f64| lower <= limit && upper > limit;
         if is_open(0.0) || is_open(self.max_distance) {
             return None;

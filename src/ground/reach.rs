@@ -50,8 +50,9 @@ impl Reach {
     /// For poses that are accepted.
     ///
     /// # Errors
-    /// [`Error::Bug`].
+    /// [`Error::Argument`] for a curved body; [`Error::Bug`].
     pub fn new(body: Placed, ground: PlacedGround) -> Result<Reach> {
+        body.shape.refuse_deviation("grounds")?;
         let (polyhedron, pose) = (body.shape.polyhedron(), body.pose);
         let (turn, origin) = (ground.pose.rotation(), ground.pose.translation());
         let Some(inverse) = turn.try_inverse() else {

@@ -174,7 +174,7 @@ impl<'a> Plane<'a> {
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     fn new(body: Placed<'a>, half_space: &HalfSpace, outline: &Outline) -> Result<Plane<'a>> {
-        let radii = Radii::of_one(body.shape.swept_radius());
+        let radii = Radii::of_one(body.shape.swept_radius(), body.shape.deviation());
         let heights = match RoundedPlane::new(body, half_space) {
             Some(plane) => Heights::Rounded(plane),
             None => {

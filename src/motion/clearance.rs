@@ -78,7 +78,7 @@ pub fn clearance(
             config,
             upper: f64::INFINITY,
             time: config.time_begin,
-            error: 0.0,
+            error: pair.deviation(),
         };
         *answer = search.run()?;
         *cache = search.sweep.cache;

@@ -68,9 +68,14 @@ impl<'a> MovingPair<'a> {
         rounding_of_place(&self.bodies[0], &poses[0]) + rounding_of_place(&self.bodies[1], &poses[1])
     }
 
-    /// The sum of the swept radii, rounded up.
+    /// The sum of the swept radii and deviations, rounded up.
     pub fn swept(&self) -> f64 {
         self.radii.upper
+    }
+
+    /// How far the objects reach beyond their polyhedra: contact is proved where these meet, and excluded so far before.
+    pub fn deviation(&self) -> f64 {
+        self.radii.deviation
     }
 
     pub fn range(&self) -> [f64; 2] {

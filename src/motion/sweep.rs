@@ -21,6 +21,9 @@ pub(super) const BALL: f64 = 4.0;
 /// Contact is looked for after 1, 2, 4 … 2¹⁰ time tolerances.
 pub(super) const MOST_DOUBLINGS: i32 = 10;
 
+/// The same of bodies that have to go in as far as they deviate from their polyhedra.
+const MOST_DOUBLINGS_OF_CURVED: i32 = 30;
+
 /// The goal of a sweep.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Wanted {
@@ -219,7 +222,8 @@ impl<'a> Sweep<'a> {
 
     /// Contact within some time tolerances; or a step along the axis that separates the bodies at the first of these.
     fn contact_ahead(&mut self, here: &Moment, end: f64, wanted: &Wanted) -> Result<Ahead> {
-        for doubling in 0..=MOST_DOUBLINGS {
+        let most = if self.pair.deviation() > 0.0 { MOST_DOUBLINGS_OF_CURVED } else { MOST_DOUBLINGS };
+        for doubling in 0..=most {
             let time = after(here.time, wanted.shortest * f64::from(1 << doubling)).min(end);
             if time <= here.time {
                 break;
@@ -235,6 +239,8 @@ impl<'a> Sweep<'a> {
                         return self.took(step).map(Ahead::Free);
                     }
                 }
+                // They have passed each other.
+                Look::Apart(_) if doubling > MOST_DOUBLINGS => break,
                 Look::Apart(_) | Look::Open => {}
             }
             if time >= end {

@@ -42,10 +42,14 @@ impl Default for Gradient {
 /// distance has a ridge, and along a motion it changes as the direction that stays least deep says.
 ///
 /// # Errors
-/// [`Error::Argument`] for an answer without a normal and witness points, and for a reference point that is not finite;
+/// [`Error::Argument`] for an answer without a normal and witness points, for a cylinder, cone or ellipsoid, and for a reference
+/// point that is not finite;
 /// [`Error::Pose`] for a pose that is refused.
 pub fn gradient(bodies: [Placed; 2], answer: &SignedDistance, references: [Option<[f64; 3]>; 2]) -> Result<Gradient> {
-    bodies.iter().try_for_each(|body| body.pose.check())?;
+    for body in bodies {
+        body.pose.check()?;
+        body.shape.refuse_deviation("gradients")?;
+    }
     let SignedDistance { outcome, lower, upper, world1, world2, normal, .. } = *answer;
     let are_there = [normal, world1, world2].as_flattened().iter().all(|x| x.is_finite());
     if !(matches!(outcome, Outcome::Separated | Outcome::Intersecting) && are_there) {

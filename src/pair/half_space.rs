@@ -2,7 +2,7 @@
 //! integers find.
 
 use super::signed_distance::SignedDistance;
-use super::swept::sign;
+use super::swept::{Side, side_of_curved, sign};
 use crate::answer::{Feature, Outcome};
 use crate::answer::{PlacedPoints, label, normalised, placed_points};
 use crate::answer::{Radii, moved};
@@ -88,8 +88,8 @@ pub(crate) fn of_lowest(body: Placed, half_space: &HalfSpace) -> SignedDistance 
     let over = exact::OverPlane::new(polyhedron, pose, normal, offset);
     let lowest = over.lowest(start);
     let height = over.height(lowest);
-    let radii = Radii::of_one(body.shape.swept_radius());
-    let (is_apart, interval) = above_plane(&height, &radii);
+    let radii = Radii::of_one(body.shape.swept_radius(), body.shape.deviation());
+    let (side, interval) = above_plane(&height, &radii);
     let [lower, upper] = interval;
     let distance = middle(interval);
     let point = polyhedron.vertices[lowest as usize].position;
@@ -97,7 +97,11 @@ pub(crate) fn of_lowest(body: Placed, half_space: &HalfSpace) -> SignedDistance 
     let PlacedPoints { local: [local, _], world: [world, _] } = moved(&points, [pose; 2], &up, radii.outwards());
     let foot = (Vector::from(world) - Vector::from(up) * distance).into();
     SignedDistance {
-        outcome: if is_apart { Outcome::Separated } else { Outcome::Intersecting },
+        outcome: match side {
+            Side::Apart | Side::Beyond => Outcome::Separated,
+            Side::Within => Outcome::Intersecting,
+            Side::Hidden => Outcome::Undecided,
+        },
         distance,
         lower,
         upper,
@@ -111,16 +115,21 @@ pub(crate) fn of_lowest(body: Placed, half_space: &HalfSpace) -> SignedDistance 
     }
 }
 
-/// Whether a vertex with a ball about it is above a plane, and an interval of its height less the radius.
-pub(crate) fn above_plane(height: &Height, radii: &Radii) -> (bool, [f64; 2]) {
+/// Where the body of the lowest vertex with a ball about it is, and an interval of its height less the radius.
+pub(crate) fn above_plane(height: &Height, radii: &Radii) -> (Side, [f64; 2]) {
     let interval = radii.off(height.bounds());
     let [lower, upper] = interval;
     // A height beyond the doubles may be one of them less the radius.
     let is_open = (lower <= 0.0 && upper >= 0.0) || upper == f64::INFINITY;
+    let side = |is_apart: bool| if is_apart { Side::Apart } else { Side::Within };
     if height.is_below || !is_open {
-        return (lower > 0.0, interval);
+        return (side(lower > 0.0), interval);
     }
-    sign(&height.distance, radii, interval)
+    if radii.deviation > 0.0 {
+        return (side_of_curved(interval), interval);
+    }
+    let (is_apart, interval) = sign(&height.distance, radii, interval);
+    (side(is_apart), interval)
 }
 
 /// A finite number of an interval that holds one, its middle where that is finite.

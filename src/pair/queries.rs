@@ -100,8 +100,8 @@ fn query_with(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    if let Some(radii) = Radii::of(bodies) {
-        return swept::query(query, bodies, &radii, cache, config, answer);
+    if Radii::are_there(bodies) {
+        return swept::query(query, bodies, cache, config, answer);
     }
     ladder::ask(query, glances, bodies, cache, config, answer)
 }

@@ -26,7 +26,6 @@ const NOWHERE: [f64; 3] = [f64::NAN; 3];
 pub(super) fn query(
     query: Query,
     bodies: &[Placed; 2],
-    radii: &Radii,
     cache: &mut PairCache,
     config: &PairConfig,
     answer: &mut PairAnswer,
@@ -35,8 +34,9 @@ pub(super) fn query(
         return Err(config.first_fault());
     }
     if !environment::is_default() {
-        return with_default(|| self::query(query, bodies, radii, cache, config, answer));
+        return with_default(|| self::query(query, bodies, cache, config, answer));
     }
+    let radii = &Radii::of_both(bodies);
     let is_verdict = query == Query::Intersection && config.max_distance == f64::INFINITY;
     let tolerance = if is_verdict { 0.0 } else { config.max_distance };
     if are_round(bodies) {
@@ -47,8 +47,10 @@ pub(super) fn query(
         }
     }
     let of_polyhedra = PairConfig { max_distance: radii.with(tolerance), ..*config };
-    // With the radii as a tolerance a verdict tells whether polyhedra are nearer, but not with more than that.
-    let asked = if query == Query::Intersection && !is_verdict { Query::Distance } else { query };
+    // With the radii as a tolerance a verdict tells whether polyhedra are nearer, but not with more than that: integers, which tell
+    // how near, are not asked of curved bodies.
+    let needs_distance = !is_verdict || radii.deviation > 0.0;
+    let asked = if query == Query::Intersection && needs_distance { Query::Distance } else { query };
     let before = *answer;
     let asked = ladder::ask(asked, Glances::Asked, bodies, cache, &of_polyhedra, answer).and_then(|()| {
         if query == Query::Approximate && is_too_wide(answer, radii, config) {
@@ -67,7 +69,8 @@ pub(super) fn query(
 /// Whether an interval was narrow enough for the polyhedra, and is not for the remaining distance, whose `lower` is less.
 fn is_too_wide(found: &PairAnswer, radii: &Radii, config: &PairConfig) -> bool {
     let [lower, upper] = radii.off([found.lower, found.upper]);
-    let width = upper - lower;
+    // The deviation stays, however narrow the interval of the polyhedra is.
+    let width = upper - lower - radii.deviation;
     let may_be_wide = config.absolute_error > 0.0 || config.relative_error > 0.0;
     let is_narrow = width <= config.absolute_error || (lower > 0.0 && width <= config.relative_error * lower);
     // For polyhedra that intersect, the answer is already complete.
@@ -108,8 +111,12 @@ fn take_off(query: Query, bodies: &[Placed; 2], radii: &Radii, tolerance: f64, a
             fill_nothing(answer);
             answer.normal = normal;
         }
-        Side::Apart => {
+        Side::Apart | Side::Hidden => {
             answer.outcome = Outcome::Separated;
+            if side == Side::Hidden {
+                (answer.outcome, answer.lower) = (Outcome::Undecided, 0.0);
+            }
+            let [lower, upper] = [answer.lower, answer.upper];
             answer.distance = clamp(found - radii.each[0] - radii.each[1], lower, upper);
             // A verdict has none.
             if answer.feature1.kind != FeatureKind::None {
@@ -193,21 +200,21 @@ pub(super) fn depth(
     Ok(())
 }
 
-/// A depth from the signed distance of the bodies.
+/// A depth from the signed distance of the bodies; of bodies that may be apart it is from 0 on.
 fn fill_depth(answer: &mut DepthAnswer, signed: &SignedDistance, ending: DepthEnding, statistics: DepthStatistics) {
     let &SignedDistance { normal, feature1, feature2, local1, local2, world1, world2, .. } = signed;
-    if signed.outcome != Outcome::Intersecting {
+    if matches!(signed.outcome, Outcome::Separated | Outcome::Beyond) {
         let (outcome, ending) = (Outcome::Separated, DepthEnding::Separated);
         let nothing = DepthAnswer { outcome, ending, depth: 0.0, lower: 0.0, upper: 0.0, normal, ..Default::default() };
         *answer = DepthAnswer { statistics, ..nothing };
         return;
     }
     *answer = DepthAnswer {
-        outcome: Outcome::Intersecting,
+        outcome: signed.outcome,
         ending,
         // No −0.
-        depth: 0.0 - signed.distance,
-        lower: 0.0 - signed.upper,
+        depth: (0.0 - signed.distance).max(0.0),
+        lower: (0.0 - signed.upper).max(0.0),
         upper: 0.0 - signed.lower,
         local1,
         local2,
@@ -262,7 +269,11 @@ fn of_bodies(
     let points = PlacedPoints { local: [found.local1, found.local2], world: [found.world1, found.world2] };
     let points = moved(&points, bodies.map(|body| body.pose), &found.normal, radii.outwards());
     let ([local1, local2], [world1, world2]) = (points.local, points.world);
-    let outcome = if side == Side::Apart { Outcome::Separated } else { Outcome::Intersecting };
+    let outcome = match side {
+        Side::Apart => Outcome::Separated,
+        Side::Hidden => Outcome::Undecided,
+        Side::Within | Side::Beyond => Outcome::Intersecting,
+    };
     let distance = clamp(found.distance - radii.each[0] - radii.each[1], lower, upper);
     *answer = SignedDistance { outcome, distance, lower, upper, local1, local2, world1, world2, ..*found };
     Ok(())
@@ -270,12 +281,14 @@ fn of_bodies(
 
 /// Where bodies are to each other.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-enum Side {
+pub(crate) enum Side {
     /// Farther apart than the tolerance.
     Beyond,
     Apart,
     /// In each other, or touching.
     Within,
+    /// Apart or in each other: the deviation hides it.
+    Hidden,
 }
 
 /// From an interval of the polyhedra's signed distance, or a lower end beyond the radii and the tolerance: the side, and the
@@ -296,6 +309,14 @@ fn judge(
     if upper < 0.0 {
         return Ok((Side::Within, interval));
     }
+    if radii.deviation > 0.0 {
+        return Ok(match side_of_curved(interval) {
+            Side::Apart if is_beyond || lower > tolerance => {
+                (Side::Beyond, [lower.max(tolerance.min(f64::MAX)), f64::INFINITY])
+            }
+            side => (side, interval),
+        });
+    }
     // A distance beyond the doubles may be one of them less the radii.
     if (lower > 0.0) & !is_beyond & (upper <= tolerance) & (upper < f64::INFINITY) {
         return Ok((Side::Apart, interval));
@@ -304,6 +325,17 @@ fn judge(
         return Ok((Side::Beyond, [lower.max(tolerance.min(f64::MAX)), f64::INFINITY]));
     }
     in_integers(|| judge_exactly(bodies, radii, tolerance, is_beyond, interval))
+}
+
+/// Where curved bodies are, by an interval of their signed distance: nothing else tells.
+pub(super) fn side_of_curved([lower, upper]: [f64; 2]) -> Side {
+    if upper <= 0.0 {
+        Side::Within
+    } else if lower > 0.0 {
+        Side::Apart
+    } else {
+        Side::Hidden
+    }
 }
 
 /// The same of an interval of the bodies'.

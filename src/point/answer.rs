@@ -15,6 +15,8 @@ pub enum PointLocation {
     On = 2,
     /// Not in the body.
     Outside = 3,
+    /// Inside, on or outside: the deviation of a cylinder, cone or ellipsoid hides it.
+    Undecided = 4,
 }
 
 /// Position of a point relative to a body, and the nearest feature of the surface. Unset numbers are NaN.
@@ -29,7 +31,7 @@ pub struct PointAnswer {
     pub distance: f64,
     /// Lower end of the rigorous interval; above 0 only outside.
     pub lower: f64,
-    /// Upper end of the rigorous interval; at most 0 unless outside.
+    /// Upper end of the rigorous interval; at most 0 unless outside or undecided.
     pub upper: f64,
     /// The nearest point of the surface, in the body's local frame.
     pub local: [f64; 3],
@@ -66,7 +68,7 @@ pub struct SupportVertex {
     /// The same in the world, rounded.
     pub world: [f64; 3],
     /// `height[0]` ≤ direction · x ≤ `height[1]` for its exact place x in the world: the largest over the body, the ball that is
-    /// swept over it included.
+    /// swept over it included, or the deviation of a curved body at the upper end.
     pub height: [f64; 2],
 }
 

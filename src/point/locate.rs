@@ -24,7 +24,7 @@ pub fn locate_point(body: Placed, point: [f64; 3]) -> Result<PointAnswer> {
         let there = Pose::new(&Matrix::identity(), &point.into());
         let (mut cache, mut signed) = (SignedDistanceCache::default(), SignedDistance::default());
         signed_distance([vertex.at(&there), body], &mut cache, &PairConfig::default(), &mut signed)?;
-        let answer = PointAnswer::new(location(&signed), &signed);
+        let answer = PointAnswer::new(location(&signed, body.shape.deviation()), &signed);
         Ok(PointAnswer { normal: normal(&answer, &point.into()), ..answer })
     })
 }
@@ -45,10 +45,13 @@ fn normal(answer: &PointAnswer, point: &Vector) -> [f64; 3] {
 
 /// If a common point is all of one body, the depth is 0 just where it is on the surface of the other. A greater depth is never
 /// reported as 0 at both ends.
-fn location(signed: &SignedDistance) -> PointLocation {
+fn location(signed: &SignedDistance, deviation: f64) -> PointLocation {
     match signed.outcome {
         Outcome::Intersecting if signed.lower == 0.0 => PointLocation::On,
+        // On the polyhedron of a curved body.
+        Outcome::Intersecting if signed.upper == 0.0 && deviation > 0.0 => PointLocation::Undecided,
         Outcome::Intersecting => PointLocation::Inside,
+        Outcome::Undecided => PointLocation::Undecided,
         _ => PointLocation::Outside,
     }
 }

@@ -15,7 +15,8 @@ use crate::placed::exact::body::Body;
 use crate::placed::exact::dyadic::DyadicVector;
 
 /// The support vertex of a body along a direction of the world, of any length but 0: guaranteed, whatever the magnitudes. For a
-/// body with a swept radius, place and height are those of the ball about the vertex.
+/// body with a swept radius, place and height are those of the ball about the vertex. Of a curved body vertex and place are the
+/// polyhedron's, and the height is the body's.
 ///
 /// # Errors
 /// [`Error::Argument`] for a direction that is 0 or not finite, [`Error::Pose`] for a pose that is not accepted, as in
@@ -43,7 +44,7 @@ pub fn support(body: Placed, direction: [f64; 3]) -> Result<SupportVertex> {
             exact: i32::from(!is_certain),
             local: points.local[0],
             world: points.world[0],
-            height: height(polyhedron, body.pose, radius, &direction.into(), vertex),
+            height: height(body, &direction.into(), vertex),
         })
     })
 }
@@ -76,7 +77,8 @@ fn climb_exactly(polyhedron: &Polyhedron, pose: &Pose, direction: [f64; 3], from
 /// Each of its terms d·R·c, d·R·p, d·T and r·|d|, summed, goes through at most nine roundings: 9u of their absolute values, which
 /// are themselves rounded as often. Values that underflow are below the smallest normal number; |d| is in units of its largest
 /// component, of which the radius makes a length first, so that no square does.
-fn height(polyhedron: &Polyhedron, pose: &Pose, radius: f64, direction: &Vector, vertex: u32) -> [f64; 2] {
+fn height(body: Placed, direction: &Vector, vertex: u32) -> [f64; 2] {
+    let (polyhedron, pose) = (body.shape.polyhedron(), body.pose);
     let (centre, position) = (polyhedron.centre, polyhedron.vertices[vertex as usize].position);
     let (local, parts) = (centre + position, centre.abs() + position.abs());
     let (mut value, mut terms) = (0.0, 0.0);
@@ -85,12 +87,13 @@ fn height(polyhedron: &Polyhedron, pose: &Pose, radius: f64, direction: &Vector,
         terms += d.abs() * (x.abs() * parts.x + y.abs() * parts.y + z.abs() * parts.z + t.abs());
     }
     let largest = direction.amax();
-    let ball = radius * largest * (direction / largest).norm();
-    (value, terms) = (value + ball, terms + ball);
+    let times_length = |length: f64| length * largest * (direction / largest).norm();
+    let (ball, deviation) = (times_length(body.shape.swept_radius()), times_length(body.shape.deviation()));
+    (value, terms) = (value + ball, terms + ball + deviation);
     let error = 12.0 * U * terms + f64::MIN_POSITIVE;
     // A value that overflows says nothing.
     match value.is_finite() && error.is_finite() {
-        true => [(value - error).next_down(), (value + error).next_up()],
+        true => [(value - error).next_down(), (value + deviation + error).next_up()],
         false => [f64::NEG_INFINITY, f64::INFINITY],
     }
 }

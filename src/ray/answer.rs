@@ -15,6 +15,9 @@ pub enum RayOutcome {
     Hit = 2,
     /// The ray begins in the body, at a place that is not the first of its line in it.
     Inside = 3,
+    /// The deviation of a cylinder, cone or ellipsoid hides whether the ray meets it, or whether it begins in it. If it meets it,
+    /// it enters and leaves within the intervals.
+    Undecided = 4,
 }
 
 /// The part of a ray that is in a body, `entry ≤ t ≤ exit`. Unset numbers are NaN.

@@ -221,7 +221,8 @@ impl Scene {
 
     // --- Queries -----------------------------------------------------------------------------------------------------------------
 
-    /// Lists the intersecting pairs (touching ones are), each with its verdict alone.
+    /// Lists the intersecting pairs (touching ones are), each with its verdict alone. Pairs of curved shapes that their deviation
+    /// leaves undecided are listed, too, and do not count as intersecting.
     ///
     /// # Errors
     /// [`Error::Argument`] for a `max_distance`, an error or a budget that is negative or NaN and a step budget of 0, also where

@@ -35,10 +35,11 @@ const MAGIC: [u8; 8] = *b"SWFTPRX\x1a";
 const WHAT: &str = "the shape file";
 
 /// The version that is written.
-const VERSION: u32 = 3;
+const VERSION: u32 = 4;
 
-/// A version that is read, too: it has no swept radius.
+/// Versions that are read, too: they have no swept radius, and no deviation.
 const VERSION_WITHOUT_RADIUS: u32 = 2;
+const VERSION_WITHOUT_DEVIATION: u32 = 3;
 
 /// Saves a shape in a file, replacing any file there.
 ///
@@ -106,6 +107,7 @@ fn write(shape: &Shape, scale: f64, with_levels: bool) -> Result<Vec<u8>> {
     writer.real(factor)?;
     writer.real(polyhedron.contact_faces.noise * scale)?;
     writer.real(at_scale(shape.swept_radius(), scale)?)?;
+    writer.real(at_scale(shape.deviation(), scale)?)?;
     writer.number(hierarchy.kind as u32)?;
     let levels = if with_levels { &hierarchy.levels[..] } else { &[] };
     writer.number(levels.len() as u32)?;
@@ -172,6 +174,10 @@ fn read(bytes: &[u8], admits_automatic_levels: bool, progress: &mut Progress) ->
     if !(0.0..=LARGEST_SWEPT_RADIUS).contains(&swept_radius) {
         return damaged("the swept radius is no length");
     }
+    let deviation = if version <= VERSION_WITHOUT_DEVIATION { 0.0 } else { reader.real()? };
+    if !(0.0..=LARGEST_SWEPT_RADIUS).contains(&deviation) {
+        return damaged("the deviation is no length");
+    }
     polyhedron.contact_faces = find_contact_faces(&polyhedron, noise, &mut bodies.part(reader.done(), reader.done()))?;
     let kind = reader.number()?;
     let Some(kind) = read_kind(kind) else {
@@ -195,7 +201,7 @@ fn read(bytes: &[u8], admits_automatic_levels: bool, progress: &mut Progress) ->
         return damaged("there is more behind its end");
     }
     let hierarchy = sound(Hierarchy::restored(&polyhedron, kind, levels, &mut progress.part(SHARE_OF_BODIES, 1.0)))?;
-    Shape::from_parts(polyhedron, hierarchy, swept_radius)
+    Ok(Shape::from_parts(polyhedron, hierarchy, swept_radius)?.with_deviation(deviation))
 }
 
 fn read_kind<T: Enumerator>(number: u32) -> Option<T> {

@@ -7,6 +7,7 @@ mod transform;
 mod patch;
 mod face;
 mod solids;
+mod curved;
 mod triangle;
 pub mod file;
 mod placed;
@@ -211,6 +212,8 @@ pub struct Shape {
     hierarchy: OnNeed<Hierarchy>,
     /// Radius of the ball that is swept over the polyhedron.
     swept_radius: f64,
+    /// The curved body holds the polyhedron, and reaches no farther from it than this at any pose; 0 for a body that is its own.
+    deviation: f64,
     /// Its support function for approximate distances, as far as it is made.
     pub(crate) support_map: SupportMap,
     pub(crate) mark: Mark,
@@ -221,7 +224,8 @@ impl PartialEq for Shape {
     fn eq(&self, other: &Shape) -> bool {
         let [levels, others] = [self.hierarchy(), other.hierarchy()];
         let are_automatic = [levels, others].map(|levels| levels.kind == HierarchyKind::Automatic);
-        (&self.polyhedron, self.swept_radius) == (&other.polyhedron, other.swept_radius)
+        (&self.polyhedron, self.swept_radius, self.deviation)
+            == (&other.polyhedron, other.swept_radius, other.deviation)
             && (are_automatic == [true; 2] || levels == others)
     }
 }
@@ -435,7 +439,14 @@ impl Shape {
         let extent = Extent::new(&polyhedron)?;
         let hierarchy = made.map_or_else(OnNeed::new, OnNeed::from);
         let support_map = SupportMap::new(&polyhedron)?;
-        Ok(Shape { polyhedron, extent, hierarchy, support_map, swept_radius, mark: Mark::new() })
+        Ok(Shape { polyhedron, extent, hierarchy, support_map, swept_radius, deviation: 0.0, mark: Mark::new() })
+    }
+
+    /// The same polyhedron, in a curved body that reaches so much farther.
+    pub(crate) fn with_deviation(mut self, deviation: f64) -> Shape {
+        debug_assert!((0.0..=LARGEST_SWEPT_RADIUS).contains(&deviation));
+        self.deviation = deviation;
+        self
     }
 
     /// The same body with other levels of detail, built at once if they are not automatic; those that it has are dropped.
@@ -444,7 +455,7 @@ impl Shape {
     /// Same as [`Hierarchy::build`].
     pub fn with_levels(self, options: &HierarchyOptions, progress: &mut Progress) -> Result<Shape> {
         with_default(|| options.check())?;
-        let Shape { polyhedron, swept_radius, .. } = self;
+        let Shape { polyhedron, swept_radius, deviation, .. } = self;
         let hierarchy = match options.kind {
             HierarchyKind::Automatic => {
                 progress.report(1.0)?;
@@ -452,7 +463,7 @@ impl Shape {
             }
             _ => Hierarchy::build(&polyhedron, options, progress)?,
         };
-        Shape::from_parts(polyhedron, hierarchy, swept_radius)
+        Ok(Shape::from_parts(polyhedron, hierarchy, swept_radius)?.with_deviation(deviation))
     }
 
     /// The same shape with every length multiplied by `scale`, a power of two: vertices, levels of detail and distances are
@@ -488,6 +499,28 @@ impl Shape {
     #[inline]
     pub fn swept_radius(&self) -> f64 {
         self.swept_radius
+    }
+
+    /// How far the curved body reaches beyond its polyhedron at most, wherever it is placed; 0 for all but cylinders, cones and
+    /// ellipsoids.
+    #[inline]
+    pub fn deviation(&self) -> f64 {
+        self.deviation
+    }
+
+    /// Refuses a curved body where its polyhedron would be taken for it.
+    ///
+    /// # Errors
+    /// [`Error::Argument`], which names the cure.
+    pub(crate) fn refuse_deviation(&self, what: &str) -> Result<()> {
+        if self.deviation == 0.0 {
+            return Ok(());
+        }
+        Err(Error::Argument(format!(
+            "{what} take no cylinder, cone or ellipsoid, as they would take its polyhedron for it, which is up to {:e} smaller: make \
+             a hull of the polyhedron's vertices (swiftprox_shape_copy_vertices, swiftprox_shape_create_from_points)",
+            self.deviation
+        )))
     }
 
     /// The inertia tensor of a body of mass 1 and of uniform density about its centre of mass, in the axes of the local frame:

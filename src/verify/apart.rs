@@ -69,11 +69,13 @@ fn prove_interval_exactly(
     near: &[VertexPair],
 ) -> Result<()> {
     let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], near);
-    let [radius1, radius2] = radii.each;
-    let against = |length: f64| truth.compare_sum(&[length, radius1, radius2]);
+    let ([least1, least2], [most1, most2, deviation]) = (radii.each, radii.most());
+    let against = |length: f64| truth.compare_sum(&[length, most1, most2, deviation]);
     // Not 0, even where it is less than the least double.
-    let is_verdict_right = answer.outcome == Outcome::Intersecting || against(0.0).is_gt();
-    if !(is_verdict_right && against(answer.lower).is_ge() && against(answer.upper).is_le()) {
+    let says_apart = !matches!(answer.outcome, Outcome::Intersecting | Outcome::Undecided);
+    let is_verdict_right = !says_apart || against(0.0).is_gt();
+    let is_near_enough = truth.compare_sum(&[answer.upper, least1, least2]).is_le();
+    if !(is_verdict_right && against(answer.lower).is_ge() && is_near_enough) {
         return Err(not_in_interval(&truth, radii, answer));
     }
     let least = f64::from_bits(1);

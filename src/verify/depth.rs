@@ -32,6 +32,7 @@ use std::cmp::Ordering;
 /// |---|---|
 /// | [`Outcome::Intersecting`] | the objects have a common point; `lower` ≤ d ≤ `upper`; `upper` is 0 just if d is |
 /// | [`Outcome::Separated`] | they have none; all of the interval is 0 |
+/// | [`Outcome::Undecided`] | d ≤ `upper`, of curved objects; `lower` is 0 |
 ///
 /// `lower` ≤ `depth` ≤ `upper` holds. The other results are rounded, so they hold up to the allowance of [`super::verify`]:
 /// points and features as there, and world2 − world1 is `depth` · `normal` up to the allowance and `upper` − `lower`.
@@ -54,6 +55,7 @@ pub fn verify_depth(bodies: [Placed; 2], cache: &DepthCache, answer: &DepthAnswe
         match answer.outcome {
             Outcome::Intersecting => check_overlapping(polyhedra, poses, cache, &radii, answer),
             Outcome::Separated => check_separated(polyhedra, poses, &radii, answer),
+            Outcome::Undecided => check_hidden(polyhedra, poses, &radii, answer),
             _ => Err(Error::Argument("the answer holds no depth".into())),
         }
     })
@@ -75,12 +77,27 @@ fn check_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii
         return Ok(());
     }
     let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
-    if truth.compare_sum(&radii.each).is_le() {
+    if truth.compare_sum(&radii.most()).is_le() {
         return Err(unverified("the objects have a common point".into()));
     }
     let between = between_origins(polyhedra, poses);
     let allowed = allowed(polyhedra, &between, radii.each).ok_or_else(too_large)?;
     check_normal(polyhedra, poses, &normal, &between, radii.lower - allowed)
+}
+
+/// Curved bodies whose polyhedra are apart, and may themselves be.
+fn check_hidden(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, answer: &DepthAnswer) -> Result<()> {
+    let &DepthAnswer { outcome, lower, depth, upper, local1, local2, world1, world2, normal, .. } = answer;
+    let &DepthAnswer { feature1, feature2, .. } = answer;
+    check_interval(answer)?;
+    if radii.deviation == 0.0 || lower != 0.0 {
+        return Err(unverified("the depth of objects that are said to be undecided".into()));
+    }
+    let points = PairAnswer { local1, local2, world1, world2, normal, feature1, feature2, ..PairAnswer::UNSAID };
+    // Their distance is at most what the deviations are.
+    let signed = PairAnswer { outcome, lower: -upper, distance: -depth, upper: radii.deviation, ..points };
+    let allowed = verify_disjoint(polyhedra, poses, radii, &signed)?;
+    check_points(polyhedra, poses, radii, allowed, &signed)
 }
 
 fn check_interval(answer: &DepthAnswer) -> Result<()> {
@@ -185,9 +202,11 @@ pub(super) fn prove_depth(
 fn check_swept_position(truth: &exact::ExactDistance, radii: &Radii, upper: f64) -> Result<()> {
     match (truth.compare_sum(&radii.each), upper > 0.0) {
         (Ordering::Greater, _) => Err(unverified("the objects have no common point".into())),
-        (Ordering::Equal, true) => Err(unverified("an overlap of objects that only touch".into())),
+        (Ordering::Equal, true) if radii.deviation == 0.0 => {
+            Err(unverified("an overlap of objects that only touch".into()))
+        }
         (Ordering::Less, false) => Err(unverified("no overlap of objects that overlap".into())),
-        (Ordering::Equal, false) | (Ordering::Less, true) => Ok(()),
+        (Ordering::Equal, _) | (Ordering::Less, true) => Ok(()),
     }
 }
 

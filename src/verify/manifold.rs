@@ -80,8 +80,8 @@ fn check_counts(config: &ManifoldConfig, manifold: &Manifold) -> Result<()> {
     let Manifold { outcome, reference, point_count, found_count, .. } = *manifold;
     let most = match (outcome, reference) {
         (Outcome::Beyond, 0) => 0,
-        (Outcome::Separated | Outcome::Intersecting, 0) => 1,
-        (Outcome::Separated | Outcome::Intersecting, 1 | 2) => u32::MAX,
+        (Outcome::Separated | Outcome::Intersecting | Outcome::Undecided, 0) => 1,
+        (Outcome::Separated | Outcome::Intersecting | Outcome::Undecided, 1 | 2) => u32::MAX,
         _ => return Err(unverified(format!("body {reference} as the reference of a manifold that is {outcome:?}"))),
     };
     let is_reduced = !config.reduces || point_count <= 4;
@@ -112,7 +112,8 @@ fn check_contact(
                 && (upper < f64::INFINITY || lower == f64::MAX)
         }
         Outcome::Beyond => config.max_distance <= lower && lower <= upper && lower < f64::INFINITY,
-        Outcome::None | Outcome::Undecided => return Err(Error::Argument("the manifold holds no outcome".into())),
+        Outcome::Undecided => radii.deviation > 0.0 && lower <= 0.0 && 0.0 < upper && upper < f64::INFINITY,
+        Outcome::None => return Err(Error::Argument("the manifold holds no outcome".into())),
     };
     if !is_sound {
         return Err(unverified(format!("an interval from lower to upper of {lower:e}, {upper:e}: {outcome:?}")));
@@ -121,7 +122,7 @@ fn check_contact(
         let (_, allowed) = prove_depth(polyhedra, poses, cache.depth(), radii, &normal.into(), [-upper, -lower])?;
         return Ok(allowed);
     }
-    let apart = PairAnswer { outcome: Outcome::Separated, lower, distance: lower, upper, normal, ..PairAnswer::UNSAID };
+    let apart = PairAnswer { outcome, lower, distance: lower, upper, normal, ..PairAnswer::UNSAID };
     verify_disjoint(polyhedra, poses, radii, &apart)
 }
 

@@ -36,14 +36,15 @@ use witness::{Witness, difference_of};
 /// Re-checks an answer of [`crate::pair`] for the same shapes and poses.
 ///
 /// The verdict and the interval are proved for the exact objects R·v + T, with no tolerance; of shapes with a swept radius for
-/// those with the ball around each point:
+/// those with the ball around each point, of curved ones for all bodies that hold the polyhedron and reach no farther from it than
+/// the deviation:
 ///
 /// | outcome | what is proved, d the true distance |
 /// |---|---|
 /// | [`Outcome::Separated`] | d > 0; `lower` ≤ d ≤ `upper`; `lower` > 0, or d is below the smallest double |
 /// | [`Outcome::Beyond`] | d > 0; `lower` ≤ d |
 /// | [`Outcome::Intersecting`] | the differences of the proof's vertex pairs hold the origin in their hull |
-/// | [`Outcome::Undecided`] | d ≤ `upper`; `lower` is 0 |
+/// | [`Outcome::Undecided`] | d ≤ `upper`; `lower` is 0; of curved objects, unless by [`DecidedBy::Budget`], also what is checked of disjoint objects |
 ///
 /// `lower` ≤ `distance` ≤ `upper` holds for every outcome. `upper` is +∞ and `distance` is `lower` for [`Outcome::Beyond`]; all
 /// three are 0 for [`Outcome::Intersecting`].
@@ -132,6 +133,9 @@ fn verify_undecided(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radi
     if !(lower == 0.0 && 0.0 <= distance && distance <= upper) {
         return Err(unverified(format!("not 0 = lower ≤ distance ≤ upper: {lower:e}, {distance:e}, {upper:e}")));
     }
+    if radii.deviation > 0.0 && answer.decided_by != DecidedBy::Budget {
+        return verify_hidden(polyhedra, poses, radii, answer);
+    }
     check_no_points(answer)?;
     check_no_normal(answer)?;
     if upper == f64::INFINITY {
@@ -144,6 +148,15 @@ fn verify_undecided(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radi
     } else {
         Ok(())
     }
+}
+
+/// The polyhedra are apart: the bodies are no deeper in each other than all that is swept and their deviations.
+fn verify_hidden(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, answer: &PairAnswer) -> Result<()> {
+    let allowed = verify_disjoint(polyhedra, poses, radii, &PairAnswer { lower: -radii.upper, ..*answer })?;
+    if !are_points_said(&answer.into()) {
+        return Ok(());
+    }
+    check_points(polyhedra, poses, radii, allowed, answer)
 }
 
 fn check_no_points(answer: &PairAnswer) -> Result<()> {

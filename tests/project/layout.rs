@@ -96,7 +96,7 @@ fn layouts() -> Vec<Layout> {
         swiftprox_mesh = CMesh { vertices, vertex_count, indices, valences, face_count },
         swiftprox_shape_info = ShapeInfo {
             struct_size, dimension, vertex_count, edge_count, face_count, triangle_count, volume,
-            centre_of_mass, radius, lower_corner, upper_corner, bytes, inertia, swept_radius
+            centre_of_mass, radius, lower_corner, upper_corner, bytes, inertia, swept_radius, deviation
         },
         swiftprox_feature = Feature { kind, ids },
         swiftprox_statistics = Statistics { marching_steps, fallback_iterations, exact_iterations, levels },

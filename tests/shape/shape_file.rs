@@ -113,7 +113,7 @@ fn through_a_file() {
     );
     bytes[8] = 1;
     fs::write(&path, &bytes).unwrap();
-    assert!(message(&path).contains("version 1; this library reads versions 2 to 3"), "{}", message(&path));
+    assert!(message(&path).contains("version 1; this library reads versions 2 to 4"), "{}", message(&path));
     fs::write(&path, "OFF\n4 4 6\n").unwrap();
     assert!(message(&path).contains("no shape file"), "{}", message(&path));
     // What could not be done, to which file, and the system's words why.
@@ -297,7 +297,7 @@ fn levels_of_a_body_with_a_far_vertex_come_back() {
     assert_eq!(loaded, shape);
 }
 
-/// A file of version 2 has no radius; one that is no length is damage.
+/// A file of version 2 has no radius, one of version 3 no deviation; what is no length is damage.
 #[test]
 fn files_of_before_radii_were_are_read() {
     let ends = [Vector::zeros(), Vector::x()];
@@ -308,12 +308,17 @@ fn files_of_before_radii_were_are_read() {
     let mut bytes = to_bytes(&capsule(0.375)).unwrap();
     bytes.truncate(bytes.len() - 8);
     let at = bytes.windows(8).position(|part| part == 0.375_f64.to_le_bytes()).unwrap();
-    let mut old = [&bytes[..at], &bytes[at + 8..]].concat();
-    old[8] = 2;
-    assert_eq!(from_bytes(&with_checksum(old)).unwrap(), capsule(0.0));
+    for (version, length, radius) in [(2, 0, 0.0), (3, 8, 0.375)] {
+        let mut old = [&bytes[..at + length], &bytes[at + 16..]].concat();
+        old[8] = version;
+        assert_eq!(from_bytes(&with_checksum(old)).unwrap(), capsule(radius));
+    }
     for wrong in [-1.0, f64::NAN, f64::INFINITY] {
         let damaged = [&bytes[..at], &f64::to_le_bytes(wrong), &bytes[at + 8..]].concat();
         let refused = from_bytes(&with_checksum(damaged)).unwrap_err();
         assert!(refused.to_string().contains("swept radius"), "{refused}");
+        let damaged = [&bytes[..at + 8], &f64::to_le_bytes(wrong), &bytes[at + 16..]].concat();
+        let refused = from_bytes(&with_checksum(damaged)).unwrap_err();
+        assert!(refused.to_string().contains("deviation"), "{refused}");
     }
 }

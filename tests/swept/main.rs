@@ -1,6 +1,7 @@
 //! Bodies over which balls are swept: spheres, capsules and hulls with round edges, against distances of points and polyhedra in
 //! rational numbers, less their radii.
 
+mod curved;
 mod half_spaces;
 mod magnitudes;
 mod pairs;

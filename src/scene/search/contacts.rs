@@ -61,7 +61,7 @@ impl Details {
             pair::depth(bodies, cache, &self.depth, &mut contact.depth)?;
         }
         if let Some(config) = &self.manifold {
-            let is_deep = contact.depth.outcome == Outcome::Intersecting;
+            let is_deep = matches!(contact.depth.outcome, Outcome::Intersecting | Outcome::Undecided);
             let known = if is_deep { Known::Deep(&contact.depth) } else { Known::Apart(answer) };
             contact.manifold = found.points_of(bodies, known, reference, config)?;
         }

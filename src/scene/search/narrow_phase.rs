@@ -343,8 +343,9 @@ impl<'a> Pass<'a> {
         }
         findings.statistics.count(answer);
         let is_listed = match answer.outcome {
-            Outcome::Intersecting => true,
-            Outcome::Separated | Outcome::Undecided => !self.is_verdict,
+            // A verdict leaves only curved bodies undecided, and these may intersect.
+            Outcome::Intersecting | Outcome::Undecided => true,
+            Outcome::Separated => !self.is_verdict,
             Outcome::Beyond | Outcome::None => false,
         };
         if !is_listed {

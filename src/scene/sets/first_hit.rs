@@ -137,7 +137,8 @@ fn answer_if_hit(bodies: [Placed; 2], max_distance: f64, cache: &mut PairCache) 
     let config = PairConfig { max_distance: limit, ..PairConfig::default() };
     pair::intersection(bodies, cache, &config, &mut answer)?;
     let hits = match answer.outcome {
-        Outcome::Intersecting => true,
+        // Curved bodies that may meet are not free.
+        Outcome::Intersecting | Outcome::Undecided => true,
         Outcome::Separated => max_distance > 0.0,
         _ => false,
     };

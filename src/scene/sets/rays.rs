@@ -15,12 +15,12 @@ use crate::scene::world::rows::Label;
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
 pub enum RayHits {
-    /// The first that it meets.
+    /// The first that it meets, or may meet where a curved one is undecided.
     #[default]
     First = 0,
     /// All, in order.
     All = 1,
-    /// Any, found soonest.
+    /// Any, found soonest; an undecided one where it certainly meets none.
     Any = 2,
 }
 
@@ -96,11 +96,19 @@ pub(crate) fn cast(question: Question, room: &mut Room) -> Result<()> {
         }
         let Label { object, user_data, piece, .. } = proxies.labels[row as usize];
         push(hits, SceneRayHit { object, user_data, piece, row, answer })?;
+        // What is behind one that it may miss may be the first, or the only one.
+        let is_certain = answer.outcome != RayOutcome::Undecided;
         match wanted {
-            RayHits::Any => break,
-            RayHits::First => until = until.min(answer.entry[1]),
-            RayHits::All => {}
+            RayHits::Any if is_certain => {
+                hits.drain(..hits.len() - 1);
+                break;
+            }
+            RayHits::First if is_certain => until = until.min(answer.entry[1]),
+            _ => {}
         }
+    }
+    if wanted == RayHits::Any {
+        hits.truncate(1);
     }
     put_in_order(&others, ray, hits)?;
     if wanted == RayHits::First {

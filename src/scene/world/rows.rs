@@ -202,7 +202,7 @@ impl<'a> Rows<'a> {
 /// A box around a placed shape and everything no farther from it than this; `spheres` are those of [`placed`].
 pub(crate) fn grown_box(shape: &Shape, pose: &Pose, spheres: &Spheres, grown: f64) -> Aabb {
     let reach = shape.extent().reach(pose, spheres.outer.into());
-    Aabb::around(spheres.centre, &reach, grown + centre_error(shape, pose) + shape.swept_radius())
+    Aabb::around(spheres.centre, &reach, grown + centre_error(shape, pose) + shape.swept_radius() + shape.deviation())
 }
 
 /// Balls around and in a placed shape, and whether its rotation is rigid up to rounding.
@@ -218,7 +218,7 @@ pub(crate) fn placed(shape: &Shape, pose: &Pose, defect: f64) -> (Spheres, bool)
     let centre = if error > 0.0 { pose.transform(&polyhedron.centre) } else { pose.translation() };
     // A pose does not stretch the ball that is swept.
     let swept = shape.swept_radius();
-    let outer = (polyhedron.radius * (1.0 + stretch) + error + swept) * (1.0 + 8.0 * U);
+    let outer = (polyhedron.radius * (1.0 + stretch) + error + swept + shape.deviation()) * (1.0 + 10.0 * U);
     let inner = (shape.extent().inner_radius * (1.0 - stretch) - error + swept) * (1.0 - 8.0 * U);
     (Spheres { centre: centre.into(), outer: above(outer), inner: below(inner) }, defect <= RIGID)
 }
