@@ -1,6 +1,7 @@
 //! Pairs of bodies with a ball of any radius swept over them and faces that are flat up to any noise: refused exactly if a number
 //! is out of range, else judged by exact rationals less the radii, by `verify`, `verify_depth` and `verify_manifold`. Likewise a
-//! body and a half-space. In the floating-point environment that the last byte chooses the bits are the same.
+//! body and a half-space, and a body and a cylinder, cone or ellipsoid. In the floating-point environment that the last byte
+//! chooses the bits are the same.
 #![no_main]
 
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
@@ -49,6 +50,9 @@ fn run(u: &mut Unstructured, environment: Environment) -> Result<()> {
             check_pair(u, &bodies, &poses, environment, &mut memory)?;
         }
         check_half_space(u, &bodies[0], &poses[0], environment)?;
+        if is_accepted && u.ratio(1, 4)? {
+            check_curved(u, &bodies[1], &poses, environment)?;
+        }
         if u.is_empty() {
             break;
         }
@@ -141,6 +145,46 @@ fn check_pair(
     assert!(holds && signed.lower <= signed.distance && signed.distance <= signed.upper, "{signed:?}\n{}", described());
     let measured = is_tame(bodies, poses);
     contacts::check(u, placed, &ask(contact), measured, environment, memory)
+}
+
+/// A curved body of any lengths, if these are accepted, beside one of points: all queries agree, and pass their checks.
+fn check_curved(u: &mut Unstructured, body: &Body, poses: &[Pose; 2], environment: Environment) -> Result<()> {
+    let mut last = 1.0;
+    let lengths = [any_number(u, &mut last)?, any_number(u, &mut last)?, any_number(u, &mut last)?];
+    let deviation = lengths.iter().fold(0.0, |most: f64, &length| most.max(length)) * u.choose(&[0.3, 0.1, 0.02])?;
+    let made = match u.int_in_range(0..=2)? {
+        0 => Shape::from_cylinder(lengths[0], lengths[1], deviation),
+        1 => Shape::from_cone(lengths[0], lengths[1], deviation),
+        _ => Shape::from_ellipsoid(&lengths.into(), deviation),
+    };
+    let Ok(curved) = made else { return Ok(()) };
+    assert!(curved.deviation() <= deviation);
+    let placed = [curved.at(&poses[0]), body.shape.at(&poses[1])];
+    let mut signed = SignedDistance::default();
+    signed_distance(placed, &mut SignedDistanceCache::default(), &PairConfig::default(), &mut signed)
+        .expect("accepted poses");
+    let described =
+        || format!("{signed:?}\n{lengths:?} {deviation:e}, {:?} of radius {:?} at {poses:?}", body.points, body.radius);
+    assert!(signed.lower <= signed.distance && signed.distance <= signed.upper, "{}", described());
+    let is_open = signed.lower <= 0.0 && signed.upper > 0.0;
+    assert_eq!(signed.outcome == Outcome::Undecided, is_open, "{}", described());
+    for query in [distance as Query, intersection, contact, approximate] {
+        let ask = || {
+            let mut answer = PairAnswer::default();
+            query(placed, &mut PairCache::default(), &PairConfig::default(), &mut answer).expect("accepted poses");
+            answer
+        };
+        let answer = ask();
+        assert_eq!(format!("{:?}", inside(environment, ask)), format!("{answer:?}"), "{environment:?}");
+        // The ends of a depth and of a distance are rounded apart.
+        assert!(answer.lower <= signed.upper.max(0.0) && answer.upper >= signed.lower, "{answer:?}\n{}", described());
+        match verify(placed, &answer) {
+            // Beyond the range of doubles.
+            Ok(()) | Err(Error::Argument(_)) => {}
+            Err(error) => panic!("{error}: {answer:?}\n{}", described()),
+        }
+    }
+    Ok(())
 }
 
 type Query = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> swiftprox::error::Result<()>;
