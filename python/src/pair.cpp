@@ -181,11 +181,12 @@ Manifold manifold(Pair &pair, nb::handle pose1, nb::handle pose2, double max_dis
 }
 
 Cast cast(Pair &pair, nb::handle motion1, nb::handle motion2, double max_distance, double time_begin, double time_end,
-          double time_tolerance)
+          double time_tolerance, bool ignores_parting)
 {
     const swiftprox_motion a = read_motion(motion1, "motion1"), b = read_motion(motion2, "motion2");
     Cast made;
     made.config = cast_config(max_distance, time_begin, time_end, time_tolerance);
+    made.config.ignores_parting = ignores_parting;
     run_alone(pair, [&] {
         return swiftprox_pair_cast(swiftprox_moving{pair.shape1.get(), &a}, swiftprox_moving{pair.shape2.get(), &b}, &pair.cache,
                                    &made.config, &made.answer);
@@ -323,7 +324,7 @@ void bind_pair(nb::module_ &m)
         .value("SEPARATED", SWIFTPROX_OUTCOME_SEPARATED, "They have no common point.")
         .value("BEYOND", SWIFTPROX_OUTCOME_BEYOND, "They are farther apart than max_distance.")
         .value("INTERSECTING", SWIFTPROX_OUTCOME_INTERSECTING, "They have a common point; touching counts.")
-        .value("UNDECIDED", SWIFTPROX_OUTCOME_UNDECIDED, "A step budget ran out.");
+        .value("UNDECIDED", SWIFTPROX_OUTCOME_UNDECIDED, "A step budget ran out, or a deviation hides it.");
 
     bind_answer<swiftprox_pair_answer>(m, "Distance", "The distance of two bodies: 0 where they intersect.");
     bind_answer<swiftprox_signed_distance>(m, "SignedDistance", "The distance of two bodies, or minus their depth in each other.");
@@ -359,11 +360,13 @@ void bind_pair(nb::module_ &m)
         .def_prop_ro("outcome", [](const Cast &self) { return word(self.answer.outcome); },
                      "'free': apart at every time. 'hit'. 'near': they graze, as far as doubles tell. 'budget': steps ran out.")
         .def_prop_ro("t_lower", [](const Cast &self) { return self.answer.time_lower; }, "Up to this time the bodies are apart.")
+        .def_prop_ro("t_parted", [](const Cast &self) { return self.answer.time_parted; },
+                     "From here on they are cast, of a parting that is ignored; else NaN.")
         .def_prop_ro("t_upper", [](const Cast &self) { return self.answer.time_upper; }, "At this time they meet; NaN unless it is a hit.")
         .def_prop_ro("clearance", [](const Cast &self) { return self.answer.clearance; },
                      "Of free bodies: their distance is at least this at every time.")
         .def_prop_ro("contact", [](const Cast &self) { return self.answer.contact; },
-                     "Of a hit the contact at t_upper, of a near miss the distance at t_lower.")
+                     "Of a hit and of a near miss the distance at t_lower, or the contact in which the motion begins.")
         .def("__repr__", [](const Cast &self) {
             return nb::str("Cast({}, t_lower={}, t_upper={})").format(word(self.answer.outcome), self.answer.time_lower, self.answer.time_upper);
         });
@@ -391,10 +394,12 @@ void bind_pair(nb::module_ &m)
              "The contact points of bodies at most max_distance apart. reduce: four points at most.")
         .def("cast", &cast, nb::arg("motion1"), nb::arg("motion2"), nb::arg("max_distance") = 0.0, nb::kw_only(),
              nb::arg("time_begin") = 0.0, nb::arg("time_end") = 1.0, nb::arg("time_tolerance") = 1e-9,
+             nb::arg("ignores_parting") = false,
              nb::sig("def cast(self, motion1: Motion | Pose | numpy.typing.ArrayLike, motion2: Motion | Pose | "
                      "numpy.typing.ArrayLike, max_distance: float = 0.0, *, time_begin: float = 0.0, time_end: float = 1.0, "
-                     "time_tolerance: float = 1e-9) -> Cast"),
-             "Whether two moving bodies stay farther apart than max_distance, or when they first do not.")
+                     "time_tolerance: float = 1e-9, ignores_parting: bool = False) -> Cast"),
+             "Whether two moving bodies stay farther apart than max_distance, or when they first do not.\n\n"
+             "ignores_parting: bodies that touch at time_begin and part soon are cast from t_parted on.")
         .def("gradient", &gradient, nb::arg("pose1"), nb::arg("pose2"), nb::arg("answer"), nb::arg("reference1") = nb::none(),
              nb::arg("reference2") = nb::none(),
              nb::sig("def gradient(self, " TWO_POSES ", answer: SignedDistance | Distance, "

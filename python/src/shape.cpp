@@ -177,10 +177,40 @@ void bind_shape(nb::module_ &m)
                 return Shape(made);
             },
             nb::arg("half_length"), nb::arg("radius"), "All points within the radius of the segment from -half_length to half_length along z.")
+        .def_static(
+            "cylinder",
+            [](double radius, double half_height, double deviation) {
+                const swiftprox_shape *made = nullptr;
+                run([&] { return swiftprox_shape_create_cylinder(radius, half_height, deviation, &made); });
+                return Shape(made);
+            },
+            nb::arg("radius"), nb::arg("half_height"), nb::arg("deviation") = 0.0,
+            "The cylinder from z = -half_height to half_height. It reaches at most the deviation beyond its prism; 0: 1e-4 of the radius.")
+        .def_static(
+            "cone",
+            [](double radius, double half_height, double deviation) {
+                const swiftprox_shape *made = nullptr;
+                run([&] { return swiftprox_shape_create_cone(radius, half_height, deviation, &made); });
+                return Shape(made);
+            },
+            nb::arg("radius"), nb::arg("half_height"), nb::arg("deviation") = 0.0,
+            "The cone with its base at z = -half_height and its tip at half_height; the deviation as of a cylinder.")
+        .def_static(
+            "ellipsoid",
+            [](double x, double y, double z, double deviation) {
+                const double semi_axes[3] = {x, y, z};
+                const swiftprox_shape *made = nullptr;
+                run([&] { return swiftprox_shape_create_ellipsoid(semi_axes, deviation, &made); });
+                return Shape(made);
+            },
+            nb::arg("x"), nb::arg("y"), nb::arg("z"), nb::arg("deviation") = 0.0,
+            "The ellipsoid of the semi-axes x, y and z about the origin. The deviation as of a cylinder; 0: 1e-3 of the largest semi-axis.")
         .def_prop_ro("vertex_count", [](const Shape &self) { return info_of(self).vertex_count; }, "Vertices of the hull.")
         .def_prop_ro("face_count", [](const Shape &self) { return info_of(self).face_count; }, "Faces; coplanar triangles count as one.")
         .def_prop_ro("volume", [](const Shape &self) { return info_of(self).volume; }, "Volume without the swept ball, in length cubed.")
         .def_prop_ro("swept_radius", [](const Shape &self) { return info_of(self).swept_radius; }, "Radius of the swept ball, a length.")
+        .def_prop_ro("deviation", [](const Shape &self) { return info_of(self).deviation; },
+                     "How far a cylinder, cone or ellipsoid reaches beyond its polyhedron at most; 0 for other shapes.")
         .def_prop_ro("centre_of_mass", [](const Shape &self) { return make_array(info_of(self).centre_of_mass, 3); },
                      nb::sig("def centre_of_mass(self) -> numpy.typing.NDArray[numpy.float64]"), "In the local frame, shape (3,).")
         .def_prop_ro(

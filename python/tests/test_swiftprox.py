@@ -106,11 +106,31 @@ def test_answers_verify_and_forged_ones_do_not():
     manifold = boxes.manifold(EYE, at(0, 0, 1.9))
     assert len(manifold.points) == 4 and manifold.lower <= -0.1 <= manifold.upper
     boxes.verify(EYE, at(0, 0, 1.9), manifold)
+    parting = sp.Motion.between(at(1.5), at(4))
+    assert bodies.cast(EYE, parting).outcome == "hit"
+    parted = bodies.cast(EYE, parting, ignores_parting=True)
+    assert parted.outcome == "free" and 0 < parted.t_parted < 1e-3
     cast = bodies.cast(EYE, sp.Motion.between(at(4), at(0)))
     assert cast.outcome == "hit" and cast.t_lower <= 0.625 <= cast.t_upper
     bodies.verify(EYE, sp.Motion.between(at(4), at(0)), cast)
     signed = boxes.signed(EYE, at(0, 0, 1.5))
     assert signed.lower <= -0.5 <= signed.upper < 0
+
+
+def test_curved_bodies():
+    ball = sp.Shape.sphere(0.5)
+    for body in sp.Shape.cylinder(1, 2), sp.Shape.cone(1, 2, 0.01), sp.Shape.ellipsoid(1, 0.5, 0.5):
+        assert 0 < body.deviation <= 0.01 and ball.deviation == 0
+        # Along z, from below: by hand, but for the ellipsoid along x.
+        at_gap = (lambda gap: at(1.5 + gap)) if body.vertex_count > 1000 else (lambda gap: at(0, 0, -2.5 - gap))
+        bodies = sp.Pair(body, ball)
+        answer = bodies.distance(EYE, at_gap(1))
+        assert answer.outcome == "separated" and answer.lower <= 1 <= answer.upper <= answer.lower + body.deviation + 1e-12
+        bodies.verify(EYE, at_gap(1), answer)
+        assert bodies.distance(EYE, at_gap(1e-6)).outcome == "undecided"
+        assert bodies.distance(EYE, at_gap(-0.1)).outcome == "intersecting"
+    with pytest.raises(sp.InputError, match="at least"):
+        sp.Shape.cylinder(1, 1, 1e-9)
 
 
 def test_gradients_are_what_differences_say():
