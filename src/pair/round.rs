@@ -10,7 +10,7 @@ use crate::answer::{Radii, turned_back};
 use crate::answer::{fill_nothing, label};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::base::simd::{self, Kernel, Lanes, Portable};
-use crate::body::polyhedron::Polyhedron;
+use crate::body::polyhedron::{Polyhedron, Vertex};
 use crate::distance::certificate::{Interval, reciprocal_length};
 use crate::placed::frame::{Frame, are_acceptable};
 use crate::placed::state::FeatureId;
@@ -216,18 +216,17 @@ impl<L: Lanes> Nearest<L> {
         let [body1, body2] = &frame.bodies;
         let [ends1, ends2] = [&body1.polyhedron.vertices, &body2.polyhedron.vertices];
         let (tail1, tail2) = (L::from_vector(&ends1[0].position), L::from_vector(&ends2[0].position));
-        let rotated1 = body1.rotate(&ends1[0].position);
-        let rotated2 = body2.rotate(&ends2[0].position);
+        let (is_segment1, is_segment2) = (ends1.len() > 1, ends2.len() > 1);
+        let nowhere = L::splat(0.0);
+        // A point is its own centre: nothing is turned.
+        debug_assert!([ends1, ends2].iter().all(|ends| ends.len() > 1 || ends[0].position == Vector::zeros()));
+        let rotated1 = if is_segment1 { body1.rotate(&ends1[0].position) } else { nowhere };
+        let rotated2 = if is_segment2 { body2.rotate(&ends2[0].position) } else { nowhere };
         let seen1 = rotated1.add(body1.offset);
         let tails = seen1.sub(rotated2);
-        let nowhere = L::splat(0.0);
         // Of each the way to its head in the world, if it has one.
-        let way = |i: usize, ends: &[crate::body::polyhedron::Vertex], tail: L| match ends.get(1) {
-            Some(head) => frame.bodies[i].rotate(&head.position).sub(tail),
-            None => nowhere,
-        };
-        let (way1, way2) = (way(0, ends1, rotated1), way(1, ends2, rotated2));
-        let (is_segment1, is_segment2) = (ends1.len() > 1, ends2.len() > 1);
+        let way1 = if is_segment1 { body1.rotate(&ends1[1].position).sub(rotated1) } else { nowhere };
+        let way2 = if is_segment2 { body2.rotate(&ends2[1].position).sub(rotated2) } else { nowhere };
         let (mut s, mut t, mut difference) = (0.0, 0.0, tails);
         let mut crossing = None;
         // The least height of the ends' differences along the direction.
@@ -273,12 +272,8 @@ impl<L: Lanes> Nearest<L> {
             }
         }
         let interval = interval(distance, least * inverse, frame.size, frame.separation);
-        let point = |ends: &[crate::body::polyhedron::Vertex], tail: L, share: f64| match ends.get(1) {
-            Some(head) => L::from_vector(&(head.position - ends[0].position)).mul_add(L::splat(share), tail),
-            None => tail,
-        };
         Nearest {
-            points: [point(ends1, tail1, s), point(ends2, tail2, t)],
+            points: [between(ends1, tail1, s), between(ends2, tail2, t)],
             rotated: [way1.mul_add(L::splat(s), rotated1), way2.mul_add(L::splat(t), rotated2)],
             normal,
             distance,
@@ -309,6 +304,15 @@ fn interval(distance: f64, least: f64, size: f64, separation: f64) -> Interval {
     Interval {
         lower: least - U * (20.0 * size + 14.0 * separation),
         upper: distance + U * (28.0 * size + 7.0 * separation + 6.0 * distance),
+    }
+}
+
+/// The point of a body by its weight between the ends.
+#[inline(always)]
+fn between<L: Lanes>(ends: &[Vertex], tail: L, share: f64) -> L {
+    match ends {
+        [first, head] => L::from_vector(&(head.position - first.position)).mul_add(L::splat(share), tail),
+        _ => tail,
     }
 }
 
