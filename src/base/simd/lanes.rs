@@ -81,6 +81,8 @@ pub trait Lanes: Copy {
     fn extreme_products(self, vectors: &[[[f32; 8]; 3]]) -> [f32; 2];
     /// Of such products over many vectors which is the greatest, that, and the second. Any if one is a NaN or there are none.
     fn farthest_product(self, vectors: &[[[f32; 8]; 3]]) -> (usize, [f32; 2]);
+    /// Which of such products over many vectors is the greatest; of equals, and if one is a NaN, any.
+    fn farthest_of(self, vectors: &[[[f32; 8]; 3]]) -> usize;
     /// The least lane and which it is; the first of equals. Any lane if one is a NaN.
     fn least(self) -> (f64, usize);
     /// Prefetches an element that may soon be needed: the first three cache lines, which are the part that marching reads of a
@@ -271,6 +273,10 @@ impl Lanes for Portable {
             }
         }
         (place, [greatest, second])
+    }
+    #[inline(always)]
+    fn farthest_of(self, vectors: &[[[f32; 8]; 3]]) -> usize {
+        self.farthest_product(vectors).0
     }
     #[inline(always)]
     fn least(self) -> (f64, usize) {

@@ -136,7 +136,7 @@ mod tests {
             [u32; 4],
             [f64; 4],
             ([f32; 2], [(usize, [f32; 2]); 2]),
-            ([[f32; 8]; 12], [[f32; 2]; 2]),
+            ([[f32; 8]; 20], [[f32; 2]; 5]),
         );
         #[inline(always)]
         fn run<L: Lanes>(&mut self) -> Self::Output {
@@ -156,6 +156,11 @@ mod tests {
             L::load(&[1e300, 0.1, -1e-300, -2.5]).store_single(&mut single);
             let [.., third] = L::components(&[x, y, z, turned]);
             let (sides, others) = (x.twins(y), L::Twins::load(&[3.0, 1.0, 4.0, 1.0], &[5.0, 9.0, 2.0, 6.0]));
+            let eight = L::Twins::load_eight(&[1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0]);
+            let [first, second, third_of_eight] = L::Twins::components(&[sides, others, eight, others]);
+            let (least, place) = others.least();
+            let blocks = [[*a, *b, *c], [*b, *a, *b], [*c, *b, *c]];
+            let farthest = [x.farthest_of(&blocks[..1]) as f32, x.farthest_of(&blocks) as f32];
             let twins = [
                 sides,
                 others.add(sides),
@@ -169,6 +174,14 @@ mod tests {
                 others.sum(),
                 others.cross(sides),
                 L::Twins::product(&[sides, others, sides], others),
+                others.min(sides),
+                others.max(sides),
+                others.div(sides),
+                others.sqrt(),
+                sides.where_greater(others, sides, others),
+                first,
+                second,
+                third_of_eight,
             ]
             .map(L::Twins::to_array);
             let chosen = [
@@ -195,7 +208,16 @@ mod tests {
                     x.extreme_products(&[[*a, *b, *c], [*b, *a, *b]]),
                     [[*a, *b, *c], [*b, *a, *b]].map(|block| x.farthest_product(&[block, [*c, *b, *c]])),
                 ),
-                (twins, [sides.dots(others), [sides.dot(others), others.swap().dot(sides)]]),
+                (
+                    twins,
+                    [
+                        sides.dots(others),
+                        [sides.dot(others), others.swap().dot(sides)],
+                        [least, place as f32],
+                        [others.greater(sides) as f32, eight.greater(others) as f32],
+                        farthest,
+                    ],
+                ),
             )
         }
     }
@@ -214,7 +236,8 @@ mod tests {
         assert_eq!(expected.2, 38.0);
         assert_eq!(expected.8, [f32::INFINITY, 0.1, -0.0, -2.5].map(f32::to_bits));
         assert_eq!(expected.9, [f64::INFINITY, f64::from(0.1_f32), 0.0, -2.5]);
-        assert_eq!(expected.11.1, [[17.0, 93.0], [17.0, 29.0]]);
+        let [least, greater, farthest] = [[1.0, 1.0], [37.0, 202.0], [5.0, 13.0]];
+        assert_eq!(expected.11.1, [[17.0, 93.0], [17.0, 29.0], least, greater, farthest]);
         assert_eq!(expected.3, 0b1100);
         assert_eq!(expected.4, [(1.0, 1), (9.0, 0)]);
         assert_eq!((expected.5, expected.6), ((16.5, 5), [false, true]));

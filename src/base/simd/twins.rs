@@ -1,9 +1,12 @@
 //! Two vectors side by side in single precision, one of each body of a pair: work that needs few digits is done for both at once.
+//! Or eight numbers, each of another triangle.
 
 /// Two vectors of four single-precision numbers. For a vector in three dimensions the fourth is unspecified.
 pub trait Twins: Copy {
     /// From memory.
     fn load(first: &[f32; 4], second: &[f32; 4]) -> Self;
+    /// Eight numbers from memory.
+    fn load_eight(numbers: &[f32; 8]) -> Self;
     /// To memory, one after the other.
     fn to_array(self) -> [f32; 8];
     /// All numbers of one vector equal, and all of the other.
@@ -34,6 +37,22 @@ pub trait Twins: Copy {
     fn dots(self, other: Self) -> [f32; 2];
     /// The same of the first vectors alone.
     fn dot(self, other: Self) -> f32;
+    /// Number by number the lesser one.
+    fn min(self, other: Self) -> Self;
+    /// Number by number the greater one.
+    fn max(self, other: Self) -> Self;
+    /// Quotients.
+    fn div(self, other: Self) -> Self;
+    /// Square roots.
+    fn sqrt(self) -> Self;
+    /// Bit i is set where number i is greater than that of `other`; a NaN is not.
+    fn greater(self, other: Self) -> u32;
+    /// This where the number of `left` is greater than that of `right`, elsewhere `other`.
+    fn where_greater(self, left: Self, right: Self, other: Self) -> Self;
+    /// The x, the y and the z of the first vectors of four, then of the second ones.
+    fn components(twins: &[Self; 4]) -> [Self; 3];
+    /// The least number and its place; the first of equals. Any place if one is a NaN.
+    fn least(self) -> (f32, usize);
 
     /// The sum of both vectors, twice.
     #[inline(always)]
@@ -77,6 +96,10 @@ impl Twins for PortableTwins {
     #[inline(always)]
     fn load(first: &[f32; 4], second: &[f32; 4]) -> Self {
         PortableTwins(std::array::from_fn(|i| if i < 4 { first[i] } else { second[i - 4] }))
+    }
+    #[inline(always)]
+    fn load_eight(numbers: &[f32; 8]) -> Self {
+        PortableTwins(*numbers)
     }
     #[inline(always)]
     fn to_array(self) -> [f32; 8] {
@@ -138,5 +161,43 @@ impl Twins for PortableTwins {
     #[inline(always)]
     fn dot(self, other: Self) -> f32 {
         self.dots(other)[0]
+    }
+    #[inline(always)]
+    fn min(self, other: Self) -> Self {
+        other.where_greater(self, other, self)
+    }
+    #[inline(always)]
+    fn max(self, other: Self) -> Self {
+        self.where_greater(self, other, other)
+    }
+    #[inline(always)]
+    fn div(self, other: Self) -> Self {
+        PortableTwins(std::array::from_fn(|i| self.0[i] / other.0[i]))
+    }
+    #[inline(always)]
+    fn sqrt(self) -> Self {
+        PortableTwins(self.0.map(f32::sqrt))
+    }
+    #[inline(always)]
+    fn greater(self, other: Self) -> u32 {
+        (0..8).map(|i| u32::from(self.0[i] > other.0[i]) << i).sum()
+    }
+    #[inline(always)]
+    fn where_greater(self, left: Self, right: Self, other: Self) -> Self {
+        PortableTwins(std::array::from_fn(|i| if left.0[i] > right.0[i] { self.0[i] } else { other.0[i] }))
+    }
+    #[inline(always)]
+    fn components(twins: &[Self; 4]) -> [Self; 3] {
+        std::array::from_fn(|axis| PortableTwins(std::array::from_fn(|i| twins[i % 4].0[i / 4 * 4 + axis])))
+    }
+    #[inline(always)]
+    fn least(self) -> (f32, usize) {
+        let mut best = (self.0[0], 0);
+        for (place, value) in self.0.into_iter().enumerate() {
+            if value < best.0 {
+                best = (value, place);
+            }
+        }
+        best
     }
 }

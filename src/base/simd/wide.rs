@@ -363,6 +363,42 @@ impl<const WITH_AVX512: bool> Lanes for Wide<WITH_AVX512> {
             (places[lane] as usize + lane, [_mm256_cvtss_f32(all), _mm256_cvtss_f32(greatest_lane(others))])
         }
     }
+    /// Two blocks at a time, each with its own greatest numbers: one alone would wait for those before.
+    #[inline(always)]
+    fn farthest_of(self, vectors: &[[[f32; 8]; 3]]) -> usize {
+        // SAFETY: see above.
+        unsafe {
+            let mut greatest = [_mm256_set1_ps(f32::NEG_INFINITY); 2];
+            let mut places = [_mm256_setzero_si256(); 2];
+            let mut block = _mm256_setzero_si256();
+            let (pairs, rest) = vectors.as_chunks::<2>();
+            for pair in pairs {
+                for (half, [x, y, z]) in pair.iter().enumerate() {
+                    let products = self.products([x, y, z]);
+                    let is_greater = _mm256_castps_si256(_mm256_cmp_ps::<_CMP_GT_OQ>(products, greatest[half]));
+                    places[half] = _mm256_blendv_epi8(places[half], block, is_greater);
+                    greatest[half] = _mm256_max_ps(greatest[half], products);
+                }
+                block = _mm256_add_epi32(block, _mm256_set1_epi32(16));
+            }
+            for [x, y, z] in rest {
+                let products = self.products([x, y, z]);
+                let is_greater = _mm256_castps_si256(_mm256_cmp_ps::<_CMP_GT_OQ>(products, greatest[0]));
+                places[0] = _mm256_blendv_epi8(places[0], block, is_greater);
+                greatest[0] = _mm256_max_ps(greatest[0], products);
+            }
+            let is_greater = _mm256_castps_si256(_mm256_cmp_ps::<_CMP_GT_OQ>(greatest[1], greatest[0]));
+            let of_second = _mm256_add_epi32(places[1], _mm256_set1_epi32(8));
+            let place = _mm256_blendv_epi8(places[0], of_second, is_greater);
+            let greatest = _mm256_max_ps(greatest[0], greatest[1]);
+            let all = greatest_lane(greatest);
+            let mask = _mm256_movemask_ps(_mm256_cmp_ps::<_CMP_EQ_OQ>(greatest, all)) as u32;
+            let lane = (mask | 0x80).trailing_zeros() as usize;
+            let mut places = [0_u32; 8];
+            _mm256_storeu_si256(places.as_mut_ptr().cast(), place);
+            places[lane] as usize + lane
+        }
+    }
     #[inline(always)]
     fn least(self) -> (f64, usize) {
         // SAFETY: see above.
