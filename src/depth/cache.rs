@@ -43,6 +43,9 @@ pub struct DepthCache {
     counts: [u8; 4],
 }
 
+/// Vertices in no triangle that are kept all the same: to find them takes longer.
+const MOST_UNUSED: usize = 6;
+
 /// Pyramids of a pair: where it rocks from one facet to another both stay. A third is rarely of use.
 pub const PYRAMIDS: usize = 2;
 
@@ -322,6 +325,16 @@ impl DepthCache {
         self.counts = [0; 4];
         let triangles = polytope.triangle_count;
         if !((4..=MOST_TRIANGLES).contains(&triangles) && triangle < triangles) {
+            return;
+        }
+        // Of a closed surface without handles few vertices are in no triangle.
+        let vertices = polytope.vertex_count;
+        if vertices <= MOST_VERTICES && vertices <= triangles / 2 + MOST_UNUSED {
+            self.pairs[..vertices].copy_from_slice(&polytope.pairs[..vertices]);
+            for (packed, [a, b, c, _]) in self.triangles.iter_mut().zip(&polytope.corners[..triangles]) {
+                *packed = [*a, *b, *c];
+            }
+            self.counts = [vertices, triangles, triangle, first_triangles].map(|count| count.min(255) as u8);
             return;
         }
         // Vertices that no triangle has any more are left out.

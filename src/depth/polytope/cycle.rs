@@ -28,11 +28,13 @@ impl<const V: usize, const W: usize> Edges<V, W> {
 
     /// Adds the edges of a triangle; whether one of them was there already.
     #[inline(always)]
-    fn add(&mut self, [a, b, c]: [u8; 3]) -> bool {
+    pub fn add(&mut self, [a, b, c]: [u8; 3]) -> bool {
         let mut doubled = 0;
         for (tail, head) in [(a, b), (b, c), (c, a)] {
             let (tail, head) = (usize::from(tail), usize::from(head));
-            let (out, into) = (&mut self.out[tail][head / 64], &mut self.into[head][tail / 64]);
+            // (Remainders that change nothing spare checks of bounds.)
+            let out = &mut self.out[tail % V][head / 64 % W];
+            let into = &mut self.into[head % V][tail / 64 % W];
             doubled |= *out & 1 << (head % 64);
             *out |= 1 << (head % 64);
             *into |= 1 << (tail % 64);
@@ -45,15 +47,15 @@ impl<const V: usize, const W: usize> Edges<V, W> {
     fn touch(&self, [a, b, c]: [u8; 3]) -> bool {
         let mut found = 0;
         for (tail, head) in [(b, a), (c, b), (a, c)] {
-            found |= self.out[usize::from(tail)][usize::from(head) / 64] >> (head % 64);
+            found |= self.out[usize::from(tail) % V][usize::from(head) / 64 % W] >> (head % 64);
         }
         found & 1 != 0
     }
 
     /// The heads of the rim's edges from a vertex, which are taken out.
     #[inline(always)]
-    fn take(&mut self, tail: u8) -> [u64; W] {
-        let tail = usize::from(tail);
+    pub fn take(&mut self, tail: u8) -> [u64; W] {
+        let tail = usize::from(tail) % V;
         let mut heads = [0; W];
         for (word, head) in heads.iter_mut().enumerate() {
             *head = self.out[tail][word] & !self.into[tail][word];

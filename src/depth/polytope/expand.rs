@@ -2,6 +2,7 @@
 
 use super::cycle::{Apex, Demand, Edges, insert, take_out};
 use super::planes::{evaluate, nearest};
+use super::proposal::{Goal, MOST_PROPOSED, propose};
 use super::sliver::{sharpen, straighten};
 use super::storage::{NO_PLANE, Polytope};
 use super::support::{Support, support};
@@ -194,8 +195,7 @@ impl<L: Lanes, const V: usize, const W: usize> Expander<'_, L, V, W> {
                 // No direction of an earlier query but one that was not kept with its polytope: as a start it saves two steps of
                 // 17.
                 let known = start.direction.as_ref().filter(|_| start.triangle.is_none());
-                let made = first::make(self.frame, polytope, &self.rounding, known, &mut self.supports);
-                let Some(centre) = made else { return self.measure_flat(polytope) };
+                let Some(centre) = self.begin(polytope, known, most_steps) else { return self.measure_flat(polytope) };
                 self.demand = Demand { centre, about_origin: false, ..self.demand };
             }
             let limit = if is_warm { WARM_STEPS.min(most_steps) } else { most_steps };
@@ -209,6 +209,31 @@ impl<L: Lanes, const V: usize, const W: usize> Expander<'_, L, V, W> {
             }
             return ending;
         }
+    }
+
+    /// The first polytope, where there is room for a proposal as single precision lets it grow; and the point inside.
+    #[inline(always)]
+    fn begin<const T: usize>(
+        &mut self,
+        polytope: &mut Polytope<V, T>,
+        known: Option<&Vector>,
+        most_steps: u32,
+    ) -> Option<Vector> {
+        let centre = first::make(self.frame, polytope, &self.rounding, known, &mut self.supports)?;
+        if V > MOST_PROPOSED {
+            return Some(centre);
+        }
+        // One step is left for an upper bound.
+        let steps = (most_steps - self.steps).saturating_sub(1);
+        let goal = Goal { width: self.width, share: self.share, steps };
+        let [steps, supports] = propose::<L, V, T, W>(self.frame, polytope, &mut self.edges, &goal);
+        self.steps += steps;
+        self.supports += supports;
+        if evaluate::<L, V, T>(polytope, &self.rounding, &centre, 0, polytope.triangle_count).height > 0.0 {
+            return Some(centre);
+        }
+        // Single precision has turned a triangle over.
+        first::make(self.frame, polytope, &self.rounding, known, &mut self.supports)
     }
 
     /// Upper bounds of differences too flat for a search: across the part of a polytope that exists, and along the axes of the

@@ -2,10 +2,11 @@
 
 use super::planes::evaluate;
 use super::storage::Polytope;
-use super::support::{Support, support, vertex_beyond};
+use super::support::{Support, rough_support, vertex_beyond};
 use super::{Rounding, SHORTEST_NORMAL, centre_of_differences};
 use crate::base::math::Vector;
 use crate::base::simd::Lanes;
+use crate::placed::exact::VertexPair;
 use crate::placed::frame::Frame;
 
 /// How far the three sides of the bipyramid lean towards its tip, and how far where those are too few vertices. (Equatorial ones
@@ -42,8 +43,8 @@ pub fn make<L: Lanes, const V: usize, const T: usize>(
 }
 
 /// Adds a vertex; whether it is a new one.
-fn add<const V: usize, const T: usize>(polytope: &mut Polytope<V, T>, found: &Support) -> bool {
-    polytope.find(found.pair).is_none() && polytope.add_vertex(found.pair, found.position).is_some()
+fn add<const V: usize, const T: usize>(polytope: &mut Polytope<V, T>, pair: VertexPair, position: [f64; 4]) -> bool {
+    polytope.find(pair).is_none() && polytope.add_vertex(pair, position).is_some()
 }
 
 /// Two tips and three vertices around the line between them; those and the lower tip where the upper one is among them. No if two
@@ -69,7 +70,8 @@ fn bipyramid<L: Lanes, const V: usize, const T: usize>(
     let mut has_tip = true;
     for (place, direction) in [a, b, c, -tip, tip].iter().enumerate() {
         *supports += 1;
-        if !add(polytope, &support(frame, rounding, direction, None, f64::NEG_INFINITY)) {
+        let (pair, position) = rough_support(frame, L::from_vector(direction), None);
+        if !add(polytope, pair, position.to_array()) {
             if place < 4 {
                 return false;
             }
@@ -139,7 +141,7 @@ fn tetrahedron<L: Lanes, const V: usize, const T: usize>(
     }
     polytope.clear();
     for found in [&ends[0], &ends[1], &third, &fourth] {
-        add(polytope, found);
+        add(polytope, found.pair, found.position);
     }
     if polytope.vertex_count < 4 {
         return None;

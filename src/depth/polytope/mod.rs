@@ -21,6 +21,7 @@ mod support;
 mod cycle;
 mod sliver;
 mod first;
+mod proposal;
 mod degree;
 mod expand;
 mod witness;

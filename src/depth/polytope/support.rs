@@ -65,6 +65,26 @@ pub fn support<L: Lanes>(
     Support { pair: [top1.vertex, top2.vertex], position: position.to_array(), value, excess, upper }
 }
 
+/// A pair of vertices that is about the farthest along a direction, as single precision shows, and their difference.
+#[inline(always)]
+pub fn rough_support<L: Lanes>(frame: &Frame<L>, direction: L, start: Option<VertexPair>) -> (VertexPair, L) {
+    let [body1, body2] = &frame.bodies;
+    let towards = [body1.rotate_back(direction), body2.rotate_back(direction).negate()];
+    let vertex1 = rough_farthest(body1.polyhedron, towards[0], start.map(|pair| pair[0]));
+    let vertex2 = rough_farthest(body2.polyhedron, towards[1], start.map(|pair| pair[1]));
+    ([vertex1, vertex2], difference(frame, vertex1, vertex2))
+}
+
+/// About the farthest vertex.
+#[inline(always)]
+fn rough_farthest<L: Lanes>(polyhedron: &Polyhedron, towards: L, start: Option<u32>) -> u32 {
+    if polyhedron.rough_blocks.is_empty() {
+        return climb(polyhedron, towards, start).vertex;
+    }
+    // Zeros are behind the vertices.
+    towards.farthest_of(&polyhedron.rough_blocks).min(polyhedron.vertices.len() - 1) as u32
+}
+
 /// A pair of vertices that is the farthest along a direction but for ties: out of line, for where there are closures (R2).
 pub fn vertex_beyond<L: Lanes>(
     frame: &Frame<L>,
