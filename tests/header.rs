@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
-const SOURCES: [&str; 31] = [
+const SOURCES: [&str; 33] = [
     "src/body/tables/options.rs",
     "src/shape/levels/hierarchy/mod.rs",
     "src/shape/mod.rs",
@@ -21,6 +21,8 @@ const SOURCES: [&str; 31] = [
     "src/pair/gradient.rs",
     "src/ground/surface.rs",
     "src/ground/distance.rs",
+    "src/ground/ray.rs",
+    "src/ground/cast.rs",
     "src/ground/answer.rs",
     "src/motion/answer.rs",
     "src/motion/clearance.rs",
@@ -202,7 +204,12 @@ fn laid_out(head: &str, declared: &mut HashMap<String, String>) -> Vec<(String, 
                     }
                     None => rest.to_string(),
                 };
-                *text += &format!("#include \"{near}\"\n\n{}", external("{"));
+                // One header may include several.
+                let opened = format!("\n{}", external("{"));
+                if let Some(before) = text.strip_suffix(&opened) {
+                    *text = before.to_string();
+                }
+                *text += &format!("#include \"{near}\"\n{opened}");
             }
             "group" => {
                 let (_, text) = headers.last_mut().expect("a header before its groups");

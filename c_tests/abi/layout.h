@@ -395,6 +395,14 @@ STRUCT(swiftprox_ground_distance, 240, 8)
 MEMBER(swiftprox_ground_distance, answer, 0, 232)
 MEMBER(swiftprox_ground_distance, triangle, 232, 4)
 
+STRUCT(swiftprox_ground_ray_answer, 88, 8)
+MEMBER(swiftprox_ground_ray_answer, answer, 0, 80)
+MEMBER(swiftprox_ground_ray_answer, triangle, 80, 4)
+
+STRUCT(swiftprox_ground_cast_answer, 328, 8)
+MEMBER(swiftprox_ground_cast_answer, answer, 0, 320)
+MEMBER(swiftprox_ground_cast_answer, triangle, 320, 4)
+
 STRUCT(swiftprox_ground_contact, 72, 8)
 MEMBER(swiftprox_ground_contact, manifold, 0, 56)
 MEMBER(swiftprox_ground_contact, triangle, 56, 4)

@@ -7,7 +7,8 @@
 #ifndef SWIFTPROX_GROUND_H
 #define SWIFTPROX_GROUND_H
 
-#include "sets.h"
+#include "motion.h"
+#include "geometry.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -218,6 +219,57 @@ swiftprox_status swiftprox_pair_ground_distance(swiftprox_query_kind kind,
                                                 struct swiftprox_placed_ground ground,
                                                 const struct swiftprox_pair_config *config,
                                                 struct swiftprox_ground_distance *answer);
+
+/** The answer of a ray cast at a ground. */
+typedef struct swiftprox_ground_ray_answer {
+  /**
+   * That of the triangle. The normal is that of its plane, against the ray, and the feature is in the ground's numbering: a face
+   * is a triangle.
+   */
+  struct swiftprox_ray_answer answer;
+  /** The triangle that is hit first; the number of triangles if none is. */
+  uint32_t triangle;
+} swiftprox_ground_ray_answer;
+
+/**
+ * Casts a ray at a ground and finds where it first meets the surface, from either side. Guarantees are as for
+ * swiftprox_shape_cast_ray; the triangle is named, and the normal is its plane's, against the ray.
+ *
+ * On failure the answer is reset. Same errors as swiftprox_shape_cast_ray. The call allocates about 4 kB.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_ground_cast_ray(struct swiftprox_placed_ground ground,
+                                           const struct swiftprox_ray *ray,
+                                           struct swiftprox_ground_ray_answer *answer);
+
+/** The answer of a cast of a body at a ground. */
+typedef struct swiftprox_ground_cast_answer {
+  /**
+   * That of a cast of the body, object 1, at the surface as a set of points. Of several triangles that are hit
+   * within the time tolerance, contact and proof are those of one, at times of its own.
+   */
+  struct swiftprox_cast_answer answer;
+  /** The triangle that is hit, or nearly; the number of triangles if none is. */
+  uint32_t triangle;
+} swiftprox_ground_cast_answer;
+
+/**
+ * Decides whether a moving object stays farther from a ground at rest than config->max_distance, or when it first does not.
+ * Guarantees and members are as for swiftprox_pair_cast; the ground is object 2, as a set of points, and its triangle is named.
+ * There is no cache.
+ *
+ * On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: also if config->ignores_parting is set. Else same errors as
+ * swiftprox_pair_cast. The call allocates about 4 kB.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_pair_ground_cast(struct swiftprox_moving object,
+                                            struct swiftprox_placed_ground ground,
+                                            const struct swiftprox_cast_config *config,
+                                            struct swiftprox_ground_cast_answer *answer);
 
 /** One contact of a body, which is object 1, with a ground: points with one normal. */
 typedef struct swiftprox_ground_contact {

@@ -69,7 +69,6 @@ fn check_unnamed(answer: &PairAnswer) -> Result<()> {
 
 /// Proves that two pieces are disjoint, and at least so far apart. The direction is a query's; the proof trusts nothing of it.
 fn prove_apart(placed: [Placed; 2], lower: f64) -> Result<()> {
-    debug_assert!(lower > 0.0);
     let mut found = PairAnswer::default();
     pair::distance(placed, &mut PairCache::default(), &PairConfig::default(), &mut found)?;
     if found.outcome == Outcome::Intersecting {

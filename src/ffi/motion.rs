@@ -231,8 +231,8 @@ pub unsafe extern "C" fn swiftprox_pair_cast(
 }
 
 /// Decides whether a moving object stays farther from a ground at rest than config->max_distance, or when it first does not.
-/// Guarantees and members are as for swiftprox_pair_cast, but a hit's times are up to two time tolerances apart. The ground is object
-/// 2, as a set of points, and its triangle is named. There is no cache.
+/// Guarantees and members are as for swiftprox_pair_cast; the ground is object 2, as a set of points, and its triangle is named.
+/// There is no cache.
 ///
 /// On failure the answer is reset. SWIFTPROX_ERROR_INVALID_ARGUMENT: also if config->ignores_parting is set. Else same errors as
 /// swiftprox_pair_cast. The call allocates about 4 kB.

@@ -13,12 +13,15 @@ use crate::shape::TriangleShape;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct GroundCastAnswer {
-    /// As of [`cast`] for the body, object 1, and the surface as a set of points; a hit's times are up to two time tolerances apart.
-    /// Of several triangles that are hit so soon, contact and proof are those of one, at times of its own.
+    /// That of a cast of the body, object 1, at the surface as a set of points. Of several triangles that are hit
+    /// within the time tolerance, contact and proof are those of one, at times of its own.
     pub answer: CastAnswer,
     /// The triangle that is hit, or nearly; the number of triangles if none is.
     pub triangle: u32,
 }
+
+/// By how many time tolerances a part of the way is asked about beyond its end.
+const LONGER: f64 = 16.0;
 
 /// Whether a moving body stays farther from a ground at rest than `config.max_distance`, or when it first does not. Certain as
 /// [`cast`] is.
@@ -43,10 +46,12 @@ pub fn ground_cast(body: Moving, ground: PlacedGround, config: &CastConfig) -> R
             config: *config,
             scratch: ground.ground.triangle_shape().copy()?,
             found: GroundCastAnswer { answer: free, triangle: count },
+            range_end: config.time_end,
             lower: config.time_end,
             clearance: f64::INFINITY,
             queries: 0,
             bounds: None,
+            part_end: config.time_end,
             stretch: 1.0,
         };
         let swept = Swept::new(body.into(), config.range())?;
@@ -60,10 +65,12 @@ pub fn ground_cast(body: Moving, ground: PlacedGround, config: &CastConfig) -> R
                 let bounds = here.union(&there);
                 first.stretch = reach.stretch;
                 first.bounds = Some(bounds);
-                (first.config.time_begin, first.config.time_end) = (from, time);
+                first.part_end = time;
+                // A contact where a part ends is proved a little later.
+                let end = (time + LONGER * config.time_tolerance).min(config.time_end);
+                (first.config.time_begin, first.config.time_end) = (from, end);
                 ground.ground.tree().walk(&bounds, &mut first)?;
-                // A near miss at the end of a part may be the contact with which the next one begins.
-                if matches!(first.found.answer.outcome, CastOutcome::Hit | CastOutcome::Budget) {
+                if first.found.answer.outcome != CastOutcome::Free {
                     break;
                 }
             }
@@ -81,6 +88,8 @@ struct First<'a> {
     config: CastConfig,
     scratch: TriangleShape,
     found: GroundCastAnswer,
+    /// The end of the whole range.
+    range_end: f64,
     /// Free of all triangles up to here.
     lower: f64,
     /// Free bodies are so far from all triangles, beyond `max_distance`.
@@ -88,6 +97,8 @@ struct First<'a> {
     queries: u32,
     /// What the body sweeps over in the part, grown by `max_distance`, in the frame of the ground.
     bounds: Option<Bounds>,
+    /// What begins after it is the next part's to find, unless it is the last.
+    part_end: f64,
     stretch: f64,
 }
 
@@ -111,7 +122,10 @@ impl Visit for First<'_> {
         let other = Moving { shape: self.scratch.of(&own), motion: self.fixed };
         cast([self.body, other], &mut PairCache::default(), &self.config, &mut answer)?;
         self.queries += answer.queries;
+        let is_free = answer.outcome == CastOutcome::Free;
+        let is_later = !is_free && answer.time_lower >= self.part_end && self.part_end < self.range_end;
         match answer.outcome {
+            _ if is_later => {}
             CastOutcome::Free | CastOutcome::None => {
                 self.clearance = self.clearance.min(answer.clearance - self.config.max_distance);
             }

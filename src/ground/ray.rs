@@ -83,7 +83,8 @@ impl Visit for First<'_> {
                     self.found = GroundRayAnswer { answer, triangle };
                 }
             }
-            RayOutcome::Miss | RayOutcome::None => {}
+            // Triangles have no deviation, so no ray is undecided.
+            RayOutcome::Miss | RayOutcome::None | RayOutcome::Undecided => {}
         }
         Ok(true)
     }

@@ -222,7 +222,6 @@ pub(crate) fn check_vertex(v: usize, position: &Vector) -> Result<()> {
 }
 
 fn check_face(f: usize, corners: &[u32], vertex_count: usize) -> Result<()> {
-    debug_assert!(vertex_count > 0);
     match corners.iter().position(|&v| v as usize >= vertex_count) {
         None => Ok(()),
         Some(k) => Err(Error::Mesh(format!(

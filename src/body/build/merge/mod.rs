@@ -12,7 +12,7 @@ mod regions;
 use std::f64::consts::PI;
 
 use crate::base::error::Result;
-use crate::base::math::{UNIT_ROUNDOFF, Vector, is_unit};
+use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::base::memory::{collected, filled, push, with_capacity};
 use crate::base::progress::Progress;
 use crate::body::polyhedron::NONE;
@@ -131,7 +131,6 @@ fn number_faces(
 
 /// Chooses each face's first half-edge: the first one at a corner, in order of vertices.
 fn start_at_corners(surface: &Triangulation, faces: &mut MergedFaces) -> Result<()> {
-    debug_assert!(faces.normals.iter().all(is_unit));
     let mut first = filled(NONE, faces.normals.len())?;
     for v in (0..faces.corners.len() as u32).filter(|v| faces.corners[*v as usize]) {
         for &h in surface.around(v) {
