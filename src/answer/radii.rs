@@ -70,7 +70,6 @@ impl Radii {
     /// be they apart or in each other, as the support function of their difference is r more along every direction.
     #[inline]
     pub fn off(&self, [lower, upper]: [f64; 2]) -> [f64; 2] {
-        debug_assert!(lower <= upper || lower.is_nan() || upper.is_nan());
         [sum_below(lower, -self.upper), sum_above(upper, -self.lower)]
     }
 
