@@ -218,6 +218,9 @@ impl Lanes for Symbolic {
     fn farthest_product(self, vectors: &[[[f32; 8]; 3]]) -> (usize, [f32; 2]) {
         self.portable().farthest_product(vectors)
     }
+    fn farthest_of(self, vectors: &[[[f32; 8]; 3]]) -> usize {
+        self.farthest_product(vectors).0
+    }
     fn least(self) -> (f64, usize) {
         self.portable().least()
     }

@@ -1,8 +1,8 @@
 //! The first polytope, grown in single precision, eight triangles at a time.
 //!
-//! It proposes vertices and triangles, and nothing rests on it: planes and the degree are computed anew in double precision, and the
-//! search goes on there where rounding hides something. So no climb settles ties, no distance is a bound, and all that a vertex
-//! sees gives way, whether it hangs together or not. The surface stays a cycle for the reason that [`super::cycle`] gives.
+//! It proposes vertices and triangles, and nothing rests on it: planes and the degree are computed anew in double precision, and
+//! the search goes on there where rounding hides something. So no climb settles ties, no distance is a bound, and all that a
+//! vertex sees gives way, whether it hangs together or not. The surface stays a cycle for the reason that [`super::cycle`] gives.
 
 use super::cycle::Edges;
 use super::storage::Polytope;
