@@ -125,10 +125,10 @@ def test_curved_bodies():
         at_gap = (lambda gap: at(1.5 + gap)) if body.vertex_count > 1000 else (lambda gap: at(0, 0, -2.5 - gap))
         bodies = sp.Pair(body, ball)
         answer = bodies.distance(EYE, at_gap(1))
-        assert answer.outcome == "separated" and answer.lower <= 1 <= answer.upper <= answer.lower + body.deviation + 1e-12
+        assert answer.outcome == sp.Outcome.SEPARATED and answer.lower <= 1 <= answer.upper <= answer.lower + body.deviation + 1e-12
         bodies.verify(EYE, at_gap(1), answer)
-        assert bodies.distance(EYE, at_gap(1e-6)).outcome == "undecided"
-        assert bodies.distance(EYE, at_gap(-0.1)).outcome == "intersecting"
+        assert bodies.distance(EYE, at_gap(1e-6)).outcome == sp.Outcome.UNDECIDED
+        assert bodies.distance(EYE, at_gap(-0.1)).outcome == sp.Outcome.INTERSECTING
     with pytest.raises(sp.InputError, match="at least"):
         sp.Shape.cylinder(1, 1, 1e-9)
 

@@ -165,8 +165,9 @@ impl Pose {
     #[inline]
     pub fn checked_defect(&self) -> Result<f64> {
         let defect = self.rotation_defect();
-        // If x is not finite, 0·x is a NaN.
-        let is_finite = self.rows.iter().map(|[x, y, z, t]| 0.0 * (x + y + z + t)).sum::<f64>() == 0.0;
+        // If x is not finite, 0·x is a NaN. Where R is not, the defect is a NaN or infinite.
+        let [[.., x], [.., y], [.., z]] = self.rows;
+        let is_finite = 0.0 * (x + y + z) == 0.0;
         if is_finite & (defect <= ROTATION_LIMIT) && self.rotation().determinant() > 0.0 {
             return Ok(defect);
         }

@@ -8,7 +8,7 @@ use robust::{Coord3D, orient3d};
 use super::isotropy::spread_of;
 use crate::base::double_double::narrow;
 use crate::base::error::Result;
-use crate::base::math::{Matrix, UNIT_ROUNDOFF, Vector, is_unit};
+use crate::base::math::{Matrix, UNIT_ROUNDOFF, Vector};
 use crate::base::memory::{collected, listed, push, push_to_heap};
 use crate::base::normal::area_vector;
 use crate::base::progress::Progress;
@@ -167,7 +167,6 @@ impl<'a> Cuts<'a> {
     /// Adds the supporting half-space in a direction, the search for its vertex beginning at `start`: n·(x − centre) ≤ h is
     /// (spreadᵀ·n/h)·y ≤ 1.
     fn add_half_space(&mut self, normal: Vector, start: u32) -> Result<()> {
-        debug_assert!(is_unit(&normal));
         let (vertex, _) = self.block.base.support(&normal, start);
         let height = normal.dot(&(self.block.base.vertices[vertex as usize].position - self.block.centre));
         push(&mut self.dual, self.block.spread.tr_mul(&normal) / (height + MARGIN * self.block.base.radius))?;
