@@ -67,20 +67,28 @@ impl Aabb {
     }
 }
 
-/// The largest single-precision number that is certainly less. −∞ for a NaN.
-///
-/// Rounding to nearest moves by at most half of the step that follows.
+/// A single-precision number that is certainly less, by at most four steps; −∞ for a NaN.
 #[inline(always)]
 pub(crate) fn below(x: f64) -> f32 {
-    let rounded = (x as f32).next_down();
-    if rounded.is_nan() { f32::NEG_INFINITY } else { rounded }
+    -above(-x)
 }
 
 /// The same, greater.
+///
+/// Rounding to nearest moves by at most half of a step, ulp, of the rounded number r. The sum's second term is at least 1.9 ulp, or
+/// for a subnormal r one step. So the sum is at least r + ulp, as that is a number and rounding is monotone. It is a NaN where r is
+/// one, and where r is −∞.
 #[inline(always)]
 pub(crate) fn above(x: f64) -> f32 {
-    let rounded = (x as f32).next_up();
-    if rounded.is_nan() { f32::INFINITY } else { rounded }
+    const TINY: f32 = f32::from_bits(1);
+    let rounded = x as f32;
+    let greater = rounded + (rounded.abs() * (2.0 * f32::EPSILON) + TINY);
+    if greater.is_nan() { beyond(rounded) } else { greater }
+}
+
+#[cold]
+fn beyond(rounded: f32) -> f32 {
+    if rounded == f32::NEG_INFINITY { f32::MIN } else { f32::INFINITY }
 }
 
 #[cfg(test)]
