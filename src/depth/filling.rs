@@ -102,11 +102,13 @@ fn decide(
 ) -> Result<()> {
     let hint = found.map_or(&[][..], |found| &found.witness.pairs[..found.witness.count]);
     let known = found.filter(|found| found.expansion.upper < f64::INFINITY);
+    // The bounds have met, next to 0.
+    let met = known.filter(|found| found.expansion.ending == Ending::Narrow && has_witness(found, polyhedra, poses));
     let (position, way_out, along_axes) = in_integers(|| {
         let position = exact::locate(polyhedra, poses, hint, Supports::Climbed);
         let overlaps = matches!(position, Position::Overlapping(_));
         let way_out = if overlaps { way_out(polyhedra, poses) } else { None };
-        let is_unknown = overlaps && way_out.is_none() && known.is_none();
+        let is_unknown = overlaps && way_out.is_none() && met.is_none();
         (position, way_out, is_unknown.then(|| exact::overlap_along_axes(polyhedra, poses)))
     })?;
     answer.ending = DepthEnding::Integers;
@@ -119,7 +121,7 @@ fn decide(
         Position::Touching { normal, common } => {
             answer.outcome = Outcome::Intersecting;
             (answer.lower, answer.depth, answer.upper) = (0.0, 0.0, 0.0);
-            fill_common(answer, polyhedra, poses, &common, &normal);
+            fill_common(answer, polyhedra, poses, &common, &normal, 0.0);
         }
         Position::Overlapping(common) => {
             answer.statistics.exact_iterations = common.iterations;
@@ -127,20 +129,19 @@ fn decide(
                 fill_way_out(answer, polyhedra, poses, &way_out);
                 return Ok(());
             }
-            match known {
-                // The bounds have met, next to 0.
-                Some(found) if found.expansion.ending == Ending::Narrow && has_witness(found, polyhedra, poses) => {
-                    fill_overlapping(answer, polyhedra, poses, found);
-                }
-                _ => {
-                    // The polytope need not surround the origin, and gives no point.
-                    let of_polytope = known.map(|found| (found.expansion.upper, -found.expansion.direction));
-                    let (upper, normal) = of_polytope.or(along_axes).unwrap_or((f64::INFINITY, Vector::x()));
-                    answer.outcome = Outcome::Intersecting;
-                    (answer.lower, answer.depth, answer.upper) = (0.0, 0.0, upper);
-                    fill_common(answer, polyhedra, poses, &common, &normal);
-                }
+            if let Some(found) = met {
+                fill_overlapping(answer, polyhedra, poses, found);
+                return Ok(());
             }
+            // The polytope need not surround the origin, and gives no point. Of a body far longer than the depth its upper end is
+            // all rounding, and integers along the axes tell more.
+            let of_polytope = known.map(|found| (found.expansion.upper, -found.expansion.direction));
+            let least = |(a, along): (f64, Vector), (b, other)| if b < a { (b, other) } else { (a, along) };
+            let (upper, normal) = of_polytope.into_iter().chain(along_axes).fold((f64::INFINITY, Vector::x()), least);
+            answer.outcome = Outcome::Intersecting;
+            (answer.lower, answer.depth, answer.upper) = (0.0, 0.0, upper);
+            // Moved by `upper` along the normal the point leaves each body: there are the faces.
+            fill_common(answer, polyhedra, poses, &common, &normal, upper);
         }
     }
     Ok(())
@@ -220,20 +221,21 @@ fn fill_separated(answer: &mut DepthAnswer, ending: DepthEnding, normal: &Vector
     };
 }
 
-/// A common point.
+/// A common point, up to `within` inside both bodies along the normal.
 fn fill_common(
     answer: &mut DepthAnswer,
     polyhedra: [&Polyhedron; 2],
     poses: [&Pose; 2],
     common: &ExactAnswer,
     normal: &Vector,
+    within: f64,
 ) {
     answer.statistics.exact_iterations = common.iterations;
     let mut weights = [0.0; 4];
     for (weight, exact) in weights.iter_mut().zip(&common.weights) {
         *weight = *exact;
     }
-    fill_points(answer, polyhedra, poses, Combination { pairs: &common.pairs, weights: &weights }, normal, 0.0);
+    fill_points(answer, polyhedra, poses, Combination { pairs: &common.pairs, weights: &weights }, normal, within);
 }
 
 /// Points of both bodies.

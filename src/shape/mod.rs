@@ -439,13 +439,15 @@ impl Shape {
         let extent = Extent::new(&polyhedron)?;
         let hierarchy = made.map_or_else(OnNeed::new, OnNeed::from);
         let support_map = SupportMap::new(&polyhedron)?;
+        // No −0: which lengths are there is told by their bits (`Radii::are_there`).
+        let swept_radius = swept_radius.abs();
         Ok(Shape { polyhedron, extent, hierarchy, support_map, swept_radius, deviation: 0.0, mark: Mark::new() })
     }
 
     /// The same polyhedron, in a curved body that reaches so much farther.
     pub(crate) fn with_deviation(mut self, deviation: f64) -> Shape {
         debug_assert!((0.0..=LARGEST_SWEPT_RADIUS).contains(&deviation));
-        self.deviation = deviation;
+        self.deviation = deviation.abs();
         self
     }
 

@@ -7,9 +7,9 @@ use swiftprox::depth::polytope::{Pyramid, Rounding};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{DepthAnswer, DepthCache, Outcome};
 use swiftprox::placed::frame::Frame;
-use swiftprox::shape::Shape;
+use swiftprox::shape::{Shape, ShapeOptions};
 use swiftprox::verify::verify_depth;
-use testkit::shapes::hull;
+use testkit::shapes::{at, hull};
 
 use crate::{Random, query};
 
@@ -117,4 +117,47 @@ fn a_point_in_a_thin_plate_is_proved_to_be_deep() {
             assert!(verify_depth(bodies, &cache, &forged).is_err());
         }
     }
+}
+
+/// A needle with vertices from 1e-174 to 7e211 in a box 2e232 wide, 1/256 wider along x in the world: the pair has no unit of length.
+/// Cause: the normal goes along y, but the face reported for the point, which is in the middle, was the one across x. That lies 1/256
+/// of the interval farther off than the interval is wide.
+#[test]
+fn a_point_without_a_search_leaves_by_the_face_along_the_normal() {
+    let needle = [
+        [0.0, 1.5, -7e211],
+        [1.0; 3],
+        [-32.0, -32.0, 2.0],
+        [0.0, -17.0, -17.0],
+        [1.1, -8e-174, -3e105],
+        [-4e92, -4e79, -5e66],
+    ];
+    let needle = hull(&needle.map(Vector::from));
+    let half = 2.484028947681142e232;
+    let corners: Vec<Vector> =
+        (0..8).map(|i| Vector::from([i & 1, i >> 1 & 1, i >> 2].map(|side| (2 * side - 1) as f64 * half))).collect();
+    let block = hull(&corners);
+    let stretched = Pose { rows: [[1.00390625, 0.0, 0.0, -32.0], [0.0, 1.0, 0.0, -32.0], [0.0, 0.0, 1.0, -32.0]] };
+    let mut cache = DepthCache::default();
+    let answer = query([&needle, &block], [&at(0.0, 0.0, 0.0), &stretched], &mut cache);
+    assert_eq!(answer.outcome, Outcome::Intersecting);
+    verify_depth([needle.at(&at(0.0, 0.0, 0.0)), block.at(&stretched)], &cache, &answer)
+        .unwrap_or_else(|error| panic!("{error}: {answer:?}"));
+}
+/// A prism 1e185 long, and a tetrahedron 0.75 deep in its lower face. Cause: a swept radius of −0 counted as one, by its bits, and the
+/// distance of objects that may touch was [0, 0] less radii of 0. Without it the upper end was the rounding of so long a body, 3e171.
+#[test]
+fn a_swept_radius_of_minus_zero_is_none() {
+    let (across, half, length) = (5.438853046443695e185, 2.71942652322185e185, 4.710184905670624e185);
+    let triangle = [[-half, -length], [across, 0.0], [-half, length]];
+    let prism: Vec<Vector> = [0.0, across].iter().flat_map(|z| triangle.map(|[x, y]| Vector::new(x, y, *z))).collect();
+    let corners = [[0.1, -0.9, -0.25], [0.4, 0.5, -0.75], [-0.7, 0.6, 0.25], [0.6, 0.0, 0.75]].map(Vector::from);
+    let options = ShapeOptions { swept_radius: -0.0, ..ShapeOptions::default() };
+    let shapes = [hull(&prism), Shape::from_points(&corners, &options).unwrap()];
+    let poses = [at(-32.0, -32.0, -32.0); 2];
+    let mut cache = DepthCache::default();
+    let answer = query([&shapes[0], &shapes[1]], [&poses[0], &poses[1]], &mut cache);
+    assert_eq!((answer.outcome, answer.upper), (Outcome::Intersecting, 0.75));
+    verify_depth([shapes[0].at(&poses[0]), shapes[1].at(&poses[1])], &cache, &answer)
+        .unwrap_or_else(|error| panic!("{error}: {answer:?}"));
 }
