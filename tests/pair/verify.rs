@@ -1,9 +1,11 @@
 //! The check of answers: right ones pass however odd the bodies, wrong ones do not.
 
+use swiftprox::body::build::hull::convex_hull;
 use swiftprox::error::Error;
 use swiftprox::math::{Pose, Vector};
+use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{self, Feature, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig};
-use swiftprox::shape::Shape;
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::verify::verify;
 use testkit::random::Random;
 use testkit::shapes::{at, cuboid, hull};
@@ -240,4 +242,45 @@ fn bodies_that_touch_are_not_said_to_be_apart() {
     let forged = PairAnswer { lower: 1e-17, distance: 1e-17, upper: 1e-16, ..apart };
     let refused = verify([cube.at(&at(1.0 + f64::EPSILON, 0.0, 0.0)), cube.at(&here)], &forged);
     assert!(matches!(&refused, Err(Error::Unverified(m)) if m.contains("their distance")), "{refused:?}");
+}
+
+/// Needles as meshes of their own hull's triangles, all slivers that rounding makes. Causes: products of lengths beyond 1e154 were no
+/// doubles, and a sliver's sides said that it holds any point of its line; so another polygon was named than the one at the witness
+/// point, and `verify` refused it. Noise is from 0 to 1000 roundings of the length.
+#[test]
+fn the_polygon_named_on_a_needle_is_at_the_witness_point() {
+    let mut random = Random::new(5);
+    let mut seen = [0; 4];
+    for round in 0..4_000 {
+        let along = if round % 3 == 0 { random.direction() } else { Vector::new(0.4366, 0.8732, -0.2183) };
+        let size = [1e111, 1e30, 1e16, 1e217][round % 4];
+        let noise = random.pick(&[0.0, 1e-16, 1e-15, 1e-13]);
+        let count = 4 + random.below(5);
+        let places: Vec<f64> = (0..count).map(|k| if k == 0 { 1e-20 } else { random.uniform(-2.0, 1.0) }).collect();
+        let points: Vec<Vector> =
+            places.iter().map(|t| along * (t * size) + random.direction() * (noise * size)).collect();
+        let Some(mesh) = mesh_of_hull(&points) else { continue };
+        let input =
+            random.pick(&[InputPolicy::Strict, InputPolicy::Hull, InputPolicy::Flat, InputPolicy::NearlyConvex]);
+        let Ok(needle) = Shape::from_mesh(&mesh, &ShapeOptions { input, ..ShapeOptions::default() }) else { continue };
+        let other = hull(&(0..7).map(|_| random.vector()).collect::<Vec<_>>());
+        let mut pose = || Pose::new(&random.quarter_turns(), &(random.vector() * 30.0));
+        let poses = [pose(), pose()];
+        seen[round % 4] += 1;
+        let answer = distance(&needle, &poses[0], &other, &poses[1]);
+        verify([needle.at(&poses[0]), other.at(&poses[1])], &answer)
+            .unwrap_or_else(|error| panic!("{error}: {answer:?} {points:?}"));
+    }
+    assert!(seen.iter().all(|&count| count > 500), "{seen:?}");
+}
+
+/// The triangles of a solid hull.
+fn mesh_of_hull(points: &[Vector]) -> Option<PolygonMesh> {
+    let hull = convex_hull(points).unwrap();
+    if hull.dimension < 3 {
+        return None;
+    }
+    let vertices = hull.vertices.iter().map(|&v| points[v as usize]).collect();
+    let place = |v: &u32| hull.vertices.binary_search(v).unwrap() as u32;
+    Some(PolygonMesh::new(vertices, hull.triangles.iter().flatten().map(place).collect(), None).unwrap())
 }

@@ -1,7 +1,7 @@
 //! Which of the caller's polygons on a face holds a point: if they are few, all are looked at, if many, a search tells.
 
 use crate::base::error::Result;
-use crate::base::math::{Vector, clamp, is_unit};
+use crate::base::math::{Vector, distance_from_segment, is_unit};
 use crate::body::polyhedron::Polyhedron;
 use crate::body::polyhedron::polygon_search::{FEW_POLYGONS, Partitions, Polygons, holds};
 
@@ -9,7 +9,6 @@ impl Polyhedron {
     /// The caller's polygon that holds a (centred) point of a face, the lowest where several do; the one that misses it least if
     /// rounding puts it in none: that alone takes time in proportion to the polygons merged into the face.
     pub fn polygon_at(&self, face: u32, point: &Vector) -> u32 {
-        debug_assert!((face as usize) < self.faces.len());
         debug_assert!((face as usize) < self.faces.len());
         let labels = self.labels_of_face(face);
         if labels.len() == 1 || self.polygon_starts.is_empty() {
@@ -81,16 +80,8 @@ fn misses_polygon(corners: &[Vector], normal: &Vector, point: &Vector) -> f64 {
     if holds(corners, normal, point) {
         return 0.0;
     }
-    let mut nearest = f64::INFINITY;
-    for (i, a) in corners.iter().enumerate() {
-        let along = corners[(i + 1) % corners.len()] - a;
-        let from = point - a;
-        let square = along.norm_squared();
-        // A side without length is a point.
-        let t = if square > 0.0 { clamp(from.dot(&along) / square, 0.0, 1.0) } else { 0.0 };
-        nearest = nearest.min((from - along * t).norm());
-    }
-    nearest
+    let side = |i: usize| distance_from_segment(&[corners[i], corners[(i + 1) % corners.len()]], point);
+    (0..corners.len()).map(side).fold(f64::INFINITY, f64::min)
 }
 
 #[cfg(test)]

@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use crate::base::error::Result;
-use crate::base::math::{UNIT_ROUNDOFF, Vector};
+use crate::base::math::{UNIT_ROUNDOFF, Vector, moderate};
 use crate::base::memory::{OnNeed, collected, extend, filled, push};
 
 /// No node, and no polygon.
@@ -191,16 +191,31 @@ impl Partitions {
     }
 }
 
-/// Whether a point over a polygon's plane is in its prism.
+/// Whether a point over a polygon's plane is in its prism. The sides of a sliver say nothing, or the same of all points on its line:
+/// the point is between the polygon's ends, too.
 pub fn holds(corners: &[Vector], normal: &Vector, point: &Vector) -> bool {
     debug_assert!(corners.len() >= 3);
     let Some(mut last) = corners.last() else { return false };
-    corners.iter().all(|corner| {
+    let is_inside_sides = corners.iter().all(|corner| {
         let along = corner - last;
-        let is_inside = normal.cross(&along).dot(&(point - last)) >= 0.0;
+        let is_inside = normal.cross(&moderate(&along)).dot(&moderate(&(point - last))) >= 0.0;
         last = corner;
         is_inside
-    })
+    });
+    is_inside_sides && is_between_ends(corners, point)
+}
+
+/// Whether a point is between the ends of a polygon along its longest side, up to some roundings of coordinates.
+fn is_between_ends(corners: &[Vector], point: &Vector) -> bool {
+    let side = |i: usize| corners[(i + 1) % corners.len()] - corners[i];
+    let longer = |a: Vector, b: Vector| if b.amax() > a.amax() { b } else { a };
+    let along = (0..corners.len()).map(side).fold(Vector::zeros(), longer);
+    // Divided first, for bodies of any size.
+    let along = along / along.amax();
+    let at = |v: &Vector| (v - corners[0]).dot(&along);
+    let (low, high) = corners.iter().map(at).fold((0.0_f64, 0.0_f64), |(low, high), at| (low.min(at), high.max(at)));
+    let rounding = 16.0 * UNIT_ROUNDOFF * (corners[0].amax() + point.amax());
+    (low - rounding..=high + rounding).contains(&at(point))
 }
 
 /// A line in the plane of a face: points p with normal·p = offset.
