@@ -41,7 +41,7 @@ usage: compare [options]
   --motions LIST    with --crowd: of all, brisk, 5%, rest, teleport (all)
   --resting         time depths and manifolds of four points of bodies at rest instead, scene by scene; --methods of swiftprox,
                     swiftprox-manifold, coal-1e-10, mujoco-1e-6, jolt-1e-6, bullet-1e-4, libccd-mpr-1e-4,
-                    parry-hc
+                    parry-hc, and manifolds: box3d-manifold, mujoco-manifold-1e-6, bullet-manifold-0, parry-manifold
   --grounds         time contacts of 1,000 bodies at rest and sliding on a ground of 20,000 triangles instead; --count is rounded up to
                     thousands, --methods of swiftprox, parry, parry-fixed
   --compounds       time verdicts and distances of bodies of 80 to 500 pieces beside parry's compounds instead; --count is the

@@ -1,11 +1,10 @@
-//! Contact manifolds of bodies that intersect: this library's, and parry3d-f64's of its convex polyhedra.
+//! Contact manifolds of bodies that intersect: this library's, and parry3d-f64's of its boxes and convex polyhedra.
 
 use std::rc::Rc;
 
 use parry3d_f64::math::{Pose as ParryPose, Vector};
-use parry3d_f64::query::ContactManifold;
-use parry3d_f64::query::details::contact_manifold_pfm_pfm;
-use parry3d_f64::shape::ConvexPolyhedron;
+use parry3d_f64::query::{ContactManifold, DefaultQueryDispatcher, PersistentQueryDispatcher};
+use parry3d_f64::shape::{ConvexPolyhedron, Shape as ParryShape};
 use swiftprox::manifold::manifold;
 use swiftprox::manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
 use swiftprox::math::Pose;
@@ -78,27 +77,28 @@ impl Method for OwnManifold {
 }
 
 pub struct ParryManifold {
-    bodies: [ConvexPolyhedron; 2],
+    name: &'static str,
+    bodies: [Box<dyn ParryShape>; 2],
     poses: Vec<(ParryPose, ParryPose)>,
     manifold: ContactManifold<(), ()>,
 }
 
 impl ParryManifold {
-    /// Of triangles; none where parry takes a body for no convex one.
-    pub fn new(triangles: &[PolygonMesh; 2]) -> Option<ParryManifold> {
-        let body = |mesh: &PolygonMesh| {
-            let points = mesh.vertices.iter().map(|v| Vector::new(v.x, v.y, v.z)).collect();
-            let corners: Vec<[u32; 3]> = mesh.indices.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect();
-            ConvexPolyhedron::from_convex_mesh(points, &corners)
-        };
-        let bodies = [body(&triangles[0])?, body(&triangles[1])?];
-        Some(ParryManifold { bodies, poses: Vec::new(), manifold: ContactManifold::new() })
+    pub fn new(name: &'static str, bodies: [Box<dyn ParryShape>; 2]) -> ParryManifold {
+        ParryManifold { name, bodies, poses: Vec::new(), manifold: ContactManifold::new() }
     }
+}
+
+/// A mesh of triangles as parry's convex polyhedron; none where parry takes it for no convex one.
+pub fn parry_polyhedron(mesh: &PolygonMesh) -> Option<Box<dyn ParryShape>> {
+    let points = mesh.vertices.iter().map(|v| Vector::new(v.x, v.y, v.z)).collect();
+    let corners: Vec<[u32; 3]> = mesh.indices.chunks_exact(3).map(|c| [c[0], c[1], c[2]]).collect();
+    Some(Box::new(ConvexPolyhedron::from_convex_mesh(points, &corners)?))
 }
 
 impl Method for ParryManifold {
     fn name(&self) -> &str {
-        "parry"
+        self.name
     }
 
     fn load(&mut self, poses: &[PosePair]) {
@@ -112,8 +112,10 @@ impl Method for ParryManifold {
     #[inline]
     fn ask(&mut self, i: usize) {
         let (pose1, pose2) = &self.poses[i];
-        let [first, second] = &self.bodies;
-        contact_manifold_pfm_pfm(&pose1.inv_mul(pose2), first, 0.0, None, second, 0.0, None, 0.0, &mut self.manifold);
+        let ([first, second], between) = (&self.bodies, pose1.inv_mul(pose2));
+        DefaultQueryDispatcher
+            .contact_manifold_convex_convex(&between, &**first, &**second, None, None, 0.0, &mut self.manifold)
+            .expect("parry has manifolds of boxes and polyhedra");
     }
 
     fn reply(&self) -> Reply {

@@ -8,7 +8,7 @@ use swiftprox::pair::{Levels, PairConfig};
 use swiftprox::shape::{Shape, ShapeOptions};
 
 use super::list::{Body, Extent};
-use super::manifold::{OwnManifold, ParryManifold};
+use super::manifold::{OwnManifold, ParryManifold, parry_polyhedron};
 use crate::depth::{self, ours::Depth, parry::Contact, triangulated};
 use crate::method::Method;
 use crate::parry::{Climbing, Parry, Rings, Verdict};
@@ -156,7 +156,9 @@ impl Methods {
 
     fn of_manifold(&self) -> [Vec<Box<dyn Method>>; 3] {
         let mut all: Vec<Box<dyn Method>> = vec![Box::new(OwnManifold::new(depth::ours::NAME, self.shapes.each_ref()))];
-        all.extend(ParryManifold::new(&self.triangles).map(|parry| Box::new(parry) as Box<dyn Method>));
+        if let [Some(first), Some(second)] = self.triangles.each_ref().map(parry_polyhedron) {
+            all.push(Box::new(ParryManifold::new("parry", [first, second])));
+        }
         [all, Vec::new(), Vec::new()]
     }
 

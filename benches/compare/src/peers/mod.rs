@@ -38,6 +38,8 @@ pub enum Asked {
     Distance,
     Verdict,
     Depth,
+    /// The depth of a manifold's deepest point.
+    Manifold,
 }
 
 type Ask = unsafe extern "C" fn(*mut Handle, usize, *mut f64) -> f64;
@@ -52,6 +54,7 @@ struct Functions {
     distance: Option<Ask>,
     verdict: Option<Ask>,
     depth: Option<Ask>,
+    manifold: Option<Ask>,
 }
 
 /// One of the ways in which a library answers: the word for tables, and its functions, none where the library was not there when
@@ -78,6 +81,7 @@ macro_rules! way {
             }
             let none = Functions {
                 create: $create, load: $load, forget: $forget, free: $free, distance: None, verdict: None, depth: None,
+                manifold: None,
             };
             Some(Functions { $($query: Some($ask),)+ ..none })
         };
@@ -86,11 +90,15 @@ macro_rules! way {
 }
 
 #[rustfmt::skip]
-const WAYS: [Way; 9] = [
+const WAYS: [Way; 11] = [
     way!("coal", coal: coal_peer_create, coal_peer_load, coal_peer_forget, coal_peer_free;
          distance: coal_distance, verdict: coal_verdict, depth: coal_depth),
     way!("mujoco", mujoco: mujoco_peer_create, mujoco_peer_load, mujoco_peer_forget, mujoco_peer_free;
          distance: mujoco_distance, verdict: mujoco_verdict, depth: mujoco_depth),
+    way!("mujoco-manifold", mujoco: mujoco_peer_create, mujoco_peer_load, mujoco_peer_forget, mujoco_peer_free;
+         manifold: mujoco_manifold),
+    way!("bullet-manifold", bullet64: bullet_rest_create, bullet_rest_load, bullet_rest_forget, bullet_rest_free;
+         manifold: bullet_rest_manifold),
     way!("jolt", jolt: jolt_peer_create, jolt_peer_load, jolt_peer_forget, jolt_peer_free;
          distance: jolt_distance, verdict: jolt_verdict, depth: jolt_depth),
     way!("bullet", bullet: bullet_peer_create, bullet_peer_load, bullet_peer_forget, bullet_peer_free;
@@ -121,6 +129,7 @@ pub fn named(asked: Asked, name: &str, meshes: [&PolygonMesh; 2]) -> Option<Peer
         Asked::Distance => functions.distance,
         Asked::Verdict => functions.verdict,
         Asked::Depth => functions.depth,
+        Asked::Manifold => functions.manifold,
     };
     Peer::new(name, functions, ask?, tolerance, meshes)
 }

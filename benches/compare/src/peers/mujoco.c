@@ -1,5 +1,5 @@
 /* MuJoCo's mj_geomDistance of two mesh geoms, placed by writing their poses into mjData. Its meshes have vertices of single
- * precision, in the axes of their inertia. */
+ * precision, in the axes of their inertia. And its contacts of the two, by the function that a step calls. */
 
 #include <math.h>
 #include <mujoco/mujoco.h>
@@ -92,14 +92,19 @@ void mujoco_peer_forget(struct peer *peer)
     (void)peer;
 }
 
-/* The signed distance where it is less than `most`, else that, and along what. */
-static double ask(struct peer *peer, size_t i, double most, double normal[3])
+static void place_both(struct peer *peer, size_t i)
 {
     const mjtNum *poses = peer->poses + 2 * POSE * i;
     for (int k = 0; k < 2; ++k) {
         memcpy(peer->data->geom_xpos + 3 * k, poses + POSE * k, 3 * sizeof *poses);
         memcpy(peer->data->geom_xmat + 9 * k, poses + POSE * k + 3, 9 * sizeof *poses);
     }
+}
+
+/* The signed distance where it is less than `most`, else that, and along what. */
+static double ask(struct peer *peer, size_t i, double most, double normal[3])
+{
+    place_both(peer, i);
     mjtNum points[6];
     const mjtNum distance = mj_geomDistance(peer->model, peer->data, 0, 1, most, points);
     for (int k = 0; k < 3; ++k)
@@ -123,4 +128,19 @@ double mujoco_depth(struct peer *peer, size_t i, double normal[3])
 {
     const double distance = ask(peer, i, FARTHEST, normal);
     return distance < 0 ? -distance : distance >= 0 ? 0 : distance;
+}
+
+double mujoco_manifold(struct peer *peer, size_t i, double normal[3])
+{
+    place_both(peer, i);
+    mjPreContact contacts[mjMAXCONPAIR];
+    const int count = mjCOLLISIONFUNC[mjGEOM_MESH][mjGEOM_MESH](peer->model, peer->data, contacts, 0, 1, 0);
+    double deepest = 0;
+    for (int k = 0; k < count; ++k) {
+        if (-contacts[k].dist > deepest) {
+            deepest = -contacts[k].dist;
+            memcpy(normal, contacts[k].normal, 3 * sizeof *normal);
+        }
+    }
+    return deepest;
 }

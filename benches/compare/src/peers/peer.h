@@ -6,7 +6,8 @@
  *   peer_free
  *   distance       at pose i, and along what, of any length and either sign; 0 of intersecting bodies, NaN of a failure
  *   verdict        0 of intersecting bodies, infinity of others
- *   depth          0 of bodies said to be apart */
+ *   depth          0 of bodies said to be apart
+ *   manifold       the depth of its deepest point, likewise */
 #ifndef COMPARE_PEER_H
 #define COMPARE_PEER_H
 

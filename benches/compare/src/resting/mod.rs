@@ -1,8 +1,9 @@
 //! Resting contacts: how deep bodies are in each other that hardly move, and their manifold of four points, scene by scene.
 //!
 //! The truth is the certified interval, of which each answer is re-checked by [`verify_depth`]; a peer errs by as much as its depth
-//! is outside of it. Peers say a depth alone.
+//! is outside of it. The depth of a manifold is that of its deepest point.
 
+mod box3d;
 mod scenes;
 
 use std::fmt::Write;
@@ -12,7 +13,7 @@ use swiftprox::pair::{DepthAnswer, DepthCache, DepthConfig, Outcome, depth};
 use swiftprox::shape::{Shape, ShapeOptions};
 use swiftprox::verify::verify_depth;
 
-use crate::bodies::manifold::OwnManifold;
+use crate::bodies::manifold::{OwnManifold, ParryManifold};
 use crate::depth::{STRONGEST, ours, parry::Contact, triangulated};
 use crate::method::{Method, replies};
 use crate::options::Options;
@@ -21,6 +22,7 @@ use crate::peers::{self, Asked};
 use crate::report;
 use crate::setting::poses_of;
 use crate::timing::{Time, time_methods};
+use box3d::Box3d;
 use scenes::{SCENES, Scene};
 use testkit::PosePair;
 
@@ -29,6 +31,9 @@ const MANIFOLD: &str = "swiftprox-manifold";
 
 /// Peers besides the strongest.
 const FURTHER: [&str; 2] = ["bullet-1e-4", "libccd-mpr-1e-4"];
+
+/// Engines' manifolds, beside those of Box3D and parry.
+const MANIFOLDS: [&str; 2] = ["mujoco-manifold-1e-6", "bullet-manifold-0"];
 
 pub fn run(options: &Options) -> Result<(), String> {
     let mut rows = Vec::new();
@@ -70,6 +75,11 @@ fn measure(scene: &Scene, options: &Options) -> Result<Vec<Row>, String> {
     methods.push(Box::new(OwnManifold::new(MANIFOLD, shapes.each_ref())));
     methods.extend(peers::of_names(Asked::Depth, &FURTHER, [first, second]));
     methods.push(Box::new(Contact::new([Rc::new(Rings::new(first)), Rc::new(Rings::new(second))])));
+    methods.extend(Box3d::new([first, second]).map(|peer| Box::new(peer) as Box<dyn Method>));
+    methods.extend(peers::of_names(Asked::Manifold, &MANIFOLDS, [first, second]));
+    if let [Some(first), Some(second)] = [0, 1].map(|i| scene.bodies[i].of_parry(&triangles[i])) {
+        methods.push(Box::new(ParryManifold::new("parry-manifold", [first, second])));
+    }
     methods.retain(|method| options.methods.is_empty() || options.methods.iter().any(|name| name == method.name()));
 
     methods.iter_mut().for_each(|method| method.load(&poses));

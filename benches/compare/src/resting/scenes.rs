@@ -1,11 +1,13 @@
 //! Bodies that rest on each other as a simulator sees them: a little in each other, they creep and turn a little from step to step.
 
+use parry3d_f64::shape::{Cuboid, Shape as ParryShape};
 use swiftprox::error::Result;
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{PairConfig, SignedDistance, SignedDistanceCache, signed_distance};
 use swiftprox::shape::Shape;
 
+use crate::bodies::manifold::parry_polyhedron;
 use testkit::PosePair;
 use testkit::models::{cuboid, ellipsoid};
 use testkit::orbits::pose_pair;
@@ -25,10 +27,21 @@ pub enum Kind {
 impl Kind {
     pub fn mesh(self) -> Result<PolygonMesh> {
         match self {
-            Kind::Cube => cuboid([1.0; 3]),
-            Kind::Plate => cuboid([20.0, 20.0, 1.0]),
+            Kind::Cube | Kind::Plate => cuboid(self.half_extents()),
             Kind::Hull(n) => ellipsoid([1.0; 3], n),
         }
+    }
+
+    /// As parry has it: boxes are no polyhedra there.
+    pub fn of_parry(self, triangles: &PolygonMesh) -> Option<Box<dyn ParryShape>> {
+        match self {
+            Kind::Cube | Kind::Plate => Some(Box::new(Cuboid::new(self.half_extents().into()))),
+            Kind::Hull(_) => parry_polyhedron(triangles),
+        }
+    }
+
+    fn half_extents(self) -> [f64; 3] {
+        if let Kind::Plate = self { [20.0, 20.0, 1.0] } else { [1.0; 3] }
     }
 }
 
