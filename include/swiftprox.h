@@ -401,59 +401,6 @@ swiftprox_status swiftprox_shape_create_capsule(double half_length,
                                                 const struct swiftprox_shape **shape);
 
 /**
- * Creates a cylinder about the z axis, from z = -half_height to half_height. Release it with swiftprox_shape_release. On failure
- * `*shape` is null.
- *
- * Queries run on a prism inside the cylinder, which reaches farther than it by at most `deviation`; 0 sets that to 1e-4 of the
- * radius. Intervals hold for the cylinder: they are wider by the deviation. Where it hides whether objects intersect, the outcome
- * is SWIFTPROX_OUTCOME_UNDECIDED. Points and features are the prism's: vertex k of n is at the bottom, at the angle 2 pi k / n
- * from x; vertex n + k is above it. Grounds, gradients and compounds refuse the shape.
- *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: a length is not from 2^-960 to 2^1000, the deviation is negative, above 2^1000, NaN, or so
- * small that the prism had more than 2048 sides; the message tells the least.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_shape_create_cylinder(double radius,
-                                                 double half_height,
-                                                 double deviation,
-                                                 const struct swiftprox_shape **shape);
-
-/**
- * Creates a cone about the z axis, with its base at z = -half_height and its tip at z = half_height. Release it with
- * swiftprox_shape_release. On failure `*shape` is null.
- *
- * The deviation is as in swiftprox_shape_create_cylinder. Vertex k of n is on the base as there, vertex n is the tip.
- *
- * Errors as of swiftprox_shape_create_cylinder.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_shape_create_cone(double radius,
-                                             double half_height,
-                                             double deviation,
-                                             const struct swiftprox_shape **shape);
-
-/**
- * Creates an ellipsoid about the local origin with three semi-axes along x, y and z. Release it with swiftprox_shape_release. On
- * failure `*shape` is null.
- *
- * The deviation is as in swiftprox_shape_create_cylinder; 0 sets it to 1e-3 of the largest semi-axis. For a sphere
- * swiftprox_shape_create_sphere is exact.
- *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: a semi-axis is not from 2^-960 to 2^1000, the deviation is negative, above 2^1000, NaN, or so
- * small that the polyhedron had more than 4002 vertices; the message tells the least.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_shape_create_ellipsoid(const double *semi_axes,
-                                                  double deviation,
-                                                  const struct swiftprox_shape **shape);
-
-/**
  * Adds one reference to a shape and returns the shape. Each call needs its own swiftprox_shape_release. Safe from any thread. Null
  * returns null.
  *
@@ -1280,21 +1227,6 @@ swiftprox_status swiftprox_scene_is_object_valid(const struct swiftprox_scene *s
                                                  int32_t *valid);
 
 /**
- * Writes the ids of all objects in order of creation, and their number to `*count`. Results and swiftprox_scene_set_poses use the
- * same order. `ids` has room for `capacity` ids. With capacity 0 it may be null, and only the number is written. On failure
- * `*count` is 0.
- *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is not 0 and less than the number of objects.
- *
- * Stable.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_scene_copy_object_ids(const struct swiftprox_scene *scene,
-                                                 struct swiftprox_object_id *ids,
-                                                 size_t capacity,
-                                                 size_t *count);
-
-/**
  * Moves an object, also a fixed one. `pose` is 12 doubles, row-major [R|T]. On failure the object does not move.
  *
  * Stable.
@@ -1788,73 +1720,6 @@ swiftprox_status swiftprox_scene_listen(struct swiftprox_scene *scene,
                                         const struct swiftprox_scene_query *query,
                                         struct swiftprox_scene_answer *answer,
                                         struct swiftprox_listener_events *events);
-
-/** @} */
-
-/**
- * @defgroup swiftprox_batch Many pairs, or many poses, at once
- * @{
- */
-
-/** A shape at one or many poses, an argument of swiftprox_pair_distances by value. Pointers are only read during the call. */
-typedef struct swiftprox_poses {
-  /** The shape. */
-  const struct swiftprox_shape *shape;
-  /** 12 doubles per pose, the row-major 3x4 matrix [R|T]. */
-  const double *poses;
-  /** Number of poses; 1 for an object that does not move. */
-  size_t count;
-} swiftprox_poses;
-
-/**
- * Computes the distances of one pair at many poses in turn. Answers and cache are bit for bit those of repeated calls of
- * swiftprox_pair_distance. Both objects have the same number of poses, or one has one. `answers` has room for the larger count.
- *
- * A refused pose gets a reset answer, and all others are answered; the message names the first. SWIFTPROX_ERROR_INVALID_ARGUMENT:
- * the counts differ, and neither is 1. Other errors as in swiftprox_pair_distance.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_distances(struct swiftprox_poses object1,
-                                          struct swiftprox_poses object2,
-                                          struct swiftprox_pair_cache *cache,
-                                          const struct swiftprox_pair_config *config,
-                                          struct swiftprox_pair_answer *answers);
-
-/** One pair of a batch. */
-typedef struct swiftprox_pair_question {
-  /** Shape 1. */
-  const struct swiftprox_shape *shape1;
-  /** Pose of shape 1, 12 doubles. */
-  const double *pose1;
-  /** Shape 2. */
-  const struct swiftprox_shape *shape2;
-  /** Pose of shape 2, 12 doubles. */
-  const double *pose2;
-  /** The pair's own cache; pairs must not share one. */
-  struct swiftprox_pair_cache *cache;
-} swiftprox_pair_question;
-
-/**
- * Runs the query `kind` for `count` pairs; answers[k] belongs to pairs[k]. Answers and caches are bit for bit those of
- * swiftprox_pair_intersection, swiftprox_pair_distance, swiftprox_pair_contact or swiftprox_pair_approximate. With a `scene`, its
- * workers share batches of 2,048 pairs or more; null uses only the caller's thread. The scene does not change, but no other call
- * may use it meanwhile.
- *
- * A refused pair gets a reset answer, and all others are answered; the message names the first. Null pointers and lack of memory
- * leave all unanswered. SWIFTPROX_ERROR_BUG resets all answers and caches. SWIFTPROX_ERROR_INVALID_ARGUMENT: kind is unknown, or a
- * member of config is out of range.
- *
- * Experimental.
- */
-SWIFTPROX_NODISCARD
-swiftprox_status swiftprox_pair_batch(swiftprox_query_kind kind,
-                                      const struct swiftprox_pair_question *pairs,
-                                      size_t count,
-                                      const struct swiftprox_pair_config *config,
-                                      struct swiftprox_scene *scene,
-                                      struct swiftprox_pair_answer *answers);
 
 /** @} */
 

@@ -1,5 +1,6 @@
 /* The C compiler lays structs out as layout.h says, which Rust has written. Compiling it is the test. */
 
+#include "swiftprox/batch.h"
 #include "swiftprox/compound.h"
 #include "swiftprox/geometry.h"
 #include "swiftprox/ground.h"

@@ -5,6 +5,7 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "swiftprox/batch.h"
 
 enum { COUNT = 3000 };
 

@@ -6,6 +6,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "swiftprox/curved.h"
 #include "swiftprox/geometry.h"
 #include "swiftprox/ground.h"
 #include "swiftprox/scene.h"

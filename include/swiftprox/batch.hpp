@@ -2,6 +2,7 @@
 #ifndef SWIFTPROX_BATCH_HPP
 #define SWIFTPROX_BATCH_HPP
 
+#include "batch.h"
 #include "pair.hpp"
 #include "scene.hpp"
 

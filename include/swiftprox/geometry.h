@@ -190,25 +190,23 @@ typedef struct swiftprox_decomposition {
 } swiftprox_decomposition;
 
 /**
- * Cuts the surface of a mesh into convex pieces, as the decomposer of SWIFT++ did. The mesh need not be convex or connected. Each
- * triangle belongs to one piece and lies on that piece's convex hull.
+ * Cuts the surface of a mesh into convex pieces, as the decomposer of SWIFT++ did. The mesh need not be convex or connected.
+ * Each triangle belongs to one piece and lies on that piece's convex hull.
  *
- * For closed surfaces with outward faces the hulls stay inside the body: separated bodies have the distance of their pieces.
- * Pieces may overlap and need not fill the body, so a body wholly inside another may touch no piece. Open surfaces and cavities
- * become flat pieces. A mesh with all closed parts inside out is turned.
+ * For closed surfaces with outward faces the hulls stay inside the body, so separated bodies have the distance of their
+ * pieces. Pieces need not fill the body: a body wholly inside another may touch no piece. Open surfaces and cavities become
+ * flat pieces. A mesh with all closed parts inside out is turned.
  *
- * Make a shape of each piece with swiftprox_shape_create_from_mesh: same vertices, its triangles, no valences,
- * input = SWIFTPROX_INPUT_PATCH. Pass all shapes to swiftprox_scene_add_object.
+ * Make a shape of each piece with swiftprox_shape_create_from_mesh: same vertices, its triangles, no valences, input =
+ * SWIFTPROX_INPUT_PATCH. Pass all shapes to swiftprox_scene_add_object.
  *
- * The mesh is as in swiftprox_shape_create_from_mesh, but its faces must only be nearly flat. `convexity_tolerance` is relative to
- * the bounding-box diagonal. Points that close to a plane count as on it, and pieces may exceed the surface by about as much. 0 is
- * exact, but splits flat faces with rounded vertices; swiftprox_mesh_estimate_tolerance suggests a value. Time is at worst
- * quadratic, one to two seconds for 10,000 triangles. `progress` (may be null, gets `progress_user`) reports progress and can
- * cancel.
+ * Faces must be nearly flat. `convexity_tolerance` is relative to the bounding-box diagonal: points that close to a plane
+ * count as on it. 0 is exact, but splits flat faces with rounded vertices; swiftprox_mesh_estimate_tolerance suggests a value.
+ * Time is at worst quadratic, one to two seconds for 10,000 triangles. `progress` may be null.
  *
- * SWIFTPROX_ERROR_MESH: a coordinate is not finite, an index is out of range, a face crosses itself, or no face has an area. Also
- * an edge with more than two faces, or two in one direction. SWIFTPROX_ERROR_INVALID_ARGUMENT: the tolerance is outside [0, 1], or
- * capacity is too small. Then the arrays are unchanged, and the message gives the room needed.
+ * SWIFTPROX_ERROR_MESH: a coordinate is not finite, an index is out of range, a face crosses itself, no face has an area, or
+ * an edge has more than two faces or two in one direction. SWIFTPROX_ERROR_INVALID_ARGUMENT: the tolerance is outside [0, 1],
+ * or capacity is too small. Then the arrays are unchanged, and the message gives the room needed.
  *
  * Stable.
  */

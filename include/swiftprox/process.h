@@ -89,17 +89,16 @@ typedef int32_t (*swiftprox_mesh_reader_callback)(void *user,
                                                   struct swiftprox_mesh_sink *sink);
 
 /**
- * Registers a reader of mesh files. swiftprox_shape_create_from_file calls it for each file that begins with `magic`, whatever its
- * extension. White space and a UTF-8 byte order mark before the magic are skipped. The string is copied. Only the first bytes
- * count: "PLY" also matches PLYMOUTH. Registered readers precede the built-in ones for TRI, POLY, OFF, OBJ and STL; "OFF" replaces
- * one.
+ * Registers a reader of mesh files, for the process. swiftprox_shape_create_from_file calls it for each file that begins with
+ * `magic`, whatever its extension. White space and a UTF-8 byte order mark before the magic are skipped. "PLY" also matches
+ * PLYMOUTH. Registered readers precede the built-in ones: "OFF" replaces one.
  *
- * The registry belongs to the process. Any thread, and any callback, may change it at any time. A reader replaces one with the
- * same magic. A null callback removes it, if there is one. Several threads may call the callback at once. `user` must stay valid
- * until the reader is replaced or removed, and no thread still reads a file with it.
+ * Any thread, and any callback, may call this at any time. A reader replaces one with the same magic; a null callback removes
+ * it. Several threads may call the callback at once. `user` must stay valid until the reader is replaced or removed, and no
+ * thread still reads a file with it.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: magic is empty, or begins with white space or a byte order mark. Or it begins with another
- * reader's magic, or that one with it.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: magic is empty, or begins with white space, a byte order mark or another reader's magic,
+ * or that one begins with it.
  *
  * Stable.
  */

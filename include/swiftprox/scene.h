@@ -20,6 +20,21 @@ extern "C" {
  */
 
 /**
+ * Writes the ids of all objects in order of creation, and their number to `*count`. Results and swiftprox_scene_set_poses use the
+ * same order. `ids` has room for `capacity` ids. With capacity 0 it may be null, and only the number is written. On failure
+ * `*count` is 0.
+ *
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: capacity is not 0 and less than the number of objects.
+ *
+ * Stable.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_scene_copy_object_ids(const struct swiftprox_scene *scene,
+                                                 struct swiftprox_object_id *ids,
+                                                 size_t capacity,
+                                                 size_t *count);
+
+/**
  * Adds a copy of `original` as it is now: its pieces (shared) and their poses, its pose, fixed flag, groups, mask and all user
  * data. All pairs of the copy are active. Pair caches are not copied. On failure nothing is added and `*id` is null.
  *

@@ -3,6 +3,7 @@
 #define SWIFTPROX_SHAPE_HPP
 
 #include "configs.hpp"
+#include "curved.h"
 #include "geometry.h"
 #include "result.hpp"
 

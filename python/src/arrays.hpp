@@ -10,6 +10,8 @@
 
 #include <nanobind/nanobind.h>
 #include <swiftprox.h>
+#include <swiftprox/batch.h>
+#include <swiftprox/curved.h>
 #include <swiftprox/geometry.h>
 #include <swiftprox/ground.h>
 #include <swiftprox/motion.h>

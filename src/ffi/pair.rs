@@ -152,16 +152,13 @@ pub unsafe extern "C" fn swiftprox_pair_approximate(
 /// Checks an answer independently of the search that found it. SWIFTPROX_OK: it is right for these shapes and poses.
 ///
 /// Verdict and interval are proved without tolerance for the exact objects R*v + T. `distance` must be in the interval. Other
-/// members may be off by 2^-47 * (both radii + distances of the centres from each other and from their local origins). The normal
-/// must have unit length, and separate separated objects by at least lower. Witness points must lie in their objects and agree in
-/// both frames: on the features if separated, one common point for a contact. Unset numbers must be NaN. decided_by, statistics and
-/// the direction of a contact's normal are not checked.
-///
-/// Time is linear in the number of vertices.
+/// members may be off by 2^-47 * (both radii + distances of the centres from each other and from their local origins). The
+/// normal must have unit length, and separate separated objects by at least lower. Witness points must lie in their objects and
+/// agree in both frames: on the features if separated, one common point for a contact. decided_by, statistics and the direction
+/// of a contact's normal are not checked. Time is linear in the number of vertices.
 ///
 /// SWIFTPROX_ERROR_UNVERIFIED: the answer is wrong; the message says where. SWIFTPROX_ERROR_INVALID_ARGUMENT: the answer has an
-/// unknown enumerator, no outcome or no such vertex. It is also returned for normals or points of objects too large or far apart
-/// for doubles.
+/// unknown enumerator, no outcome or no such vertex, or objects are too large or far apart for doubles.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_verify(
     object1: CPlaced,

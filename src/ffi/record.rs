@@ -15,17 +15,17 @@ use crate::scene::object::ObjectId;
 use crate::scene::{Replay, Scene};
 
 /// Records a scene in a file from now on, for bug reports and benchmarks. Its present content comes first. An existing file is
-/// replaced. A running recording ends first. Null `path` only ends it, as swiftprox_scene_destroy does. swiftprox-replay and
+/// replaced, and a running recording ends. Null `path` only ends it, as swiftprox_scene_destroy does. swiftprox-replay and
 /// swiftprox_replay_open play recordings back.
 ///
-/// The file has every change that affects answers, and each query with a digest of its answer. It has no workers or statistics. A
-/// pair filter is recorded by its decisions, each shape once. The file is updated before each query, so a query that crashes is its
-/// last record. For a replay with the same bits, record before the first object is added: pair caches are not recorded.
+/// The file has every change that affects answers, and each query with a digest of its answer. A pair filter is recorded by its
+/// decisions. The file is updated before each query, so a query that crashes is its last record. For a replay with the same
+/// bits, record before the first object is added: pair caches are not recorded.
 ///
 /// If writing fails, the recording ends and the scene goes on. The log and the call that ends the recording report it.
 ///
-/// SWIFTPROX_ERROR_FILE: the file is not writable or not regular; or the former recording could not be completed, and no new one
-/// begins. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path. The scene is then not recorded.
+/// SWIFTPROX_ERROR_FILE: the file is not writable or not regular; or the former recording could not be completed, and no new
+/// one begins. SWIFTPROX_ERROR_INVALID_ARGUMENT: it is no path.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_record(scene: *mut SceneHandle, path: *const c_char) -> StatusCode {
     // SAFETY: the header's pointer rules.

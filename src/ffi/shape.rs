@@ -181,16 +181,14 @@ pub unsafe extern "C" fn swiftprox_shape_create_capsule(
     create(shape, || Ok(Shape::from_capsule(half_length, radius)?))
 }
 
-/// Creates a cylinder about the z axis, from z = -half_height to half_height. Release it with swiftprox_shape_release. On failure
-/// `*shape` is null.
+/// Creates a cylinder about the z axis, from z = -half_height to half_height. Release it with swiftprox_shape_release. On
+/// failure `*shape` is null.
 ///
-/// Queries run on a prism inside the cylinder, which reaches farther than it by at most `deviation`; 0 sets that to 1e-4 of the
-/// radius. Intervals hold for the cylinder: they are wider by the deviation. Where it hides whether objects intersect, the outcome
-/// is SWIFTPROX_OUTCOME_UNDECIDED. Points and features are the prism's: vertex k of n is at the bottom, at the angle 2 pi k / n
-/// from x; vertex n + k is above it. Grounds, gradients and compounds refuse the shape.
+/// Its polyhedron is a prism. Vertex k of n is at the bottom, at the angle 2 pi k / n from x; vertex n + k is above it. A
+/// deviation of 0 means 1e-4 of the radius.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a length is not from 2^-960 to 2^1000, the deviation is negative, above 2^1000, NaN, or so
-/// small that the prism had more than 2048 sides; the message tells the least.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a length is not from 2^-960 to 2^1000, or the deviation is negative, above 2^1000, NaN, or
+/// so small that the prism had more than 2048 sides; the message tells the least.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_cylinder(
     radius: f64,
@@ -205,9 +203,7 @@ pub unsafe extern "C" fn swiftprox_shape_create_cylinder(
 /// Creates a cone about the z axis, with its base at z = -half_height and its tip at z = half_height. Release it with
 /// swiftprox_shape_release. On failure `*shape` is null.
 ///
-/// The deviation is as in swiftprox_shape_create_cylinder. Vertex k of n is on the base as there, vertex n is the tip.
-///
-/// Errors as of swiftprox_shape_create_cylinder.
+/// Deviation and vertices of the base are as in swiftprox_shape_create_cylinder; vertex n is the tip. Same errors as there.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_cone(
     radius: f64,
@@ -219,14 +215,12 @@ pub unsafe extern "C" fn swiftprox_shape_create_cone(
     create(shape, || Ok(Shape::from_cone(radius, half_height, deviation)?))
 }
 
-/// Creates an ellipsoid about the local origin with three semi-axes along x, y and z. Release it with swiftprox_shape_release. On
-/// failure `*shape` is null.
-///
-/// The deviation is as in swiftprox_shape_create_cylinder; 0 sets it to 1e-3 of the largest semi-axis. For a sphere
+/// Creates an ellipsoid about the local origin with three semi-axes along x, y and z. Release it with swiftprox_shape_release.
+/// On failure `*shape` is null. A deviation of 0 means 1e-3 of the largest semi-axis. For a sphere
 /// swiftprox_shape_create_sphere is exact.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a semi-axis is not from 2^-960 to 2^1000, the deviation is negative, above 2^1000, NaN, or so
-/// small that the polyhedron had more than 4002 vertices; the message tells the least.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: a semi-axis is not from 2^-960 to 2^1000, or the deviation is negative, above 2^1000, NaN,
+/// or so small that the polyhedron had more than 4002 vertices; the message tells the least.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_shape_create_ellipsoid(
     semi_axes: *const f64,

@@ -24,3 +24,11 @@ fn functions_of_the_headers_have_at_most_six_parameters() {
     }
     assert!(count > 100, "{count}");
 }
+
+/// Others are in side headers, so that a newcomer keeps the core in the head.
+#[test]
+fn the_core_has_at_most_fifty_functions() {
+    let core = &headers()[0];
+    let count = core.lines().filter(|line| !line.starts_with([' ', '#', '/', 't', '}']) && line.contains('(')).count();
+    assert!((40..=50).contains(&count), "{count}");
+}
