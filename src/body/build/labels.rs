@@ -10,7 +10,7 @@ use crate::base::math::{Matrix, Vector};
 use crate::base::memory::{collected, copied, extend, filled, lacking, push, reserve, with_capacity};
 use crate::base::progress::Progress;
 use crate::body::build::merge::merge_bound;
-use crate::body::build::spread::{Spread, is_within};
+use crate::body::build::spread::{Polygon, Spread, is_within};
 use crate::body::mesh::{Numbers, PolygonMesh};
 use crate::body::polyhedron::{Face, Polyhedron};
 
@@ -166,8 +166,8 @@ fn faces_of_polygons(
                 || is_within(polyhedron, face, point, bound)
         };
         if !(misfit <= bound && own.points.iter().zip(&own.vertices).all(holds)) {
-            let steps =
-                spread.add_faces(polygon as u32, &own.points, &own.vertices, &normal, face, &mut found.faces)?;
+            let seen = Polygon { number: polygon as u32, corners: &own.points, vertices: &own.vertices, normal };
+            let steps = spread.add_faces(&seen, face, &mut found.faces)?;
             progress.steps(steps, polygon, mesh.face_count())?;
         }
         if found.faces.len() == found.starts[polygon] as usize {

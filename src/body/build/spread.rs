@@ -24,11 +24,15 @@ pub struct Spread<'a> {
     open: Vec<u32>,
 }
 
-/// A polygon, seen against its normal.
-struct Seen<'a> {
-    polygon: u32,
-    corners: &'a [Vector],
-    normal: Vector,
+/// A polygon of the caller's.
+pub struct Polygon<'a> {
+    pub number: u32,
+    /// Counter-clockwise about the normal.
+    pub corners: &'a [Vector],
+    /// The hull's vertices at the corners.
+    pub vertices: &'a [Option<u32>],
+    /// Normal of any length.
+    pub normal: Vector,
 }
 
 impl<'a> Spread<'a> {
@@ -40,37 +44,29 @@ impl<'a> Spread<'a> {
         Ok(Spread { polyhedron, near, bound, seen, corner_of, open: Vec::new() })
     }
 
-    /// Adds the faces to `found` that a polygon lies over, and says how much work it was. `corners` are
-    /// counter-clockwise about `normal`, `vertices` the hull's at them; `start` is a face near by.
+    /// Adds the faces to `found` that a polygon lies over, and returns how much work it was; `start` is a face near by.
     ///
     /// Seen against a direction the faces that look that way do not overlap. So those over a convex polygon hang together, and from
     /// one of them neighbour by neighbour all are found.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn add_faces(
-        &mut self,
-        polygon: u32,
-        corners: &[Vector],
-        vertices: &[Option<u32>],
-        normal: &Vector,
-        start: u32,
-        found: &mut Vec<u32>,
-    ) -> Result<usize> {
-        let length = normal.norm();
+    pub fn add_faces(&mut self, polygon: &Polygon, start: u32, found: &mut Vec<u32>) -> Result<usize> {
+        debug_assert_eq!(polygon.corners.len(), polygon.vertices.len());
+        let length = polygon.normal.norm();
         if !(length > 0.0) {
             return Ok(0);
         }
-        let seen = Seen { polygon, corners, normal: normal / length };
-        for (corner, vertex) in (0..).zip(vertices) {
+        let seen = Polygon { normal: polygon.normal / length, ..*polygon };
+        for (corner, vertex) in (0..).zip(seen.vertices) {
             if let Some(vertex) = *vertex {
-                self.corner_of[vertex as usize] = [polygon, corner];
+                self.corner_of[vertex as usize] = [seen.number, corner];
             }
         }
         let mut steps = 0;
         let facing = self.facing(&seen, start, &mut steps);
         let start = self.walk(&seen, facing, &mut steps);
-        self.seen[start as usize] = polygon;
+        self.seen[start as usize] = seen.number;
         push(&mut self.open, start)?;
         while let Some(face) = self.open.pop() {
             steps += self.polyhedron.faces[face as usize].side_count as usize;
@@ -81,8 +77,8 @@ impl<'a> Spread<'a> {
             for side in 0..self.polyhedron.faces[face as usize].side_count {
                 let (ends, beside) = self.side(face, side);
                 // The polygon does not reach over its own sides.
-                if self.seen[beside as usize] != polygon && !self.is_side(&seen, ends) {
-                    self.seen[beside as usize] = polygon;
+                if self.seen[beside as usize] != seen.number && !self.is_side(&seen, ends) {
+                    self.seen[beside as usize] = seen.number;
                     push(&mut self.open, beside)?;
                 }
             }
@@ -107,7 +103,7 @@ impl<'a> Spread<'a> {
     /// A face that looks a polygon's way, from one that need not: rounding may leave a polygon no vertex of the hull but some at
     /// its sides, around which all faces are the next side's. The way is over neighbours that a ray from the centre of mass along
     /// the normal comes to sooner: seen from the centre, faces are corners of the dual polytope, and the ray asks for the highest.
-    fn facing(&self, seen: &Seen, mut face: u32, steps: &mut usize) -> u32 {
+    fn facing(&self, seen: &Polygon, mut face: u32, steps: &mut usize) -> u32 {
         let centre = self.polyhedron.mass.centre_of_mass - self.polyhedron.centre;
         let likeness = |face: u32| self.polyhedron.faces[face as usize].normal.dot(&seen.normal);
         let height = |face: u32| {
@@ -134,7 +130,7 @@ impl<'a> Spread<'a> {
 
     /// The face over the middle of a polygon, from another over neighbours that have the middle on their side of an edge: each
     /// time, as the body is below all planes and above none of the edge's two, the plane over the middle is a lower one.
-    fn walk(&self, seen: &Seen, start: u32, steps: &mut usize) -> u32 {
+    fn walk(&self, seen: &Polygon, start: u32, steps: &mut usize) -> u32 {
         let middle = seen.corners.iter().sum::<Vector>() / seen.corners.len() as f64;
         let mut face = start;
         // Rounding may lead round in a circle.
@@ -158,16 +154,16 @@ impl<'a> Spread<'a> {
     }
 
     /// Whether two vertices are the ends of a side of the polygon.
-    fn is_side(&self, seen: &Seen, ends: [u32; 2]) -> bool {
+    fn is_side(&self, seen: &Polygon, ends: [u32; 2]) -> bool {
         let [[polygon, first], [other, second]] = ends.map(|v| self.corner_of[v as usize]);
         let apart = first.abs_diff(second);
-        polygon == seen.polygon && other == polygon && (apart == 1 || apart as usize == seen.corners.len() - 1)
+        polygon == seen.number && other == polygon && (apart == 1 || apart as usize == seen.corners.len() - 1)
     }
 
     /// Whether a polygon and a face look the same way, near each other, and overlap.
-    fn lies_over(&self, seen: &Seen, face: u32, steps: &mut usize) -> bool {
+    fn lies_over(&self, seen: &Polygon, face: u32, steps: &mut usize) -> bool {
         let record = &self.polyhedron.faces[face as usize];
-        let is_corner = |side: u32| self.corner_of[self.polyhedron.corner(face, side) as usize][0] == seen.polygon;
+        let is_corner = |side: u32| self.corner_of[self.polyhedron.corner(face, side) as usize][0] == seen.number;
         if !(record.normal.dot(&seen.normal) > 0.0) {
             return false;
         }
@@ -181,7 +177,7 @@ impl<'a> Spread<'a> {
     }
 
     /// Whether a polygon and a face, both convex, overlap by more than rounding: no side of either has all of the other beyond it.
-    fn overlap(&self, seen: &Seen, face: u32) -> bool {
+    fn overlap(&self, seen: &Polygon, face: u32) -> bool {
         let count = self.polyhedron.faces[face as usize].side_count;
         let corner = |side: u32| self.position(self.polyhedron.corner(face, side % count));
         let next = |i: usize| &seen.corners[(i + 1) % seen.corners.len()];
@@ -192,7 +188,13 @@ impl<'a> Spread<'a> {
     }
 
     /// Whether points are all beyond a side.
-    fn separates(&self, seen: &Seen, tail: &Vector, head: &Vector, mut points: impl Iterator<Item = Vector>) -> bool {
+    fn separates(
+        &self,
+        seen: &Polygon,
+        tail: &Vector,
+        head: &Vector,
+        mut points: impl Iterator<Item = Vector>,
+    ) -> bool {
         let across = seen.normal.cross(&(head - tail));
         let length = across.norm();
         length > self.bound && points.all(|point| across.dot(&(point - tail)) <= self.bound * length)

@@ -107,9 +107,8 @@ pub fn insert<L: Lanes, const V: usize, const T: usize, const W: usize>(
     rounding: &Rounding,
     demand: &Demand,
 ) -> bool {
-    let mut region = visible::<L, V, T>(polytope, apex.vertex, rounding);
-    region.add(beyond);
-    replace::<L, V, T, W>(polytope, edges, &mut region, beyond, apex, rounding, demand)
+    let mut region = visible::<L, V, T>(polytope, beyond, apex.vertex, rounding);
+    replace::<L, V, T, W>(polytope, edges, &mut region, apex, rounding, demand)
 }
 
 /// Takes a corner of a triangle out: what is around it gives way to the cone from another corner of the triangle.
@@ -123,18 +122,18 @@ pub fn take_out<L: Lanes, const V: usize, const T: usize, const W: usize>(
 ) -> bool {
     let corners = polytope.corners_of(triangle);
     for (k, vertex) in [(1, 0), (2, 0), (2, 1), (0, 1), (0, 2), (1, 2)] {
-        let mut region = around(polytope, corners[vertex]);
+        let mut region = around(polytope, triangle, corners[vertex]);
         let apex = Apex { vertex: corners[k], is_known: true };
-        if replace::<L, V, T, W>(polytope, edges, &mut region, triangle, apex, rounding, demand) {
+        if replace::<L, V, T, W>(polytope, edges, &mut region, apex, rounding, demand) {
             return true;
         }
     }
     false
 }
 
-/// The triangles that have a vertex.
-fn around<const V: usize, const T: usize>(polytope: &Polytope<V, T>, vertex: u8) -> Region {
-    let mut region = Region { words: [0; MOST_WORDS], count: polytope.triangle_count.div_ceil(64) };
+/// The triangles that have a vertex, which the root has.
+fn around<const V: usize, const T: usize>(polytope: &Polytope<V, T>, root: usize, vertex: u8) -> Region {
+    let mut region = Region { words: [0; MOST_WORDS], count: polytope.triangle_count.div_ceil(64), root };
     for triangle in 0..polytope.triangle_count {
         if polytope.corners_of(triangle).contains(&vertex) {
             region.add(triangle);
@@ -143,20 +142,19 @@ fn around<const V: usize, const T: usize>(polytope: &Polytope<V, T>, vertex: u8)
     region
 }
 
-/// Puts the cone from a vertex over the rim of a region in its place, see [`insert`]; `beyond` is in the region.
+/// Puts the cone from a vertex over the rim of a region in its place, see [`insert`].
 #[inline(always)]
 fn replace<L: Lanes, const V: usize, const T: usize, const W: usize>(
     polytope: &mut Polytope<V, T>,
     edges: &mut Edges<V, W>,
     region: &mut Region,
-    beyond: usize,
     apex: Apex,
     rounding: &Rounding,
     demand: &Demand,
 ) -> bool {
     for _ in 0..MOST_TAKEN {
         let from = polytope.triangle_count;
-        let Some(to) = lay_cone(polytope, edges, region, beyond, apex.vertex) else { return false };
+        let Some(to) = lay_cone(polytope, edges, region, apex.vertex) else { return false };
         let folded = if apex.is_known { folded(polytope, region, apex.vertex, from, to) } else { Folded::Nowhere };
         let wrong = match folded {
             Folded::Nowhere => match judge::<L, V, T>(polytope, from, to, rounding, demand) {
@@ -192,6 +190,8 @@ struct Region {
     words: [u64; MOST_WORDS],
     /// Words in use.
     count: usize,
+    /// The triangle with which the others must hang together; it is one of them.
+    root: usize,
 }
 
 /// Words for as many triangles as there are in any polytope.
@@ -210,10 +210,11 @@ impl Region {
     }
 }
 
-/// The triangles whose planes a vertex is beyond, by more than rounding. Those without a plane are none of them.
+/// The root, and the triangles whose planes a vertex is beyond, by more than rounding. Those without a plane are none of them.
 #[inline(always)]
 fn visible<L: Lanes, const V: usize, const T: usize>(
     polytope: &mut Polytope<V, T>,
+    root: usize,
     apex: u8,
     rounding: &Rounding,
 ) -> Region {
@@ -225,7 +226,8 @@ fn visible<L: Lanes, const V: usize, const T: usize>(
     let count = polytope.triangle_count;
     // Triangles are looked at in fours.
     polytope.distances[count..count + 3].fill(f64::INFINITY);
-    let mut region = Region { words: [0; MOST_WORDS], count: count.div_ceil(64) };
+    let mut region = Region { words: [0; MOST_WORDS], count: count.div_ceil(64), root };
+    region.add(root);
     let mut first = 0;
     while first < count {
         let [along_x, along_y, along_z] = &polytope.normals;
@@ -252,11 +254,10 @@ fn lay_cone<const V: usize, const T: usize, const W: usize>(
     polytope: &mut Polytope<V, T>,
     edges: &mut Edges<V, W>,
     region: &mut Region,
-    beyond: usize,
     apex: u8,
 ) -> Option<usize> {
     let from = polytope.triangle_count;
-    connect(polytope, edges, region, beyond);
+    connect(polytope, edges, region);
     let (mut to, mut is_refused) = (from, false);
     for (word, mut triangles) in region.words[..region.count].iter().copied().enumerate() {
         while triangles != 0 {
@@ -285,15 +286,15 @@ fn lay_cone<const V: usize, const T: usize, const W: usize>(
     (!is_refused && to > from).then_some(to)
 }
 
-/// Leaves in a region what hangs together with one of its triangles over edges, and adds its edges. (Of a polytope that bodies have
+/// Leaves in a region what hangs together with its root over edges, and adds its edges. (Of a polytope that bodies have
 /// moved a vertex may be beyond others, too.)
 #[inline(always)]
 fn connect<const V: usize, const T: usize, const W: usize>(
     polytope: &Polytope<V, T>,
     edges: &mut Edges<V, W>,
     region: &mut Region,
-    from: usize,
 ) {
+    let from = region.root;
     let mut open = region.words;
     region.words = [0; MOST_WORDS];
     region.add(from);
@@ -320,7 +321,7 @@ fn connect<const V: usize, const T: usize, const W: usize>(
     }
 }
 
-/// Where the cone from a vertex of the polytope lies on triangles outside the region, so that an edge would be there twice.
+/// How the cone from a vertex of the polytope lies on triangles outside the region, so that an edge would be there twice.
 enum Folded {
     Nowhere,
     /// This triangle of the cone lies on the one behind it.

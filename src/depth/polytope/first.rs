@@ -35,7 +35,7 @@ pub fn make<L: Lanes, const V: usize, const T: usize>(
         None => GENERIC,
     };
     for lean in LEANS {
-        if bipyramid(frame, polytope, rounding, &centre, &tip, lean, supports) {
+        if bipyramid(frame, polytope, rounding, &centre, &tips_and_sides(&tip, lean), supports) {
             return Some(centre);
         }
     }
@@ -47,6 +47,19 @@ fn add<const V: usize, const T: usize>(polytope: &mut Polytope<V, T>, pair: Vert
     polytope.find(pair).is_none() && polytope.add_vertex(pair, position).is_some()
 }
 
+/// Directions to a bipyramid's three sides, which lean towards its upper tip, to its lower tip and to the upper one.
+#[inline(always)]
+fn tips_and_sides(tip: &Vector, lean: f64) -> [Vector; 5] {
+    let tip = tip.normalize();
+    let axis = if tip.x.abs() < 0.6 { Vector::x() } else { Vector::y() };
+    let side = tip.cross(&axis).normalize();
+    let across = tip.cross(&side);
+    let half_root = 0.75_f64.sqrt();
+    let around = [side, side * -0.5 + across * half_root, side * -0.5 - across * half_root];
+    let [a, b, c] = around.map(|direction| (direction + tip * lean).normalize());
+    [a, b, c, -tip, tip]
+}
+
 /// Two tips and three vertices around the line between them; those and the lower tip where the upper one is among them. No if two
 /// others are one, or the centre is not inside.
 #[inline(always)]
@@ -55,20 +68,12 @@ fn bipyramid<L: Lanes, const V: usize, const T: usize>(
     polytope: &mut Polytope<V, T>,
     rounding: &Rounding,
     centre: &Vector,
-    tip: &Vector,
-    lean: f64,
+    directions: &[Vector; 5],
     supports: &mut u32,
 ) -> bool {
     polytope.clear();
-    let tip = tip.normalize();
-    let axis = if tip.x.abs() < 0.6 { Vector::x() } else { Vector::y() };
-    let side = tip.cross(&axis).normalize();
-    let across = tip.cross(&side);
-    let half_root = 0.75_f64.sqrt();
-    let around = [side, side * -0.5 + across * half_root, side * -0.5 - across * half_root];
-    let [a, b, c] = around.map(|direction| (direction + tip * lean).normalize());
     let mut has_tip = true;
-    for (place, direction) in [a, b, c, -tip, tip].iter().enumerate() {
+    for (place, direction) in directions.iter().enumerate() {
         *supports += 1;
         let (pair, position) = rough_support(frame, L::from_vector(direction), None);
         if !add(polytope, pair, position.to_array()) {

@@ -119,7 +119,7 @@ pub fn propose<L: Lanes, const V: usize, const T: usize, const W: usize>(
         let value = normal.dot(position) as f32;
         best = if value < best { value } else { best };
         let allowed = if share * best > width { share * best } else { width };
-        // Where the bodies are apart double precision says so.
+        // If the bodies are apart, double precision finds it.
         let goes_on = (distance < best - allowed) & (value - distance > resolution) & (value > 0.0);
         if !goes_on || polytope.find(pair).is_some() {
             break;
