@@ -1,7 +1,6 @@
 //! The options and the answer of a depth query: plain data, laid out for C.
 
-use crate::answer::check_accuracy;
-use crate::answer::{Feature, Outcome};
+use crate::answer::{Feature, Outcome, check_accuracy};
 use crate::base::error::Result;
 
 /// The options of a depth query.
@@ -52,7 +51,7 @@ pub enum DepthEnding {
     Stalled = 5,
 }
 
-/// What a depth query did.
+/// Work of a depth query.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(C)]
 pub struct DepthStatistics {
@@ -99,7 +98,7 @@ pub struct DepthAnswer {
     pub feature1: Feature,
     /// The feature of object 2 that holds its witness point.
     pub feature2: Feature,
-    /// What the query did.
+    /// Work of the query.
     pub statistics: DepthStatistics,
 }
 

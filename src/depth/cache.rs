@@ -16,7 +16,7 @@ const MOST_VERTICES: usize = 56;
 /// Triangles of a polytope that is kept: a closed surface of `MOST_VERTICES` vertices, without holes and handles, has no more.
 const MOST_TRIANGLES: usize = 108;
 
-/// What a pair remembers from its last depth query. Any bytes are safe; all zero is cold. It changes how fast an answer comes, and
+/// A pair's memory of its last depth query. Any bytes are safe; all zero is cold. It changes how fast an answer comes, and
 /// which of several least directions is said; never the verdict, and no depth beyond its interval.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(C)]
@@ -31,7 +31,7 @@ pub struct DepthCache {
     direction: [u32; 3],
     /// The facet of least overlap of a pair that seems to rest: its kind, 0 for none, and its indices. The bodies need not have it.
     resting: [u32; 3],
-    /// What proved the depth where the pair rested and no facet did, the last one that did first.
+    /// The facets that proved the depth where the pair rested and no facet did, the last one that did first.
     pyramids: [KeptPyramid; PYRAMIDS],
     /// The vertices. Coordinates are computed anew: what is stored could lie. Of a facet, the indices are the first pair, and the
     /// next two have the bits of its direction in body 2's axes.

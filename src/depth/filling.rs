@@ -2,8 +2,7 @@
 
 use super::answer::{DepthAnswer, DepthEnding, DepthStatistics};
 use super::search::{FoundPolytope, Search, WIDEST};
-use crate::answer::Outcome;
-use crate::answer::contact;
+use crate::answer::{Outcome, contact};
 use crate::base::error::Result;
 use crate::base::math::{Matrix, Pose, Vector, clamp};
 use crate::base::memory::in_integers;

@@ -2,8 +2,7 @@
 
 use super::answer::{DepthAnswer, DepthEnding, DepthStatistics};
 use super::cache::{DepthCache, PYRAMIDS};
-use crate::answer::contact;
-use crate::answer::{Feature, Outcome};
+use crate::answer::{Feature, Outcome, contact};
 use crate::base::math::{Pose, Vector, clamp};
 use crate::base::simd::{self, Kernel, Lanes, Work};
 use crate::body::polyhedron::Polyhedron;
@@ -48,7 +47,7 @@ pub fn look_at_facet<L: Lanes>(frame: &Frame<L>, cache: &mut DepthCache, answer:
     true
 }
 
-/// Where a depth is, in centred coordinates.
+/// A depth's place, in centred coordinates.
 pub struct DepthPlaces<L> {
     pub direction: L,
     pub points: [L; 2],

@@ -38,9 +38,8 @@ use crossings::Crossings;
 pub use crossings::ON_ARC;
 pub use kept::{Proved, across, prove};
 use placed::PlacedFan;
-pub use search::Facet;
 use search::{Best, Search};
-pub use search::{NODE, NORMAL, SUPPORT};
+pub use search::{Facet, NODE, NORMAL, SUPPORT};
 pub use witness::Witness;
 
 /// The result of all facets. (The facet that they find is written in its place: R1, R5.)
