@@ -287,12 +287,16 @@ fn rust_lays_structs_out_as_the_table_says() {
     );
 }
 
-/// The name of a struct, and its members' bytes.
-macro_rules! defaults {
-    ($name:ident = $value:expr, { $($member:ident),* }) => {{
-        let value = $value;
-        (stringify!($name), vec![$((stringify!($member), value.$member.bytes())),*])
-    }};
+/// The name of a struct, and what is in memory of each member.
+#[allow(unsafe_code, reason = "bytes of a struct as C sees them")]
+fn bytes_of<T>(name: &'static str, value: T) -> (&'static str, Vec<Vec<u8>>) {
+    let layout = layouts().into_iter().find(|layout| layout.name == name).expect("each struct is listed");
+    let start = (&raw const value).cast::<u8>();
+    let bytes = |(_, offset, size): &(_, usize, usize)| {
+        // SAFETY: members are numbers, pointers and arrays of them, within the struct, and are initialised.
+        unsafe { std::slice::from_raw_parts(start.add(*offset), *size) }.to_vec()
+    };
+    (name, layout.members.iter().map(bytes).collect())
 }
 
 /// What C begins a struct with is what the library takes for null. Only members are compared: between them is nothing.
@@ -300,18 +304,18 @@ macro_rules! defaults {
 #[cfg_attr(not(target_pointer_width = "64"), ignore = "the table is that of 64 bits")]
 fn constants_of_c_are_the_defaults_of_rust() {
     let defaults = [
-        defaults!(swiftprox_shape_options = CShapeOptions::DEFAULT, { struct_size, input, rotation, translation, scale, convexity_tolerance, progress, progress_user, tuning, face_noise, swept_radius }),
-        defaults!(swiftprox_pair_config = CPairConfig::DEFAULT, { struct_size, max_distance, absolute_error, relative_error, step_budget, tuning }),
-        defaults!(swiftprox_depth_config = CDepthConfig::DEFAULT, { struct_size, absolute_error, relative_error, step_budget }),
-        defaults!(swiftprox_manifold_config = CManifoldConfig::DEFAULT, { struct_size, max_distance, reduces }),
-        defaults!(swiftprox_scene_options = CSceneOptions::DEFAULT, { struct_size, worker_count, enqueue_task, finish_task, task_user }),
-        defaults!(swiftprox_object_options = CObjectOptions::DEFAULT, { struct_size, user_data, pose, fixed, groups, mask }),
-        defaults!(swiftprox_scene_query = CSceneQuery::DEFAULT, { struct_size, max_distance, absolute_error, relative_error, error_budget, step_budget, early_exit, tuning, detail, mask }),
-        defaults!(swiftprox_cast_config = CCastConfig::defaults(), { struct_size, time_begin, time_end, time_tolerance, max_distance, step_budget, ignores_parting }),
-        defaults!(swiftprox_clearance_config = CClearanceConfig::defaults(), { struct_size, time_begin, time_end, absolute_error, relative_error, step_budget }),
-        defaults!(swiftprox_scene_ground_config = CSceneGroundConfig::DEFAULT, { struct_size, max_distance, reduces, groups, mask }),
-        defaults!(swiftprox_shape_tuning = CShapeTuning::DEFAULT, { struct_size, hierarchy, lookup, decimation, minimum_triangles, most_levels, lookup_radius_factor, lookup_resolution }),
-        defaults!(swiftprox_pair_tuning = CPairTuning::DEFAULT, { struct_size, start, levels, refinement }),
+        bytes_of("swiftprox_shape_options", CShapeOptions::DEFAULT),
+        bytes_of("swiftprox_pair_config", CPairConfig::DEFAULT),
+        bytes_of("swiftprox_depth_config", CDepthConfig::DEFAULT),
+        bytes_of("swiftprox_manifold_config", CManifoldConfig::DEFAULT),
+        bytes_of("swiftprox_scene_options", CSceneOptions::DEFAULT),
+        bytes_of("swiftprox_object_options", CObjectOptions::DEFAULT),
+        bytes_of("swiftprox_scene_query", CSceneQuery::DEFAULT),
+        bytes_of("swiftprox_cast_config", CCastConfig::defaults()),
+        bytes_of("swiftprox_clearance_config", CClearanceConfig::defaults()),
+        bytes_of("swiftprox_scene_ground_config", CSceneGroundConfig::DEFAULT),
+        bytes_of("swiftprox_shape_tuning", CShapeTuning::DEFAULT),
+        bytes_of("swiftprox_pair_tuning", CPairTuning::DEFAULT),
     ];
     let constants =
         headers().concat().lines().filter(|line| line.starts_with("#define ") && line.contains("_DEFAULT ")).count();
@@ -322,52 +326,9 @@ fn constants_of_c_are_the_defaults_of_rust() {
         let theirs: Vec<u8> = theirs.split_whitespace().map(|byte| u8::from_str_radix(byte, 16).unwrap()).collect();
         let layout = layouts.iter().find(|layout| layout.name == *name).expect("each struct is listed");
         assert_eq!((layout.size, layout.members.len()), (theirs.len(), ours.len()), "{name}");
-        for ((member, offset, size), (_, ours)) in layout.members.iter().zip(ours) {
+        for ((member, offset, size), ours) in layout.members.iter().zip(ours) {
             assert_eq!(ours[..], theirs[*offset..offset + size], "{name}.{member}");
         }
-    }
-}
-
-/// What is in memory of a member.
-trait Bytes {
-    fn bytes(&self) -> Vec<u8>;
-}
-
-macro_rules! bytes_of_numbers {
-    ($($number:ty),*) => {$(
-        impl Bytes for $number {
-            fn bytes(&self) -> Vec<u8> {
-                self.to_ne_bytes().to_vec()
-            }
-        }
-    )*};
-}
-
-bytes_of_numbers!(usize, u64, u32, i32, f64);
-
-impl<T: Bytes, const N: usize> Bytes for [T; N] {
-    fn bytes(&self) -> Vec<u8> {
-        self.iter().flat_map(Bytes::bytes).collect()
-    }
-}
-
-impl<T> Bytes for *const T {
-    fn bytes(&self) -> Vec<u8> {
-        self.addr().bytes()
-    }
-}
-
-impl<T> Bytes for *mut T {
-    fn bytes(&self) -> Vec<u8> {
-        self.addr().bytes()
-    }
-}
-
-/// A callback, of which there is none by default.
-impl<T> Bytes for Option<T> {
-    fn bytes(&self) -> Vec<u8> {
-        assert!(self.is_none());
-        0_usize.bytes()
     }
 }
 
