@@ -540,7 +540,7 @@ typedef enum swiftprox_outcome SWIFTPROX_INT32 {
   SWIFTPROX_OUTCOME_UNDECIDED = 4
 } swiftprox_outcome;
 
-/** What decided a pair query. */
+/** The method that decided a pair query. */
 typedef enum swiftprox_decided_by SWIFTPROX_INT32 {
   /** Nothing: the value of a fresh answer. */
   SWIFTPROX_DECIDED_BY_NONE = 0,
@@ -589,7 +589,7 @@ typedef struct swiftprox_feature {
   uint32_t ids[2];
 } swiftprox_feature;
 
-/** What a query did. */
+/** Work of a query. */
 typedef struct swiftprox_statistics {
   /** Voronoi marching: feature pairs visited. */
   uint32_t marching_steps;
@@ -637,7 +637,7 @@ typedef struct swiftprox_pair_answer {
    * where objects intersect by their swept radii alone, else 0.
    */
   uint32_t proof_count;
-  /** What the query did. */
+  /** Work of the query. */
   struct swiftprox_statistics statistics;
 } swiftprox_pair_answer;
 
@@ -776,7 +776,7 @@ typedef enum swiftprox_depth_ending SWIFTPROX_INT32 {
   SWIFTPROX_DEPTH_ENDING_STALLED = 5
 } swiftprox_depth_ending;
 
-/** What a depth query did. */
+/** Work of a depth query. */
 typedef struct swiftprox_depth_statistics {
   /** Expansions of the proof. */
   uint32_t steps;
@@ -823,7 +823,7 @@ typedef struct swiftprox_depth_answer {
   struct swiftprox_feature feature1;
   /** The feature of object 2 that holds its witness point. */
   struct swiftprox_feature feature2;
-  /** What the query did. */
+  /** Work of the query. */
   struct swiftprox_depth_statistics statistics;
 } swiftprox_depth_answer;
 
@@ -912,9 +912,9 @@ typedef struct swiftprox_signed_distance {
   double world2[3];
   /** Unit normal in the world frame, from object 2 to object 1: moving object 1 along it makes the distance grow as much. */
   double normal[3];
-  /** What holds the witness point of object 1. */
+  /** Feature that holds the witness point of object 1. */
   struct swiftprox_feature feature1;
-  /** What holds the witness point of object 2. */
+  /** Feature that holds the witness point of object 2. */
   struct swiftprox_feature feature2;
 } swiftprox_signed_distance;
 
@@ -955,19 +955,22 @@ typedef struct swiftprox_manifold_point {
   double world1[3];
   /** On object 2, in the world frame. */
   double world2[3];
-  /** How far the first is from the second along the normal, at least; less than 0 where the objects overlap there. */
+  /**
+   * The gap: how far the point on object 1 is from that on object 2 along the normal. At least this; negative where the objects
+   * overlap ...
+   */
   double gap_lower;
   /** ... and at most. */
   double gap_upper;
-  /** What holds the point on object 1, in the caller's numbering. */
+  /** Feature that holds the point on object 1, in the caller's numbering. */
   struct swiftprox_feature feature1;
-  /** What holds the point on object 2. */
+  /** Feature that holds the point on object 2. */
   struct swiftprox_feature feature2;
-  /** A number made of the two features: while they stay it stays. */
+  /** Id made of the two features; it stays while they do. */
   uint64_t id;
 } swiftprox_manifold_point;
 
-/** Where two objects meet, or nearly do. */
+/** Contact points of two objects that meet, or nearly do. */
 typedef struct swiftprox_manifold {
   /** SWIFTPROX_OUTCOME_INTERSECTING, SWIFTPROX_OUTCOME_SEPARATED within `max_distance`, or SWIFTPROX_OUTCOME_BEYOND it. */
   swiftprox_outcome outcome;
@@ -1326,7 +1329,7 @@ swiftprox_status swiftprox_scene_set_object_info(struct swiftprox_scene *scene,
 /** Default of swiftprox_scene_query.max_distance: 0 for swiftprox_scene_query_contact, infinity for all other queries. */
 #define SWIFTPROX_DEFAULT_MAX_DISTANCE (-1.0)
 
-/** What a query of contacts says of each pair beside its answer. */
+/** Details that a query of contacts returns for each pair beside its answer. */
 typedef enum swiftprox_contact_detail SWIFTPROX_INT32 {
   /** Nothing. */
   SWIFTPROX_CONTACT_DETAIL_NONE = 0,
@@ -1492,17 +1495,17 @@ swiftprox_status swiftprox_scene_query_contact(struct swiftprox_scene *scene,
                                                const struct swiftprox_scene_query *query,
                                                struct swiftprox_scene_answer *answer);
 
-/** What a query of contacts says of a pair beside its answer. What was not asked for, or is not there, says nothing. */
+/** A query of contacts returns this for a pair beside its answer. Parts not asked for are unset. */
 typedef struct swiftprox_contact {
-  /** How deep the two are in each other; of a pair that does not intersect nothing is said. */
+  /** Depth of the two; unset if they do not intersect. */
   struct swiftprox_depth_answer depth;
-  /** Where they meet, or nearly do. */
+  /** Their contact points. */
   struct swiftprox_manifold manifold;
-  /** Where among all points those of the manifold begin, as many as its `point_count`. */
+  /** Start of the manifold's points among all points; there are manifold.point_count. */
   size_t first_point;
 } swiftprox_contact;
 
-/** What is asked of a pair. */
+/** A kind of query. */
 typedef enum swiftprox_query_kind SWIFTPROX_INT32 {
   /** The verdict alone. */
   SWIFTPROX_QUERY_KIND_INTERSECTION = 0,
@@ -1610,7 +1613,7 @@ swiftprox_status swiftprox_scene_set_pair_filter(struct swiftprox_scene *scene,
  * @{
  */
 
-/** What has become of a pair or of a contact point since the listener's last query. */
+/** State of a pair or contact point since the listener's last query. */
 typedef enum swiftprox_event_state SWIFTPROX_INT32 {
   /** It is listed and was not. */
   SWIFTPROX_EVENT_STATE_BEGAN = 1,
@@ -1638,13 +1641,13 @@ typedef struct swiftprox_pair_event {
   uint32_t piece1;
   /** Which piece of object 2. */
   uint32_t piece2;
-  /** What has become of the two pieces. */
+  /** State of the two pieces. */
   swiftprox_event_state state;
-  /** What has become of the two objects, which are listed if any of their pieces are. */
+  /** State of the two objects; they are listed if any of their pieces are. */
   swiftprox_event_state objects_state;
   /** Its place among the pairs of the answer, and among contacts if they were asked for; SIZE_MAX where it has ended. */
   size_t result;
-  /** Where among all points of the events its own begin. */
+  /** Start of its points among all points of the events. */
   size_t first_point;
   /** How many: those of its contact in their order, and behind them those that are gone. */
   size_t point_count;
@@ -1656,7 +1659,7 @@ typedef struct swiftprox_point_event {
   uint64_t id;
   /** Its place among the points of the contacts; SIZE_MAX where it is gone. */
   size_t point;
-  /** What has become of it. */
+  /** Its state. */
   swiftprox_event_state state;
 } swiftprox_point_event;
 
@@ -1679,8 +1682,8 @@ typedef struct swiftprox_listener_events {
 } swiftprox_listener_events;
 
 /**
- * Remembers what was listed when it last asked a scene, and nothing else: what other listeners ask does not change what it hears.
- * Of another scene it hears that all pairs of the one before have ended.
+ * Remembers what its last query of a scene listed. Other listeners do not affect it. When it queries another scene, all pairs of
+ * the former one have ended.
  */
 typedef struct swiftprox_listener swiftprox_listener;
 

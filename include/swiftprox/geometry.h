@@ -307,7 +307,7 @@ const char *swiftprox_library_ray_outcome_string(swiftprox_ray_outcome outcome);
  * @{
  */
 
-/** What of a ray is asked. */
+/** What a ray query returns. */
 typedef enum swiftprox_ray_hits SWIFTPROX_INT32 {
   /** The first that it meets, or may meet where a curved one is undecided. */
   SWIFTPROX_RAY_HITS_FIRST = 0,
@@ -319,7 +319,7 @@ typedef enum swiftprox_ray_hits SWIFTPROX_INT32 {
 
 /** A convex piece that a ray meets. */
 typedef struct swiftprox_scene_ray_hit {
-  /** Whose piece it is. */
+  /** The object. */
   struct swiftprox_object_id object;
   /** The caller's own number of the object. */
   uint64_t user_data;
@@ -327,7 +327,7 @@ typedef struct swiftprox_scene_ray_hit {
   uint32_t piece;
   /** Its place among all pieces of the scene, in order of creation, while none is removed. */
   uint32_t row;
-  /** Where the ray meets it. */
+  /** The answer for the piece. */
   struct swiftprox_ray_answer answer;
 } swiftprox_scene_ray_hit;
 

@@ -23,7 +23,7 @@ extern "C" {
 typedef struct swiftprox_half_space {
   /** Out of the half-space; of any length but 0. */
   double normal[3];
-  /** Where its plane is: the product of the normal with any of its points. */
+  /** Place of its plane: the product of the normal with any of its points. */
   double offset;
 } swiftprox_half_space;
 
@@ -353,7 +353,7 @@ typedef struct swiftprox_scene_ground_config {
 
 /** One contact of a piece, which is object 1, with a ground or a half-space. */
 typedef struct swiftprox_scene_ground_contact {
-  /** Whose piece it is. */
+  /** The object. */
   struct swiftprox_object_id object;
   /** The caller's own number of the object. */
   uint64_t user_data;

@@ -124,31 +124,31 @@ typedef struct swiftprox_cast_answer {
    * range if they are free.
    */
   double time_lower;
-  /** Where they are no farther apart than `max_distance`. Only of a hit. */
+  /** For a hit: a time at which they are no farther apart than `max_distance`. */
   double time_upper;
-  /** Their distance is at least this at every time of the range. Only of objects that are free. */
+  /** For free objects: their distance is at least this at every time of the range. */
   double clearance;
-  /** Of a hit their distance at `time_upper` is at most this, 0 where they intersect; of a near miss that at `time_lower`. */
+  /** For a hit: their distance at `time_upper` is at most this, 0 if they intersect. For a near miss: the same at `time_lower`. */
   double upper;
   /**
-   * Of a start in contact that was ignored because the bodies part: the objects are farther apart than `max_distance` from here
-   * on, and nothing is said of what was before.
+   * For a start in contact that was ignored because the bodies part: they are farther apart than `max_distance` from this time
+   * on. Nothing is said of earlier times.
    */
   double time_parted;
   /**
-   * Of a hit and of a near miss the distance at `time_lower`, with witness points, normal and features: for the poses there as
-   * rounded. Next to a hit that is next to nothing; where one of the features is a face, the normal is that face's. Of a hit
-   * whose beginning is in contact, that contact.
+   * For a hit or a near miss: the distance at `time_lower`, with witness points, normal and features, for the poses there as
+   * rounded. Next to a hit the distance is next to nothing; if one of the features is a face, the normal is that face's. For a
+   * hit that begins in contact: that contact.
    */
   struct swiftprox_pair_answer contact;
   /**
-   * Of a hit with a `max_distance` of 0: vertex pairs, in the caller's numbering, the hull of whose differences at `time_upper`
+   * For a hit with a `max_distance` of 0: vertex pairs, in the caller's numbering. The hull of their differences at `time_upper`
    * holds the origin.
    */
   uint32_t proof[4][2];
   /**
-   * How many entries of `proof` are used: 1 to 4, or 0 where there is no such proof, as of objects that meet by their swept
-   * radii alone.
+   * How many entries of `proof` are used: 1 to 4; 0 if there is no such proof, as for objects that meet by their swept radii
+   * alone.
    */
   uint32_t proof_count;
 } swiftprox_cast_answer;
@@ -265,15 +265,15 @@ const char *swiftprox_library_cast_outcome_string(swiftprox_cast_outcome outcome
 
 /** How a cast of moving objects through a scene came out. Unset numbers are NaN. */
 typedef struct swiftprox_scene_cast_answer {
-  /** Of the pair that ends it; free if all pairs are. */
+  /** The answer for the pair that ends the motion; free if all pairs are. */
   swiftprox_cast_outcome outcome;
   /** Certified queries made. */
   uint32_t queries;
   /** All pairs are farther apart than `max_distance` from the beginning up to here: the last valid time. */
   double time_lower;
-  /** Of a hit a time at which its pair is no farther apart than `max_distance`, the earliest that is known. */
+  /** For a hit: a time at which its pair is no farther apart than `max_distance`, the earliest that is known. */
   double time_upper;
-  /** Of a hit the distance of its pair at `time_upper` is at most this, of a near miss that at its own `time_lower`. */
+  /** For a hit: its pair's distance at `time_upper` is at most this. For a near miss: the same at its `time_lower`. */
   double upper;
   /** The pair that ends it, object 1 moving, with what swiftprox_cast_answer_contact says; null ids if all are free. */
   struct swiftprox_pair_result pair;
@@ -292,13 +292,13 @@ typedef struct swiftprox_motions {
 /**
  * Tests whether moving objects stay farther than config->max_distance from all others, which rest. If not, it finds the first
  * time. The answer is guaranteed for all times of the range, as in swiftprox_pair_cast. Each edge has an answer and is free up to
- * its time_lower. Pieces with their own poses move with their object. set->among not 0 adds pairs within the set; set->poses is
- * not read.
+ * its time_lower. set->among not 0 adds pairs within the set; set->poses is not read.
  *
- * Only pairs that queries test count, but both objects may be fixed. config->step_budget applies per pair; null config means the
- * defaults. Threads and scratch: as for swiftprox_scene_least_distance. SWIFTPROX_ERROR_INVALID_ARGUMENT: the number of motions is
- * neither edge_count nor edge_count times set->count. Else same errors as swiftprox_pair_cast. The message names the edge; its
- * answer and all later ones are SWIFTPROX_CAST_OUTCOME_NONE.
+ * Only pairs that queries test count, but both objects may be fixed. config->step_budget applies per pair. Threads and scratch: as
+ * for swiftprox_scene_least_distance.
+ *
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the number of motions is neither edge_count nor edge_count times set->count. Else same errors
+ * as swiftprox_pair_cast. The message names the edge; its answer and all later ones are SWIFTPROX_CAST_OUTCOME_NONE.
  *
  * Experimental.
  */

@@ -236,7 +236,7 @@ swiftprox_status swiftprox_scene_query_events(struct swiftprox_scene *scene,
  * @{
  */
 
-/** What the queries of a scene did since it was made or swiftprox_scene_reset_statistics was called. */
+/** Work of a scene's queries since it was made or swiftprox_scene_reset_statistics was called. */
 typedef struct swiftprox_scene_statistics {
   /** Queries. */
   uint64_t queries;
@@ -256,7 +256,7 @@ typedef struct swiftprox_scene_statistics {
   uint64_t fallback_iterations;
   /** Iterations in integer arithmetic. */
   uint64_t exact_iterations;
-  /** Of the pairs, those that an approximate query stopped at because their interval was narrow enough. */
+  /** Pairs at which an approximate query stopped because their interval was narrow enough. */
   uint64_t within_tolerance;
   /** ... of which the step budget ran out. */
   uint64_t budget_spent;
@@ -270,7 +270,7 @@ typedef struct swiftprox_scene_statistics {
    * SWIFTPROX_OUTCOME_UNDECIDED. Queries of intersection add nothing: their intervals are wide and only prove the verdict.
    */
   double error_spent;
-  /** Of the pairs, those whose bounding spheres decided. */
+  /** Pairs that bounding spheres decided. */
   uint64_t bounding_spheres;
   /** ... of which balls inside the pieces decided. */
   uint64_t inscribed_spheres;

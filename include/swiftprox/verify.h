@@ -64,13 +64,12 @@ swiftprox_status swiftprox_pair_depth_verify(struct swiftprox_placed object1,
  * Verdict and interval are proved as in swiftprox_pair_verify and swiftprox_pair_depth_verify. The normal must have unit length:
  * along it, separated objects are at least lower apart, others overlap by at most -lower. Points must be on their objects,
  * features and line up to b, and agree in both frames. Behind a face they may also be off by the gap's width. Gaps must match the
- * points up to the allowance of swiftprox_pair_verify. One point must have the full depth, unless points were left out.
+ * points. One point must have the full depth, unless points were left out.
  *
- * b is that allowance plus 2^-25 of the pair's size plus eight times the largest thickness of contact faces. The size is both
- * radii plus the distance of the centres. Completeness of faces is not checked.
+ * b is the allowance of swiftprox_pair_verify plus 2^-25 of the pair's size (both radii plus the distance of the centres) plus
+ * eight times the largest thickness of contact faces. Completeness of faces is not checked.
  *
- * SWIFTPROX_ERROR_UNVERIFIED: the manifold is wrong; the message says where. Other errors as in swiftprox_pair_verify and
- * swiftprox_pair_manifold.
+ * Same errors as swiftprox_pair_verify and swiftprox_pair_manifold.
  *
  * Stable.
  */

@@ -2,7 +2,7 @@
 
 use crate::base::error::{Error, Result, check_range};
 
-/// What is asked of a pair.
+/// A kind of query.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(i32)]
 pub enum Query {

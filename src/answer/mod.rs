@@ -1,4 +1,4 @@
-//! What a pair query is asked for and what it answers: outcome, interval, witness points, features, swept radii taken off.
+//! Configs and answers of pair queries: outcome, interval, witness points, features, swept radii taken off.
 
 mod pair_answer;
 pub(crate) mod contact;

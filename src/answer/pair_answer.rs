@@ -20,7 +20,7 @@ pub enum Outcome {
     Undecided = 4,
 }
 
-/// What decided a pair query.
+/// The method that decided a pair query.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
 pub enum DecidedBy {
@@ -73,7 +73,7 @@ pub struct Feature {
     pub ids: [u32; 2],
 }
 
-/// What a query did.
+/// Work of a query.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(C)]
 pub struct Statistics {
@@ -121,7 +121,7 @@ pub struct PairAnswer {
     /// How many entries of `proof` are used: 1 to 4 when intersecting, except for [`DecidedBy::InscribedSpheres`] and
     /// where objects intersect by their swept radii alone, else 0.
     pub proof_count: u32,
-    /// What the query did.
+    /// Work of the query.
     pub statistics: Statistics,
 }
 

@@ -40,13 +40,24 @@ pub(crate) fn check_range(name: &str, number: f64, range: RangeInclusive<f64>) -
 
 #[cold]
 fn out_of_range(name: &str, number: f64, range: &RangeInclusive<f64>) -> Error {
-    let [start, end] = [range.start(), range.end()];
-    let limits = match *end {
-        f64::INFINITY => format!("at least {start}"),
-        f64::MAX => format!("finite and at least {start}"),
-        _ => format!("from {start} to {end}"),
+    let (start, end) = (*range.start(), *range.end());
+    let least = if start == f64::MIN_POSITIVE { "positive".into() } else { format!("at least {}", Brief(start)) };
+    let limits = match end {
+        f64::INFINITY => least,
+        f64::MAX => format!("finite and {least}"),
+        _ => format!("{least} and at most {}", Brief(end)),
     };
     Error::Argument(format!("{name} is {number:?}, it must be {limits}"))
+}
+
+/// Digits where they are few, else with an exponent.
+struct Brief(f64);
+
+impl fmt::Display for Brief {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let digits = self.0.to_string();
+        if digits.len() <= 20 { f.write_str(&digits) } else { write!(f, "{:e}", self.0) }
+    }
 }
 
 impl Error {

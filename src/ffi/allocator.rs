@@ -1,4 +1,4 @@
-//! Where the library's memory comes from: the system, or functions that the program sets.
+//! The source of the library's memory: the system, or functions that the program sets.
 //!
 //! Rust's global allocator is one for all that is linked with one standard library. The C libraries have theirs for themselves and
 //! make it this one (the feature `allocator`, which CMake enables); a Rust program has its own. Each block of memory remembers
@@ -233,7 +233,7 @@ mod tests {
     use super::*;
     use std::sync::atomic::AtomicIsize;
 
-    /// What a program took and gave back, in blocks and bytes.
+    /// A program's takings and returns, in blocks and bytes.
     #[derive(Default)]
     struct Account {
         blocks: AtomicIsize,

@@ -4,7 +4,7 @@ use super::enumerators::{DepthEndingNumber, read_enumerator};
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::guard;
 use super::pair::{CPairConfig, CPlaced, bodies, read_config};
-use super::pointers::{array, exclusive, input, output};
+use super::pointers::{array, exclusive, input, output, reset};
 use super::structs::{Versioned, read_struct};
 use crate::manifold::{Fill, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Sink, manifold_into};
 use crate::pair::{self, DepthAnswer, DepthCache, DepthConfig, DepthEnding, FeatureKind, Outcome, SignedDistance};
@@ -138,22 +138,6 @@ pub extern "C" fn swiftprox_library_depth_ending_string(ending: DepthEndingNumbe
         None => c"no way to end",
     };
     string.as_ptr()
-}
-
-/// Leaves nothing half-written behind a bug.
-///
-/// # Safety
-/// The pointers meet the header's pointer rules.
-#[cold]
-unsafe fn reset<C: Default, A: Default>(cache: *mut C, answer: *mut A) {
-    if !cache.is_null() {
-        // SAFETY: not null, and writable by the caller.
-        unsafe { cache.write(C::default()) };
-    }
-    if !answer.is_null() {
-        // SAFETY: not null, and writable by the caller.
-        unsafe { answer.write(A::default()) };
-    }
 }
 
 /// The caller's answer to read, its enumerators checked.
@@ -308,14 +292,8 @@ pub unsafe extern "C" fn swiftprox_pair_manifold(
                 exclusive(distance, "distance")?,
             )
         };
-        check_room(points, "points", capacity)?;
-        let mut write = |place: usize, fill: Fill| {
-            // SAFETY: not null, place < capacity, and it is written before it is a reference.
-            fill(unsafe {
-                points.add(place).write(ManifoldPoint::default());
-                &mut *points.add(place)
-            });
-        };
+        // SAFETY: the header's pointer rules; the sink stays below its capacity.
+        let mut write = unsafe { writer_to(points, capacity) }?;
         let mut sink = Sink { capacity, written: 0, write: &mut write };
         let found = manifold_into(bodies, cache, &config, &mut sink, distance)?;
         // SAFETY: not null, writable by the caller.
@@ -339,13 +317,12 @@ pub unsafe extern "C" fn swiftprox_pair_manifold(
 /// Verdict and interval are proved as in swiftprox_pair_verify and swiftprox_pair_depth_verify. The normal must have unit length:
 /// along it, separated objects are at least lower apart, others overlap by at most -lower. Points must be on their objects,
 /// features and line up to b, and agree in both frames. Behind a face they may also be off by the gap's width. Gaps must match the
-/// points up to the allowance of swiftprox_pair_verify. One point must have the full depth, unless points were left out.
+/// points. One point must have the full depth, unless points were left out.
 ///
-/// b is that allowance plus 2^-25 of the pair's size plus eight times the largest thickness of contact faces. The size is both
-/// radii plus the distance of the centres. Completeness of faces is not checked.
+/// b is the allowance of swiftprox_pair_verify plus 2^-25 of the pair's size (both radii plus the distance of the centres) plus
+/// eight times the largest thickness of contact faces. Completeness of faces is not checked.
 ///
-/// SWIFTPROX_ERROR_UNVERIFIED: the manifold is wrong; the message says where. Other errors as in swiftprox_pair_verify and
-/// swiftprox_pair_manifold.
+/// Same errors as swiftprox_pair_verify and swiftprox_pair_manifold.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_pair_manifold_verify(
     object1: CPlaced,
@@ -418,6 +395,22 @@ pub(super) unsafe fn read_manifold_config(config: *const CManifoldConfig) -> Che
     // SAFETY: by the caller.
     let config = unsafe { read_struct(config, CManifoldConfig::DEFAULT) }?;
     Ok(ManifoldConfig { max_distance: config.max_distance, reduces: config.reduces != 0 })
+}
+
+/// Writes points to the caller's room; refuses what cannot be one.
+///
+/// # Safety
+/// `points` has room for `capacity` points, and places are below that.
+pub(super) unsafe fn writer_to(points: *mut ManifoldPoint, capacity: usize) -> Checked<impl FnMut(usize, Fill)> {
+    check_room(points, "points", capacity)?;
+    Ok(move |place: usize, fill: Fill| {
+        debug_assert!(place < capacity);
+        // SAFETY: by the caller not null, place < capacity; it is written before it is a reference.
+        fill(unsafe {
+            points.add(place).write(ManifoldPoint::default());
+            &mut *points.add(place)
+        });
+    })
 }
 
 /// Refuses an array to be filled in that cannot be one.

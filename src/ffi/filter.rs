@@ -15,7 +15,7 @@ use crate::scene::object::ObjectId;
 pub type PairFilterCallback =
     Option<unsafe extern "C-unwind" fn(object1: ObjectId, object2: ObjectId, user: *mut c_void) -> i32>;
 
-/// What goes with a callback from call to call.
+/// A callback's companions from call to call.
 struct User(*mut c_void);
 
 // SAFETY: the pointer is only ever handed back to the callback, which swiftprox_scene_set_pair_filter requires to be callable from

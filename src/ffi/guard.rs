@@ -55,7 +55,7 @@ fn report(failure: Failure) -> StatusCode {
 thread_local! {
     /// What `swiftprox_library_last_error_message` returns.
     pub(super) static LAST_ERROR: RefCell<CString> = RefCell::new(CString::default());
-    /// What the panic hook saw, on its way to the guard.
+    /// The panic that the hook saw, on its way to the guard.
     static LAST_PANIC: Cell<Option<String>> = const { Cell::new(None) };
     /// Whether this thread is in a call from C: its panics are caught.
     static INSIDE: Cell<bool> = const { Cell::new(false) };

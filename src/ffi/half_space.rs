@@ -1,11 +1,11 @@
 //! Bodies and half-spaces.
 
-use super::depth::{CManifoldConfig, CManifoldRoom, check_room, read_manifold_config};
+use super::depth::{CManifoldConfig, CManifoldRoom, read_manifold_config, writer_to};
 use super::failure::StatusCode;
 use super::guard::guard;
 use super::pair::{CPlaced, body};
 use super::pointers::{input, output};
-use crate::manifold::{Fill, Manifold, ManifoldPoint, Sink, half_space_manifold_into};
+use crate::manifold::{Manifold, Sink, half_space_manifold_into};
 use crate::pair::{HalfSpace, SignedDistance, half_space_distance};
 
 /// Computes the signed distance of a shape (object 1) from a half-space (object 2), as swiftprox_pair_signed_distance does. The
@@ -58,14 +58,8 @@ pub unsafe extern "C" fn swiftprox_pair_half_space_manifold(
                 read_manifold_config(config)?,
             )
         };
-        check_room(points, "points", capacity)?;
-        let mut write = |place: usize, fill: Fill| {
-            // SAFETY: not null, place < capacity, and it is written before it is a reference.
-            fill(unsafe {
-                points.add(place).write(ManifoldPoint::default());
-                &mut *points.add(place)
-            });
-        };
+        // SAFETY: the header's pointer rules; the sink stays below its capacity.
+        let mut write = unsafe { writer_to(points, capacity) }?;
         let mut sink = Sink { capacity, written: 0, write: &mut write };
         let found = half_space_manifold_into(object, half_space, &config, &mut sink)?;
         // SAFETY: the header's pointer rules.

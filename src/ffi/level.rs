@@ -37,7 +37,7 @@ unsafe impl Versioned for LevelInfo {
 }
 
 impl LevelInfo {
-    /// What is said of no level.
+    /// The info of no level.
     const UNKNOWN: LevelInfo = LevelInfo {
         struct_size: size_of::<LevelInfo>(),
         vertex_count: 0,

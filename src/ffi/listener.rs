@@ -1,4 +1,4 @@
-//! What has begun, goes on and has ended since a listener last asked.
+//! Changes since a listener's last query: pairs and points that began, persist or ended.
 
 use super::enumerators::QueryNumber;
 use super::failure::StatusCode;

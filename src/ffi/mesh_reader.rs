@@ -18,7 +18,7 @@ pub struct MeshSink {
     mesh: PolygonMesh,
     /// The valences of all faces; `mesh` becomes whole at the end.
     valences: Vec<u32>,
-    /// What the reader says went wrong.
+    /// The reader's own message.
     said: Option<String>,
     /// The first of its calls that was refused, and whether that was for memory.
     refused: Option<(StatusCode, String)>,
@@ -54,7 +54,7 @@ unsafe impl Send for Reader {}
 unsafe impl Sync for Reader {}
 
 impl Reader {
-    /// What the callback makes of a file.
+    /// The mesh that the callback makes of a file.
     fn read(&self, bytes: &[u8]) -> Result<PolygonMesh> {
         let mut data = with_capacity(bytes.len() + 1)?;
         data.extend_from_slice(bytes);

@@ -8,7 +8,7 @@ use super::failure::{Checked, Failure, StatusCode};
 use super::ground::{CPlacedGround, read_placed};
 use super::guard::{call_out, guard};
 use super::pair::CPairCache;
-use super::pointers::{exclusive, handle, input, output};
+use super::pointers::{exclusive, handle, input, output, reset};
 use super::structs::{Versioned, read_struct};
 use crate::base::enumerator::{Enumerator, enumerator};
 use crate::base::math::{Pose, Vector};
@@ -340,14 +340,7 @@ unsafe fn ask<A: Default>(
     });
     if status == StatusCode::ErrorBug {
         // SAFETY: null, or writable by the caller.
-        unsafe {
-            if !cache.is_null() {
-                cache.write(CPairCache::default());
-            }
-            if !answer.is_null() {
-                answer.write(A::default());
-            }
-        }
+        unsafe { reset(cache, answer) };
     }
     status
 }

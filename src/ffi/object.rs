@@ -76,7 +76,7 @@ unsafe impl Versioned for ObjectInfo {
 }
 
 impl ObjectInfo {
-    /// What is said of no object.
+    /// The info of no object.
     const UNKNOWN: ObjectInfo = ObjectInfo {
         struct_size: size_of::<ObjectInfo>(),
         user_data: 0,
@@ -331,7 +331,7 @@ pub unsafe extern "C" fn swiftprox_scene_get_piece(
 
 // --- What the functions above share --------------------------------------------------------------------------------------
 
-/// What an object is, in C's terms.
+/// An object's options, in C's terms.
 fn info_of(object: &Object) -> ObjectInfo {
     ObjectInfo {
         struct_size: size_of::<ObjectInfo>(),

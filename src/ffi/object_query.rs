@@ -135,7 +135,7 @@ pub(super) fn read_kind(kind: QueryNumber) -> Result<Query, Failure> {
     read_enumerator(kind, "kind", "swiftprox_query_kind")
 }
 
-/// Of contacts 0, of all others infinity.
+/// 0 for contacts, else infinity.
 pub(super) fn default_max_distance(kind: QueryNumber) -> f64 {
     if kind == Query::Contact as i32 { 0.0 } else { f64::INFINITY }
 }

@@ -176,13 +176,13 @@ pub struct CMotions {
 
 /// Tests whether moving objects stay farther than config->max_distance from all others, which rest. If not, it finds the first
 /// time. The answer is guaranteed for all times of the range, as in swiftprox_pair_cast. Each edge has an answer and is free up to
-/// its time_lower. Pieces with their own poses move with their object. set->among not 0 adds pairs within the set; set->poses is
-/// not read.
+/// its time_lower. set->among not 0 adds pairs within the set; set->poses is not read.
 ///
-/// Only pairs that queries test count, but both objects may be fixed. config->step_budget applies per pair; null config means the
-/// defaults. Threads and scratch: as for swiftprox_scene_least_distance. SWIFTPROX_ERROR_INVALID_ARGUMENT: the number of motions is
-/// neither edge_count nor edge_count times set->count. Else same errors as swiftprox_pair_cast. The message names the edge; its
-/// answer and all later ones are SWIFTPROX_CAST_OUTCOME_NONE.
+/// Only pairs that queries test count, but both objects may be fixed. config->step_budget applies per pair. Threads and scratch: as
+/// for swiftprox_scene_least_distance.
+///
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the number of motions is neither edge_count nor edge_count times set->count. Else same errors
+/// as swiftprox_pair_cast. The message names the edge; its answer and all later ones are SWIFTPROX_CAST_OUTCOME_NONE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_cast(
     scene: *const SceneHandle,

@@ -135,7 +135,7 @@ pub unsafe extern "C" fn swiftprox_pair_distances(
     status
 }
 
-/// What is said of a pose that is refused.
+/// The message for a refused pose.
 #[cold]
 fn refused_pose(error: Error, place: usize) -> Failure {
     let failure = Failure::from(error);

@@ -21,7 +21,7 @@ pub(super) unsafe fn input<'a, T>(pointer: *const T, name: &str) -> Checked<&'a 
     unsafe { pointer.as_ref() }.ok_or_else(|| Failure::null(name))
 }
 
-/// What a program holds by a pointer that it gives back.
+/// An object that a program holds by a pointer and gives back.
 pub(super) trait Handle {
     const NOUN: &str;
     fn mark(&self) -> &Mark;
@@ -155,4 +155,20 @@ pub(super) unsafe fn string<'a>(pointer: *const c_char, name: &str) -> Checked<&
     }
     // SAFETY: not null and terminated, by the caller.
     Ok(unsafe { CStr::from_ptr(pointer) })
+}
+
+/// Leaves nothing half-written behind a bug.
+///
+/// # Safety
+/// The pointers meet the header's pointer rules.
+#[cold]
+pub(super) unsafe fn reset<C: Default, A: Default>(cache: *mut C, answer: *mut A) {
+    if !cache.is_null() {
+        // SAFETY: not null, and writable by the caller.
+        unsafe { cache.write(C::default()) };
+    }
+    if !answer.is_null() {
+        // SAFETY: not null, and writable by the caller.
+        unsafe { answer.write(A::default()) };
+    }
 }

@@ -1,4 +1,4 @@
-//! Where objects of a scene and their pieces are.
+//! Poses of a scene's objects and of their pieces.
 
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::guard;

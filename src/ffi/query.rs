@@ -102,7 +102,7 @@ pub struct CSceneAnswer {
 }
 
 impl CSceneAnswer {
-    /// What a failed query answers.
+    /// The answer of a failed query.
     pub const EMPTY: CSceneAnswer = CSceneAnswer {
         pairs: std::ptr::null(),
         count: 0,

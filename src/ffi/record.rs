@@ -1,4 +1,4 @@
-//! What is done to a scene, written down in a file, and done again from it.
+//! Recordings: changes and queries of a scene, written to a file and replayed from it.
 
 use std::ffi::c_char;
 

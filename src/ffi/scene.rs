@@ -265,7 +265,7 @@ pub(super) fn new_scene(workers: &CSceneOptions) -> Checked<*mut SceneHandle> {
     Ok(Box::into_raw(Box::new(handle)))
 }
 
-/// Who works for a scene.
+/// The workers of a scene.
 fn read_workers(options: &CSceneOptions) -> Checked<Option<Workers>> {
     let count = (options.worker_count as usize).min(MOST_THREADS);
     match (options.enqueue_task, options.finish_task) {
@@ -360,7 +360,7 @@ mod tests {
     use crate::ffi::query::{CSceneAnswer, swiftprox_scene_query_intersection};
     use std::ptr::{null, null_mut};
 
-    /// What a thread is handed of a scene.
+    /// A thread's share of a scene.
     #[derive(Clone, Copy)]
     struct Shared(*mut SceneHandle);
 

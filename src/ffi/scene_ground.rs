@@ -1,4 +1,4 @@
-//! Where objects of a scene meet a ground or a half-space, which threads may ask at once.
+//! Contacts of a scene's objects with a ground or a half-space; threads may ask at once.
 
 use super::failure::{Checked, StatusCode};
 use super::ground::{CPlacedGround, read_placed};
@@ -138,7 +138,7 @@ unsafe fn find<'a>(
     })
 }
 
-/// Where contacts are looked for.
+/// The objects whose contacts are sought.
 enum Floor<'a> {
     Ground(PlacedGround<'a>),
     HalfSpace(&'a HalfSpace),

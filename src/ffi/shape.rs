@@ -10,8 +10,7 @@ use super::pointers::{handle, output, release, retained};
 use super::shape_options::{CShapeOptions, ProgressCallback, in_steps, read_options};
 use super::structs::{Versioned, write_struct};
 use crate::body::build::hull::check_points;
-use crate::shape::file as shape_file;
-use crate::shape::{Shape, precision_tolerance};
+use crate::shape::{Shape, file as shape_file, precision_tolerance};
 
 /// Properties of a shape. Set struct_size to sizeof(swiftprox_shape_info) before the call.
 #[derive(Debug, Clone, Copy)]
@@ -57,7 +56,7 @@ unsafe impl Versioned for ShapeInfo {
 }
 
 impl ShapeInfo {
-    /// What is said of no shape.
+    /// The info of no shape.
     const UNKNOWN: ShapeInfo = ShapeInfo {
         struct_size: size_of::<ShapeInfo>(),
         dimension: 0,
@@ -442,7 +441,7 @@ pub struct CFace {
 }
 
 impl CFace {
-    /// What is said of no face.
+    /// The info of no face.
     const UNKNOWN: CFace = CFace { normal: [f64::NAN; 3], offset: f64::NAN, corner_count: 0, label_count: 0 };
 }
 

@@ -139,7 +139,7 @@ mod tests {
 
     const DEFAULTS: Grown = Grown { struct_size: size_of::<Grown>(), older: 1.0, newer: 2.0 };
 
-    /// What a newer header makes of it.
+    /// A newer header's form of it.
     #[derive(Debug, Clone, Copy, PartialEq)]
     #[repr(C)]
     struct Newest {

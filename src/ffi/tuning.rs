@@ -109,7 +109,7 @@ impl CPairTuning {
     };
 }
 
-/// Where queries start and what levels they go through, in Rust's terms.
+/// Start and levels of queries, in Rust's terms.
 pub(super) struct PairTuning {
     pub start: Start,
     pub levels: Levels,
@@ -166,7 +166,7 @@ unsafe impl Versioned for TuningInfo {
 }
 
 impl TuningInfo {
-    /// What is said of no shape.
+    /// The info of no shape.
     const UNKNOWN: TuningInfo = TuningInfo {
         struct_size: size_of::<TuningInfo>(),
         hierarchy: 0,

@@ -34,7 +34,7 @@ type EnqueueTask = unsafe extern "C-unwind" fn(
 pub type FinishTaskCallback = Option<unsafe extern "C-unwind" fn(task: *mut c_void, user: *mut c_void)>;
 type FinishTask = unsafe extern "C-unwind" fn(task: *mut c_void, user: *mut c_void);
 
-/// What goes with the callbacks from call to call.
+/// The callbacks' companions from call to call.
 struct User(*mut c_void);
 
 // SAFETY: the pointer is only ever handed back to the callbacks, in the thread that calls.
@@ -42,7 +42,7 @@ unsafe impl Send for User {}
 // SAFETY: as above.
 unsafe impl Sync for User {}
 
-/// What a task is about. It lives until the task is finished.
+/// A task's work. It lives until the task is finished.
 struct Context<'a> {
     work: &'a (dyn Fn(usize) + Sync),
     /// A panic has left an item.

@@ -32,7 +32,7 @@ impl ManifoldConfig {
     }
 }
 
-/// What a pair remembers of its manifold. Any bytes are safe; all zero is cold. It changes how fast an answer comes, which of
+/// A pair's memory of its manifold. Any bytes are safe; all zero is cold. It changes how fast an answer comes, which of
 /// several least directions is said, which of two faces that are about as parallel to it is the reference, and which four points of
 /// many stay.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -89,15 +89,16 @@ pub struct ManifoldPoint {
     pub world1: [f64; 3],
     /// On object 2, in the world frame.
     pub world2: [f64; 3],
-    /// How far the first is from the second along the normal, at least; less than 0 where the objects overlap there.
+    /// The gap: how far the point on object 1 is from that on object 2 along the normal. At least this; negative where the objects
+    /// overlap …
     pub gap_lower: f64,
     /// … and at most.
     pub gap_upper: f64,
-    /// What holds the point on object 1, in the caller's numbering.
+    /// Feature that holds the point on object 1, in the caller's numbering.
     pub feature1: Feature,
-    /// What holds the point on object 2.
+    /// Feature that holds the point on object 2.
     pub feature2: Feature,
-    /// A number made of the two features: while they stay it stays.
+    /// Id made of the two features; it stays while they do.
     pub id: u64,
 }
 
@@ -126,7 +127,7 @@ impl Default for ManifoldPoint {
     }
 }
 
-/// Where two objects meet, or nearly do.
+/// Contact points of two objects that meet, or nearly do.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct Manifold {

@@ -239,7 +239,7 @@ struct Spot {
     gap: f64,
     /// By how much the gap may be off.
     error: f64,
-    /// Where along its side of the incident face a crossing is.
+    /// A crossing's place along its side of the incident face.
     share: f64,
     corner: Corner,
 }
@@ -542,7 +542,7 @@ impl<L: Lanes> Work for ClipMany<'_, '_, '_, L> {
     }
 }
 
-/// What a manifold is made of.
+/// The parts of a manifold.
 struct Found<'a, L, const F: usize> {
     seen: &'a Seen<'a, L>,
     slid: &'a [Slid<F>; 2],

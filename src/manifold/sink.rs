@@ -1,4 +1,4 @@
-//! Where the points of a manifold go.
+//! The destination of a manifold's points.
 
 use super::answer::ManifoldPoint;
 

@@ -1,8 +1,7 @@
 //! Between the manifold of polyhedra and that of bodies over which balls are swept.
 
 use super::answer::ManifoldPoint;
-use crate::answer::PlacedPoints;
-use crate::answer::{Radii, moved};
+use crate::answer::{PlacedPoints, Radii, moved};
 use crate::base::math::Pose;
 use crate::pair::SignedDistance;
 

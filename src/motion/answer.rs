@@ -33,24 +33,24 @@ pub struct CastAnswer {
     /// The objects are farther apart than `max_distance` from the beginning, or from `time_parted`, up to here; the end of the
     /// range if they are free.
     pub time_lower: f64,
-    /// Where they are no farther apart than `max_distance`. Only of a hit.
+    /// For a hit: a time at which they are no farther apart than `max_distance`.
     pub time_upper: f64,
-    /// Their distance is at least this at every time of the range. Only of objects that are free.
+    /// For free objects: their distance is at least this at every time of the range.
     pub clearance: f64,
-    /// Of a hit their distance at `time_upper` is at most this, 0 where they intersect; of a near miss that at `time_lower`.
+    /// For a hit: their distance at `time_upper` is at most this, 0 if they intersect. For a near miss: the same at `time_lower`.
     pub upper: f64,
-    /// Of a start in contact that was ignored because the bodies part: the objects are farther apart than `max_distance` from here
-    /// on, and nothing is said of what was before.
+    /// For a start in contact that was ignored because the bodies part: they are farther apart than `max_distance` from this time
+    /// on. Nothing is said of earlier times.
     pub time_parted: f64,
-    /// Of a hit and of a near miss the distance at `time_lower`, with witness points, normal and features: for the poses there as
-    /// rounded. Next to a hit that is next to nothing; where one of the features is a face, the normal is that face's. Of a hit
-    /// whose beginning is in contact, that contact.
+    /// For a hit or a near miss: the distance at `time_lower`, with witness points, normal and features, for the poses there as
+    /// rounded. Next to a hit the distance is next to nothing; if one of the features is a face, the normal is that face's. For a
+    /// hit that begins in contact: that contact.
     pub contact: PairAnswer,
-    /// Of a hit with a `max_distance` of 0: vertex pairs, in the caller's numbering, the hull of whose differences at `time_upper`
+    /// For a hit with a `max_distance` of 0: vertex pairs, in the caller's numbering. The hull of their differences at `time_upper`
     /// holds the origin.
     pub proof: [[u32; 2]; 4],
-    /// How many entries of `proof` are used: 1 to 4, or 0 where there is no such proof, as of objects that meet by their swept
-    /// radii alone.
+    /// How many entries of `proof` are used: 1 to 4; 0 if there is no such proof, as for objects that meet by their swept radii
+    /// alone.
     pub proof_count: u32,
 }
 

@@ -49,7 +49,7 @@ struct Knot {
     gap: Option<f64>,
 }
 
-/// What a look says of the next.
+/// A look's advice on the next.
 #[derive(Debug, Clone, Copy)]
 struct Before {
     time: f64,
@@ -58,7 +58,7 @@ struct Before {
     curve: f64,
 }
 
-/// What the looks came to.
+/// The outcome of the looks.
 #[allow(clippy::large_enum_variant, reason = "one for each cast")]
 pub(super) enum Way {
     /// The gap is more than `least` up to the end; 0 stands for `max_distance`.
@@ -69,7 +69,7 @@ pub(super) enum Way {
     Open { here: Moment, least: f64 },
 }
 
-/// What shows a contact at a moment.
+/// The proof of a contact at a moment.
 #[derive(Debug, Clone, Copy, Default)]
 pub(super) struct Shown {
     /// The distance of the motion there is at most this.
@@ -89,7 +89,7 @@ impl Shown {
     }
 }
 
-/// What a proof of the way between looks came to.
+/// The outcome of a proof of the way between looks.
 enum Proof {
     /// All of it.
     Whole,
@@ -99,7 +99,7 @@ enum Proof {
     Stuck,
 }
 
-/// Where the looks led to.
+/// The end of the looks.
 enum Next {
     /// To the end, or to a look from where one step reaches it.
     End,
@@ -128,7 +128,7 @@ struct Looks<'a, 'b> {
     front_time: f64,
     /// The look before the last, unless contact was found between.
     before: Option<Before>,
-    /// Of the last forecast.
+    /// Those of the last forecast.
     curve: f64,
     /// A time at which they are not farther apart, as far as a look says.
     contact_by: Option<f64>,

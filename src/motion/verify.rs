@@ -9,8 +9,7 @@ use super::moving::{Moment, MovingPair};
 use super::sweep::{Ahead, FreeStep, MOST_DOUBLINGS, Sweep, Wanted, after, depth_at, is_contact, upper_bound};
 use crate::answer::sum_above;
 use crate::base::error::{Error, Result};
-use crate::pair::contact;
-use crate::pair::{DepthCache, Outcome, PairAnswer, PairCache, PairConfig};
+use crate::pair::{DepthCache, Outcome, PairAnswer, PairCache, PairConfig, contact};
 use crate::verify::{Bounds, holds_ball, in_default, verify, verify_depth};
 
 /// Steps after which a proof is given up.

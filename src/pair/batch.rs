@@ -2,8 +2,7 @@
 
 use super::cache::PairCache;
 use super::queries::{approximate, contact, distance, intersection};
-use crate::answer::PairAnswer;
-use crate::answer::{PairConfig, Query};
+use crate::answer::{PairAnswer, PairConfig, Query};
 use crate::base::error::{Error, Result};
 use crate::base::simd::prefetch;
 use crate::base::workers::Workers;

@@ -23,7 +23,7 @@ use crate::placed::exact::VertexPair;
 use crate::placed::frame::Marker;
 use crate::placed::state::State;
 
-/// What a pair remembers from its last query (that its bounding spheres did not answer). Any bytes are safe; all zero is cold.
+/// A pair's memory of its last query (that its bounding spheres did not answer). Any bytes are safe; all zero is cold.
 /// It changes how fast an answer comes, never the verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(C)]

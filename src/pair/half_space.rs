@@ -3,9 +3,7 @@
 
 use super::signed_distance::SignedDistance;
 use super::swept::{Side, side_of_curved, sign};
-use crate::answer::{Feature, Outcome};
-use crate::answer::{PlacedPoints, label, normalised, placed_points};
-use crate::answer::{Radii, moved};
+use crate::answer::{Feature, Outcome, PlacedPoints, Radii, label, moved, normalised, placed_points};
 use crate::base::error::{Error, Result};
 use crate::base::math::{UNIT_ROUNDOFF, Vector, clamp};
 use crate::base::memory::in_integers;
@@ -21,7 +19,7 @@ use crate::shape::Placed;
 pub struct HalfSpace {
     /// Out of the half-space; of any length but 0.
     pub normal: [f64; 3],
-    /// Where its plane is: the product of the normal with any of its points.
+    /// Place of its plane: the product of the normal with any of its points.
     pub offset: f64,
 }
 

@@ -6,9 +6,7 @@ use super::signed_distance::{self, SignedDistance, SignedDistanceCache};
 use super::swept;
 #[cfg(doc)]
 use super::{DecidedBy, Outcome};
-use crate::answer::PairAnswer;
-use crate::answer::Radii;
-use crate::answer::{PairConfig, Query};
+use crate::answer::{PairAnswer, PairConfig, Query, Radii};
 use crate::base::error::Result;
 use crate::base::simd::environment::with_default;
 use crate::depth::{DepthAnswer, DepthCache, DepthConfig, of_polyhedra};

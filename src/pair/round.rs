@@ -4,10 +4,9 @@
 use super::signed_distance::SignedDistance;
 #[cfg(doc)]
 use crate::answer::PairConfig;
-use crate::answer::Query;
-use crate::answer::{DecidedBy, Feature, Outcome, PairAnswer, Statistics};
-use crate::answer::{Radii, turned_back};
-use crate::answer::{fill_nothing, label};
+use crate::answer::{
+    DecidedBy, Feature, Outcome, PairAnswer, Query, Radii, Statistics, fill_nothing, label, turned_back,
+};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::base::simd::{self, Kernel, Lanes, Portable};
 use crate::body::polyhedron::{Polyhedron, Vertex};
@@ -16,7 +15,7 @@ use crate::placed::frame::{Frame, are_acceptable};
 use crate::placed::state::FeatureId;
 use crate::shape::Placed;
 
-/// Where the surfaces of an answer go.
+/// The destination of an answer's surfaces.
 struct Surface<'a> {
     local: [&'a mut [f64; 3]; 2],
     world: [&'a mut [f64; 3]; 2],
@@ -57,7 +56,7 @@ pub(super) struct Round<'a> {
 pub(super) enum Place<'a> {
     /// To a query.
     Pair(Query, &'a mut PairAnswer),
-    /// Of a signed distance.
+    /// For a signed distance.
     Signed(&'a mut SignedDistance),
 }
 
@@ -316,7 +315,7 @@ fn between<L: Lanes>(ends: &[Vertex], tail: L, share: f64) -> L {
     }
 }
 
-/// What a weight between the ends of a body lies on.
+/// The feature on which a weight between the ends of a body lies.
 #[inline(always)]
 fn feature(share: f64, is_segment: bool) -> FeatureId {
     match share {

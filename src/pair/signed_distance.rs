@@ -3,8 +3,7 @@
 
 use super::cache::PairCache;
 use super::ladder::{self, Glances};
-use crate::answer::{Feature, Outcome, PairAnswer};
-use crate::answer::{PairConfig, Query};
+use crate::answer::{Feature, Outcome, PairAnswer, PairConfig, Query};
 use crate::base::error::Result;
 use crate::base::simd::Lanes;
 use crate::depth;
@@ -13,7 +12,7 @@ use crate::depth::{DepthAnswer, DepthCache, DepthConfig, DepthPlaces};
 use crate::placed::frame::Frame;
 use crate::shape::Placed;
 
-/// What a pair remembers of its signed distance. Any bytes are safe; all zero is cold. It changes how fast an answer comes, and
+/// A pair's memory of its signed distance. Any bytes are safe; all zero is cold. It changes how fast an answer comes, and
 /// which of several least directions is said; never the verdict.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(C)]
@@ -57,9 +56,9 @@ pub struct SignedDistance {
     pub world2: [f64; 3],
     /// Unit normal in the world frame, from object 2 to object 1: moving object 1 along it makes the distance grow as much.
     pub normal: [f64; 3],
-    /// What holds the witness point of object 1.
+    /// Feature that holds the witness point of object 1.
     pub feature1: Feature,
-    /// What holds the witness point of object 2.
+    /// Feature that holds the witness point of object 2.
     pub feature2: Feature,
 }
 

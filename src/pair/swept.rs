@@ -5,10 +5,9 @@ use super::cache::PairCache;
 use super::ladder::{self, Glances};
 use super::round::{Place, Round, are_round};
 use super::signed_distance::{SignedDistance, SignedDistanceCache, of_polyhedra};
-use crate::answer::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer};
-use crate::answer::{PairConfig, Query};
-use crate::answer::{PlacedPoints, fill_nothing};
-use crate::answer::{Radii, moved};
+use crate::answer::{
+    DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, PairConfig, PlacedPoints, Query, Radii, fill_nothing, moved,
+};
 use crate::base::error::Result;
 use crate::base::math::{Vector, clamp};
 use crate::base::memory::in_integers;
@@ -279,7 +278,7 @@ fn of_bodies(
     Ok(())
 }
 
-/// Where bodies are to each other.
+/// The relation of two bodies.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) enum Side {
     /// Farther apart than the tolerance.
@@ -327,7 +326,7 @@ fn judge(
     in_integers(|| judge_exactly(bodies, radii, tolerance, is_beyond, interval))
 }
 
-/// Where curved bodies are, by an interval of their signed distance: nothing else tells.
+/// The relation of curved bodies, by an interval of their signed distance: nothing else tells.
 pub(super) fn side_of_curved([lower, upper]: [f64; 2]) -> Side {
     if upper <= 0.0 {
         Side::Within

@@ -3,8 +3,7 @@
 use super::bounds::{Bounds, PointInside};
 use super::checks::{allowed, between_origins, check_normal, check_unit, too_large, unverified};
 use super::witness::{Witness, difference_of};
-use crate::answer::{Outcome, PairAnswer};
-use crate::answer::{Radii, sum_above, sum_below};
+use crate::answer::{Outcome, PairAnswer, Radii, sum_above, sum_below};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, Vector, length};
 use crate::base::memory::listed;

@@ -4,8 +4,7 @@
 use super::bounds::PointInside;
 use super::checks::{between_origins, unverified};
 use super::polygon::beyond_nearest;
-use crate::answer::Radii;
-use crate::answer::{Feature, FeatureKind, PairAnswer};
+use crate::answer::{Feature, FeatureKind, PairAnswer, Radii};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, STRETCH, UNIT_ROUNDOFF as U, Vector, length};
 use crate::base::memory::listed;

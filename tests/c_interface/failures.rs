@@ -39,6 +39,21 @@ fn messages_belong_to_their_thread() {
     });
 }
 
+/// Limits of lengths have some 300 digits; messages have an exponent.
+#[test]
+fn limits_in_messages_are_readable() {
+    let mut shape = null();
+    for (half_extent, radius, expected) in [
+        (-1.0, 0.0, "half_extents[0] is -1.0, it must be positive and at most 1.0715086071862673e301"),
+        (1.0, -0.5, "radius is -0.5, it must be at least 0 and at most 1.0715086071862673e301"),
+    ] {
+        // SAFETY: three numbers, and a place for the shape.
+        let status = unsafe { swiftprox_shape_create_box([half_extent, 1.0, 1.0].as_ptr(), radius, &raw mut shape) };
+        assert_eq!((status, shape), (StatusCode::ErrorInvalidArgument, null()));
+        assert_eq!(last_message(), expected);
+    }
+}
+
 #[test]
 fn the_log_hears_of_every_failure() {
     static HEARD: Mutex<Vec<(i32, String)>> = Mutex::new(Vec::new());

@@ -1,9 +1,7 @@
 //! Which minima that marching finds are good enough for an answer, at a quick look or a closer one.
 
 use super::query::PairQuery;
-use crate::answer::Query;
-use crate::answer::contact;
-use crate::answer::{DecidedBy, Outcome};
+use crate::answer::{DecidedBy, Outcome, Query, contact};
 use crate::base::math::divisor;
 use crate::base::simd::{Kernel, Lanes};
 use crate::distance::certificate::{Certify, CloserLook, Gap, Minimum};

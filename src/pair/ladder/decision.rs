@@ -2,9 +2,7 @@
 
 use super::acceptance::{Acceptance, Closely};
 use super::query::{Attempt, PairQuery};
-use crate::answer::Query;
-use crate::answer::contact;
-use crate::answer::{DecidedBy, Outcome, Statistics};
+use crate::answer::{DecidedBy, Outcome, Query, Statistics, contact};
 use crate::base::error::Result;
 use crate::base::memory::in_integers;
 use crate::base::simd::{self, Kernel, Lanes, Portable};

@@ -2,9 +2,7 @@
 //! the last time.
 
 use super::query::PairQuery;
-use crate::answer::Query;
-use crate::answer::contact;
-use crate::answer::{DecidedBy, Outcome, Statistics};
+use crate::answer::{DecidedBy, Outcome, Query, Statistics, contact};
 use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::SMALLEST;

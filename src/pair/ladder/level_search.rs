@@ -3,9 +3,7 @@
 
 use super::marching::Leg;
 use super::query::{Attempt, Open, PairQuery};
-use crate::answer::Query;
-use crate::answer::contact;
-use crate::answer::{DecidedBy, Outcome, Statistics};
+use crate::answer::{DecidedBy, Outcome, Query, Statistics, contact};
 use crate::base::error::Result;
 use crate::base::math::Pose;
 use crate::base::simd::{self, Kernel, Lanes};

@@ -11,8 +11,7 @@ mod level_choice;
 mod level_search;
 mod level_glance;
 
-use crate::answer::PairAnswer;
-use crate::answer::{PairConfig, Query};
+use crate::answer::{PairAnswer, PairConfig, Query};
 use crate::base::error::Result;
 use crate::base::simd::Portable;
 use crate::base::simd::environment::{self, with_default};

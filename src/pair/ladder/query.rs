@@ -1,7 +1,6 @@
 //! One query: the request, its bodies, and the destination of the answer.
 
-use crate::answer::{Accuracy, PairConfig, Query, Start};
-use crate::answer::{Outcome, PairAnswer};
+use crate::answer::{Accuracy, Outcome, PairAnswer, PairConfig, Query, Start};
 use crate::base::error::Result;
 use crate::base::math::{Pose, clamp};
 use crate::base::simd::Lanes;

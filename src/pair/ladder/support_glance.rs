@@ -1,9 +1,7 @@
 //! Approximate distances by look-ups of both bodies' support functions: an approximate query need not find the nearest features.
 
 use super::query::PairQuery;
-use crate::answer::contact;
-use crate::answer::{DecidedBy, Statistics};
-use crate::answer::{Levels, Query, Start};
+use crate::answer::{DecidedBy, Levels, Query, Start, Statistics, contact};
 use crate::base::error::Result;
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::tables::support_map::{Choice, Grids};

@@ -1,6 +1,6 @@
 //! A pair of vertices to start from.
 
-/// Where to start.
+/// A pair of features to start at.
 // Laid out so that no two of its numbers side by side are read as one (R1).
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(C)]

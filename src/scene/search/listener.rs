@@ -9,7 +9,7 @@ use crate::scene::search::query::{PairResult, SceneAnswer, SceneQuery};
 use crate::scene::world::content::World;
 use crate::scene::world::object::ObjectId;
 
-/// What has become of a pair or of a contact point since the listener's last query.
+/// State of a pair or contact point since the listener's last query.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(i32)]
 pub enum EventState {
@@ -44,13 +44,13 @@ pub struct PairEvent {
     pub piece1: u32,
     /// Which piece of object 2.
     pub piece2: u32,
-    /// What has become of the two pieces.
+    /// State of the two pieces.
     pub state: EventState,
-    /// What has become of the two objects, which are listed if any of their pieces are.
+    /// State of the two objects; they are listed if any of their pieces are.
     pub objects_state: EventState,
     /// Its place among the pairs of the answer, and among contacts if they were asked for; SIZE_MAX where it has ended.
     pub result: usize,
-    /// Where among all points of the events its own begin.
+    /// Start of its points among all points of the events.
     pub first_point: usize,
     /// How many: those of its contact in their order, and behind them those that are gone.
     pub point_count: usize,
@@ -64,7 +64,7 @@ pub struct PointEvent {
     pub id: u64,
     /// Its place among the points of the contacts; SIZE_MAX where it is gone.
     pub point: usize,
-    /// What has become of it.
+    /// Its state.
     pub state: EventState,
 }
 
@@ -84,8 +84,8 @@ impl<'a> ListenerEvents<'a> {
     }
 }
 
-/// Remembers what was listed when it last asked a scene, and nothing else: what other listeners ask does not change what it hears.
-/// Of another scene it hears that all pairs of the one before have ended.
+/// Remembers what its last query of a scene listed. Other listeners do not affect it. When it queries another scene, all pairs of
+/// the former one have ended.
 #[derive(Debug, Default)]
 pub struct Listener {
     was: Listed,

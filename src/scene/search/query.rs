@@ -76,7 +76,7 @@ impl<Shape: Clone> PlacedBody<'_, Shape> {
     }
 }
 
-/// What a query of contacts says of each pair beside its answer.
+/// Details that a query of contacts returns for each pair beside its answer.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
 pub enum ContactDetail {
@@ -129,15 +129,15 @@ pub struct PairResult {
     pub answer: PairAnswer,
 }
 
-/// What a query of contacts says of a pair beside its answer. What was not asked for, or is not there, says nothing.
+/// A query of contacts returns this for a pair beside its answer. Parts not asked for are unset.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct Contact {
-    /// How deep the two are in each other; of a pair that does not intersect nothing is said.
+    /// Depth of the two; unset if they do not intersect.
     pub depth: DepthAnswer,
-    /// Where they meet, or nearly do.
+    /// Their contact points.
     pub manifold: Manifold,
-    /// Where among all points those of the manifold begin, as many as its `point_count`.
+    /// Start of the manifold's points among all points; there are manifold.point_count.
     pub first_point: usize,
 }
 

@@ -6,7 +6,7 @@ use crate::pair::{DecidedBy, PairAnswer};
 #[cfg(doc)]
 use crate::scene::Scene;
 
-/// What the queries of a scene did since it was made or [`Scene::reset_statistics`] was called.
+/// Work of a scene's queries since it was made or swiftprox_scene_reset_statistics was called.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct SceneStatistics {
@@ -28,7 +28,7 @@ pub struct SceneStatistics {
     pub fallback_iterations: u64,
     /// Iterations in integer arithmetic.
     pub exact_iterations: u64,
-    /// Of the pairs, those that an approximate query stopped at because their interval was narrow enough.
+    /// Pairs at which an approximate query stopped because their interval was narrow enough.
     pub within_tolerance: u64,
     /// … of which the step budget ran out.
     pub budget_spent: u64,
@@ -38,7 +38,7 @@ pub struct SceneStatistics {
     /// Sum of `upper − lower` over the pairs that queries about distances answered as [`Outcome::Separated`] or left
     /// [`Outcome::Undecided`]. Queries of intersection add nothing: their intervals are wide and only prove the verdict.
     pub error_spent: f64,
-    /// Of the pairs, those whose bounding spheres decided.
+    /// Pairs that bounding spheres decided.
     pub bounding_spheres: u64,
     /// … of which balls inside the pieces decided.
     pub inscribed_spheres: u64,

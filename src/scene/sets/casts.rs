@@ -17,15 +17,15 @@ use crate::scene::world::rows::{grown_box, placed};
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct SceneCastAnswer {
-    /// Of the pair that ends it; free if all pairs are.
+    /// The answer for the pair that ends the motion; free if all pairs are.
     pub outcome: CastOutcome,
     /// Certified queries made.
     pub queries: u32,
     /// All pairs are farther apart than `max_distance` from the beginning up to here: the last valid time.
     pub time_lower: f64,
-    /// Of a hit a time at which its pair is no farther apart than `max_distance`, the earliest that is known.
+    /// For a hit: a time at which its pair is no farther apart than `max_distance`, the earliest that is known.
     pub time_upper: f64,
-    /// Of a hit the distance of its pair at `time_upper` is at most this, of a near miss that at its own `time_lower`.
+    /// For a hit: its pair's distance at `time_upper` is at most this. For a near miss: the same at its `time_lower`.
     pub upper: f64,
     /// The pair that ends it, object 1 moving, with what [`CastAnswer::contact`] says; null ids if all are free.
     pub pair: PairResult,

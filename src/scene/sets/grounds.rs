@@ -34,7 +34,7 @@ impl Default for GroupFilter {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct SceneGroundContact {
-    /// Whose piece it is.
+    /// The object.
     pub object: ObjectId,
     /// The caller's own number of the object.
     pub user_data: u64,

@@ -20,12 +20,12 @@ use crate::scene::world::rows::Spheres;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct LeastDistance {
-    /// The least distance is at least this, of sets that are farther apart than the cut-off that …
+    /// The least distance is at least this. For sets farther apart than `max_distance` …
     pub lower: f64,
-    /// … and at most this: infinite of sets that are farther apart than the cut-off, and where no pair is tested.
+    /// … and at most this; infinite beyond `max_distance`, and if no pair is tested.
     pub upper: f64,
-    /// A pair with that distance, object 1 of the first set; with null ids if there is none within the cut-off. Of several pairs as
-    /// near, as far as doubles tell, it is any.
+    /// A pair with that distance: object 1 is of the first set, `nearest.answer` the answer. Its ids are null if no pair is within
+    /// `max_distance`. Among pairs equally near in doubles, any may be returned.
     pub nearest: PairResult,
 }
 

@@ -11,7 +11,7 @@ use crate::scene::world::boxes::Aabb;
 use crate::scene::world::object::ObjectId;
 use crate::scene::world::rows::Label;
 
-/// What of a ray is asked.
+/// What a ray query returns.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
 pub enum RayHits {
@@ -28,7 +28,7 @@ pub enum RayHits {
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct SceneRayHit {
-    /// Whose piece it is.
+    /// The object.
     pub object: ObjectId,
     /// The caller's own number of the object.
     pub user_data: u64,
@@ -36,7 +36,7 @@ pub struct SceneRayHit {
     pub piece: u32,
     /// Its place among all pieces of the scene, in order of creation, while none is removed.
     pub row: u32,
-    /// Where the ray meets it.
+    /// The answer for the piece.
     pub answer: RayAnswer,
 }
 
