@@ -119,9 +119,9 @@ fn a_point_in_a_thin_plate_is_proved_to_be_deep() {
     }
 }
 
-/// A needle with vertices from 1e-174 to 7e211 in a box 2e232 wide, 1/256 wider along x in the world: the pair has no unit of length.
-/// Cause: the normal goes along y, but the face reported for the point, which is in the middle, was the one across x. That lies 1/256
-/// of the interval farther off than the interval is wide.
+/// A needle with vertices from 1e-174 to 7e211 in a box 2e232 wide, 1/256 wider along x in the world: the pair has no unit of
+/// length. Cause: the normal goes along y, but the face reported for the point, which is in the middle, was the one across x. That
+/// lies 1/256 of the interval farther off than the interval is wide.
 #[test]
 fn a_point_without_a_search_leaves_by_the_face_along_the_normal() {
     let needle = [
@@ -144,8 +144,9 @@ fn a_point_without_a_search_leaves_by_the_face_along_the_normal() {
     verify_depth([needle.at(&at(0.0, 0.0, 0.0)), block.at(&stretched)], &cache, &answer)
         .unwrap_or_else(|error| panic!("{error}: {answer:?}"));
 }
-/// A prism 1e185 long, and a tetrahedron 0.75 deep in its lower face. Cause: a swept radius of −0 counted as one, by its bits, and the
-/// distance of objects that may touch was [0, 0] less radii of 0. Without it the upper end was the rounding of so long a body, 3e171.
+/// A prism 1e185 long, and a tetrahedron 0.75 deep in its lower face. Cause: a swept radius of −0 counted as one, by its bits, and
+/// the distance of objects that may touch was [0, 0] less radii of 0. Without it the upper end was the rounding of so long a body,
+/// 3e171.
 #[test]
 fn a_swept_radius_of_minus_zero_is_none() {
     let (across, half, length) = (5.438853046443695e185, 2.71942652322185e185, 4.710184905670624e185);

@@ -67,7 +67,7 @@ fn many_placements(
 
 #[test]
 fn hard_families() {
-    run("hard families", 200 * FAMILIES.len(), |index, session| {
+    run("hard families", 120 * FAMILIES.len(), |index, session| {
         let (_, generate) = FAMILIES[index % FAMILIES.len()];
         for _ in 0..50 {
             let case = generate(&mut session.random);
@@ -79,7 +79,7 @@ fn hard_families() {
 
 #[test]
 fn teleports() {
-    run("teleports", 4_000, |_, session| {
+    run("teleports", 2_500, |_, session| {
         let [a, b] = [(); 2].map(|()| any(&mut session.random));
         many_placements([&a, &b], 50, anywhere, session);
     });
@@ -87,7 +87,7 @@ fn teleports() {
 
 #[test]
 fn approaches() {
-    run("approaches", 3_500, |_, session| {
+    run("approaches", 2_000, |_, session| {
         let [a, b] = [(); 2].map(|()| any(&mut session.random));
         approach([&a, &b], session);
     });
@@ -95,7 +95,7 @@ fn approaches() {
 
 #[test]
 fn touching_surfaces() {
-    run("touching surfaces", 3_000, |_, session| {
+    run("touching surfaces", 2_000, |_, session| {
         let [a, b] = [(); 2].map(|()| any(&mut session.random));
         many_placements([&a, &b], 50, touching, session);
     });

@@ -14,7 +14,7 @@ use testkit::shapes::hull;
 
 use testkit::models::{cuboid, ellipsoid, prism, random_hull};
 
-const CASES_PER_FAMILY: usize = 2_000;
+const CASES_PER_FAMILY: usize = 1_000;
 
 /// The answer to [`distance`] from a cold cache.
 fn ask(shape1: &Shape, pose1: &Pose, shape2: &Shape, pose2: &Pose) -> PairAnswer {

@@ -244,9 +244,9 @@ fn bodies_that_touch_are_not_said_to_be_apart() {
     assert!(matches!(&refused, Err(Error::Unverified(m)) if m.contains("their distance")), "{refused:?}");
 }
 
-/// Needles as meshes of their own hull's triangles, all slivers that rounding makes. Causes: products of lengths beyond 1e154 were no
-/// doubles, and a sliver's sides said that it holds any point of its line; so another polygon was named than the one at the witness
-/// point, and `verify` refused it. Noise is from 0 to 1000 roundings of the length.
+/// Needles as meshes of their own hull's triangles, all slivers that rounding makes. Causes: products of lengths beyond 1e154 were
+/// no doubles, and a sliver's sides said that it holds any point of its line; so another polygon was named than the one at the
+/// witness point, and `verify` refused it. Noise is from 0 to 1000 roundings of the length.
 #[test]
 fn the_polygon_named_on_a_needle_is_at_the_witness_point() {
     let mut random = Random::new(5);

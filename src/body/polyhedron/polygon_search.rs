@@ -191,8 +191,8 @@ impl Partitions {
     }
 }
 
-/// Whether a point over a polygon's plane is in its prism. The sides of a sliver say nothing, or the same of all points on its line:
-/// the point is between the polygon's ends, too.
+/// Whether a point over a polygon's plane is in its prism. The sides of a sliver say nothing, or the same of all points on its
+/// line: the point is between the polygon's ends, too.
 pub fn holds(corners: &[Vector], normal: &Vector, point: &Vector) -> bool {
     debug_assert!(corners.len() >= 3);
     let Some(mut last) = corners.last() else { return false };

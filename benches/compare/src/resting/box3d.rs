@@ -36,7 +36,7 @@ impl Hull {
         let points: Vec<b3Vec3> = mesh.vertices.iter().map(|v| vector([v.x, v.y, v.z])).collect();
         // SAFETY: so many points are there, and are copied.
         let hull = unsafe { b3CreateHull(points.as_ptr(), count as i32, count as i32) };
-        let made = (!hull.is_null()).then_some(Hull(hull))?;
+        let made = (!hull.is_null()).then(|| Hull(hull))?;
         // SAFETY: it was just made.
         (unsafe { (*made.0).vertexCount } == count as i32).then_some(made)
     }
