@@ -124,17 +124,20 @@ fn csv(rows: &[Row]) -> String {
     text
 }
 
-/// A row for each scene: of each method ns a query, and of peers how many times as long as our depth that is; then geometric means.
+/// A row for each scene: ns per query of each method, of peers also how many times as long as ours that is; then geometric means.
 fn print(rows: &[Row]) {
     let Some(first) = rows.first() else { return };
     let methods: Vec<&str> =
         rows.iter().take_while(|row| row.scene == first.scene).map(|row| row.method.as_str()).collect();
     println!("| scene | {} |\n|---|{}", methods.join(" | "), "--:|".repeat(methods.len()));
     let line = |name: &str, times: &[Option<f64>]| {
-        let own = times[0].unwrap_or(f64::NAN);
+        let own = |method: &str| {
+            let own = if method.contains("manifold") { MANIFOLD } else { ours::NAME };
+            methods.iter().position(|other| *other == own).and_then(|k| times[k]).unwrap_or(f64::NAN)
+        };
         let cell = |(method, time): (&&str, &Option<f64>)| match time {
             Some(time) if method.starts_with(ours::NAME) => format!("{time:.0}"),
-            Some(time) => format!("{time:.0} ({:.2})", time / own),
+            Some(time) => format!("{time:.0} ({:.2})", time / own(method)),
             None => String::new(),
         };
         let cells: Vec<String> = methods.iter().zip(times).map(cell).collect();
