@@ -393,6 +393,13 @@ std::vector<Member> members_of_ground_contact()
     return join(at(offsetof(T, manifold), members_of_manifold()), {NUMBER(T, triangle, "u4"), NUMBER(T, first_point, "u8")});
 }
 
+std::vector<Member> members_of_compound_contact()
+{
+    using T = swiftprox_compound_contact;
+    return join(at(offsetof(T, manifold), members_of_manifold()),
+                {NUMBER(T, first_point, "u4"), NUMBER(T, piece1, "u4"), NUMBER(T, piece2, "u4")});
+}
+
 nb::object make_dtype(const std::vector<Member> &members, size_t size)
 {
     nb::list names, formats, offsets;
@@ -445,9 +452,11 @@ nb::object dtype(const std::string &name)
         fresh = make_dtype(members_of_ray_hit(), sizeof(swiftprox_scene_ray_hit));
     } else if (name == "ground contact") {
         fresh = make_dtype(members_of_ground_contact(), sizeof(swiftprox_ground_contact));
+    } else if (name == "compound contact") {
+        fresh = make_dtype(members_of_compound_contact(), sizeof(swiftprox_compound_contact));
     } else {
         refuse("no dtype is called " + name +
-               "; there are: distance, pair, point, contact, least distance, ray hit, ground contact");
+               "; there are: distance, pair, point, contact, least distance, ray hit, ground contact, compound contact");
     }
     PyDict_SetItem(made, key.ptr(), fresh.ptr());
     return fresh;

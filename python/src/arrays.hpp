@@ -11,6 +11,7 @@
 #include <nanobind/nanobind.h>
 #include <swiftprox.h>
 #include <swiftprox/batch.h>
+#include <swiftprox/compound.h>
 #include <swiftprox/curved.h>
 #include <swiftprox/geometry.h>
 #include <swiftprox/ground.h>
@@ -88,7 +89,7 @@ std::array<double, 3> read_vector(nb::handle source, const char *name);
 /// Whole numbers from 0, such as vertex numbers, of any integer type.
 std::vector<uint64_t> read_integers(nb::handle source, const char *name, std::vector<size_t> &shape);
 
-/// numpy's dtype of a struct of C: "distance", "pair", "contact", "point", "least distance", "ray hit", "ground contact".
+/// numpy's dtype of a struct of C: "distance", "pair", "contact", "point", "least distance", "ray hit", "ground contact", "compound contact".
 nb::object dtype(const std::string &name);
 
 /// An array of `count` structs, and where they are. The array owns them.
@@ -119,5 +120,6 @@ struct SceneContact {
 
 void bind_shape(nb::module_ &);
 void bind_pair(nb::module_ &);
+void bind_compound(nb::module_ &);
 void bind_scene(nb::module_ &);
 void bind_errors(nb::module_ &);

@@ -10,7 +10,9 @@ NB_MODULE(_core, m)
     bind_errors(m);
     bind_shape(m);
     bind_pair(m);
+    bind_compound(m);
     bind_scene(m);
     m.def("dtype", &dtype, nb::arg("name"), nb::sig("def dtype(name: str) -> numpy.dtype[numpy.void]"),
-          "The dtype of structured arrays: 'distance', 'pair', 'contact', 'point', 'least distance', 'ray hit', 'ground contact'.");
+          "The dtype of structured arrays: 'distance', 'pair', 'contact', 'point', 'least distance', 'ray hit', 'ground contact',\n"
+          "'compound contact'.");
 }

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <limits>
 #include <mutex>
 #include <thread>
 
@@ -11,8 +10,6 @@
 
 namespace
 {
-
-const double infinity = std::numeric_limits<double>::infinity();
 
 /// Poses of a batch that one cache serves. A number of its own, so that no bit depends on the number of threads.
 const size_t CHUNK = 1024;
@@ -32,22 +29,10 @@ struct Manifold {
     bool reduces = false;
 };
 
-struct Cast {
-    swiftprox_cast_answer answer{};
-    swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
-};
-
-swiftprox_pair_config config_of(double max_distance)
-{
-    swiftprox_pair_config config = SWIFTPROX_PAIR_CONFIG_DEFAULT;
-    config.max_distance = max_distance;
-    return config;
-}
-
 swiftprox_pair_answer distance(Pair &pair, nb::handle pose1, nb::handle pose2, double max_distance)
 {
     const Pose a = read_pose(pose1, "pose1"), b = read_pose(pose2, "pose2");
-    const swiftprox_pair_config config = config_of(max_distance);
+    const swiftprox_pair_config config = pair_config(max_distance);
     swiftprox_pair_answer answer;
     run_alone(pair, [&] {
         return swiftprox_pair_distance({pair.shape1.get(), a.m}, {pair.shape2.get(), b.m}, &pair.cache, &config, &answer);
@@ -58,7 +43,7 @@ swiftprox_pair_answer distance(Pair &pair, nb::handle pose1, nb::handle pose2, d
 swiftprox_signed_distance signed_distance(Pair &pair, nb::handle pose1, nb::handle pose2, double max_distance)
 {
     const Pose a = read_pose(pose1, "pose1"), b = read_pose(pose2, "pose2");
-    const swiftprox_pair_config config = config_of(max_distance);
+    const swiftprox_pair_config config = pair_config(max_distance);
     swiftprox_signed_distance answer;
     run_alone(pair, [&] {
         return swiftprox_pair_signed_distance({pair.shape1.get(), a.m}, {pair.shape2.get(), b.m}, &pair.manifold_cache, &config,
@@ -88,7 +73,7 @@ nb::object distances(Pair &pair, nb::handle poses1, nb::handle poses2, double ma
         refuse("threads must be 1 or more");
     }
     const size_t count = is_single1 ? count2 : count1;
-    const swiftprox_pair_config config = config_of(max_distance);
+    const swiftprox_pair_config config = pair_config(max_distance);
     const Records records = make_records("distance", count);
     auto *answers = static_cast<swiftprox_pair_answer *>(records.data);
     if (count == 0) {
@@ -145,14 +130,6 @@ nb::object distances(Pair &pair, nb::handle poses1, nb::handle poses2, double ma
         fail(status, message);
     }
     return records.array;
-}
-
-swiftprox_manifold_config manifold_config(double max_distance, bool reduces)
-{
-    swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
-    config.max_distance = max_distance;
-    config.reduces = reduces;
-    return config;
 }
 
 Manifold manifold(Pair &pair, nb::handle pose1, nb::handle pose2, double max_distance, bool reduce)
@@ -257,32 +234,6 @@ swiftprox_gradient gradient(Pair &pair, nb::handle pose1, nb::handle pose2, nb::
     return made;
 }
 
-swiftprox_outcome outcome_of(int32_t outcome)
-{
-    return swiftprox_outcome(outcome);
-}
-
-nb::tuple feature(const swiftprox_feature &feature)
-{
-    static const char *const kinds[] = {"none", "vertex", "edge", "face"};
-    const char *kind = feature.kind >= 0 && feature.kind <= 3 ? kinds[feature.kind] : "none";
-    return feature.kind == SWIFTPROX_FEATURE_KIND_EDGE ? nb::make_tuple(kind, feature.ids[0], feature.ids[1])
-           : feature.kind == SWIFTPROX_FEATURE_KIND_NONE ? nb::make_tuple(kind)
-                                                         : nb::make_tuple(kind, feature.ids[0]);
-}
-
-const char *word(swiftprox_outcome outcome)
-{
-    static const char *const words[] = {"none", "separated", "beyond", "intersecting", "undecided"};
-    return outcome >= 0 && outcome <= 4 ? words[outcome] : "?";
-}
-
-const char *word(swiftprox_cast_outcome outcome)
-{
-    static const char *const words[] = {"none", "free", "hit", "near", "budget"};
-    return outcome >= 0 && outcome <= 4 ? words[outcome] : "?";
-}
-
 /// What distances and signed distances have alike.
 template <class T> nb::class_<T> bind_answer(nb::module_ &m, const char *name, const char *text)
 {
@@ -304,10 +255,10 @@ template <class T> nb::class_<T> bind_answer(nb::module_ &m, const char *name, c
                      "The nearest point of body 2 in the world, shape (3,).")
         .def_prop_ro("normal", [](const T &self) { return make_array(self.normal, 3); }, vector("normal"),
                      "The unit normal in the world, from body 2 to body 1, shape (3,).")
-        .def_prop_ro("feature1", [](const T &self) { return feature(self.feature1); },
+        .def_prop_ro("feature1", [](const T &self) { return feature_of(self.feature1); },
                      nb::sig("def feature1(self) -> tuple[str, *tuple[int, ...]]"),
                      "What of body 1 holds its point: ('vertex', i), ('edge', i, j), ('face', i) or ('none',).")
-        .def_prop_ro("feature2", [](const T &self) { return feature(self.feature2); },
+        .def_prop_ro("feature2", [](const T &self) { return feature_of(self.feature2); },
                      nb::sig("def feature2(self) -> tuple[str, *tuple[int, ...]]"), "The same of body 2.")
         .def("__repr__", [name = std::string(name)](const T &self) {
             return nb::str("{}({}, distance={}, lower={}, upper={})").format(name, word(self.outcome), self.distance, self.lower, self.upper);
@@ -316,6 +267,27 @@ template <class T> nb::class_<T> bind_answer(nb::module_ &m, const char *name, c
 }
 
 } // namespace
+
+nb::tuple feature_of(const swiftprox_feature &feature)
+{
+    static const char *const kinds[] = {"none", "vertex", "edge", "face"};
+    const char *kind = feature.kind >= 0 && feature.kind <= 3 ? kinds[feature.kind] : "none";
+    return feature.kind == SWIFTPROX_FEATURE_KIND_EDGE ? nb::make_tuple(kind, feature.ids[0], feature.ids[1])
+           : feature.kind == SWIFTPROX_FEATURE_KIND_NONE ? nb::make_tuple(kind)
+                                                         : nb::make_tuple(kind, feature.ids[0]);
+}
+
+const char *word(swiftprox_outcome outcome)
+{
+    static const char *const words[] = {"none", "separated", "beyond", "intersecting", "undecided"};
+    return outcome >= 0 && outcome <= 4 ? words[outcome] : "?";
+}
+
+const char *word(swiftprox_cast_outcome outcome)
+{
+    static const char *const words[] = {"none", "free", "hit", "near", "budget"};
+    return outcome >= 0 && outcome <= 4 ? words[outcome] : "?";
+}
 
 void bind_pair(nb::module_ &m)
 {

@@ -1,14 +1,11 @@
 #include "shape.hpp"
 
-#include <limits>
 #include <mutex>
 
 #include <nanobind/stl/string.h>
 
 namespace
 {
-
-const double infinity = std::numeric_limits<double>::infinity();
 
 struct Scene {
     swiftprox_scene *scene = nullptr;
@@ -24,6 +21,7 @@ struct Scene {
 
 struct Ground {
     const swiftprox_ground *ground = nullptr;
+    size_t triangle_count = 0;
     ~Ground() { swiftprox_ground_release(ground); }
 };
 
@@ -39,12 +37,18 @@ std::vector<swiftprox_object_id> read_ids(nb::handle ids, const char *name)
 
 uint64_t add(Scene &scene, nb::handle pieces, nb::handle pose, bool fixed, uint64_t user_data, uint32_t groups, uint32_t mask)
 {
+    // Shares of their own: an iterator may make each shape as it comes.
+    std::vector<Shape> held;
     std::vector<const swiftprox_shape *> shapes;
+    const auto hold = [&](nb::handle piece) {
+        held.push_back(nb::cast<const Shape &>(piece));
+        shapes.push_back(held.back().get());
+    };
     if (nb::isinstance<Shape>(pieces)) {
-        shapes.push_back(nb::cast<const Shape &>(pieces).get());
+        hold(pieces);
     } else {
         for (nb::handle piece : pieces) {
-            shapes.push_back(nb::cast<const Shape &>(piece).get());
+            hold(piece);
         }
     }
     swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
@@ -238,7 +242,7 @@ void make_ground(Ground *self, nb::handle vertices, nb::handle triangles)
     }
     const swiftprox_ground *made = nullptr;
     run([&] { return swiftprox_ground_create_from_triangles(points.data(), points.dim(0), corners.data(), shape[0], &made); });
-    new (self) Ground{made};
+    new (self) Ground{made, shape[0]};
 }
 
 swiftprox_pair_answer ground_distance(const Ground &ground, const Shape &shape, nb::handle pose, double max_distance)
@@ -252,6 +256,31 @@ swiftprox_pair_answer ground_distance(const Ground &ground, const Shape &shape, 
                                               swiftprox_placed_ground{ground.ground, still.m}, &config, &answer);
     });
     return answer.answer;
+}
+
+RayHit ground_ray(const Ground &ground, nb::handle origin, nb::handle direction, double t_max)
+{
+    const auto o = read_vector(origin, "origin"), d = read_vector(direction, "direction");
+    const swiftprox_ray asked = {{o[0], o[1], o[2]}, {d[0], d[1], d[2]}, t_max};
+    const Pose still;
+    swiftprox_ground_ray_answer answer;
+    run([&] { return swiftprox_ground_cast_ray({ground.ground, still.m}, &asked, &answer); });
+    return {answer.answer, number_below(answer.triangle, ground.triangle_count)};
+}
+
+struct GroundCast : Cast {
+    nb::object triangle;
+};
+
+GroundCast ground_cast(const Ground &ground, const Shape &shape, nb::handle motion, double max_distance, double time_begin,
+                       double time_end, double time_tolerance)
+{
+    const swiftprox_motion moves = read_motion(motion, "motion");
+    const Pose still;
+    const swiftprox_cast_config config = cast_config(max_distance, time_begin, time_end, time_tolerance);
+    swiftprox_ground_cast_answer answer;
+    run([&] { return swiftprox_pair_ground_cast({shape.get(), &moves}, {ground.ground, still.m}, &config, &answer); });
+    return {{answer.answer, config}, number_below(answer.triangle, ground.triangle_count)};
 }
 
 nb::tuple ground_contacts(const Ground &ground, const Shape &shape, nb::handle pose, double max_distance, bool reduce)
@@ -358,6 +387,10 @@ void bind_scene(nb::module_ &m)
                      "among: bool = False, time_begin: float = 0.0, time_end: float = 1.0, time_tolerance: float = 1e-9) -> SceneCast"),
              "Whether moving objects stay farther than max_distance from all that rest. One motion moves the set as one body.");
 
+    nb::class_<GroundCast, Cast>(m, "GroundCast", "When a moving body first meets a ground.")
+        .def_ro("triangle", &GroundCast::triangle, nb::sig("def triangle(self) -> int | None"),
+                "The triangle that it meets; None if it meets none.");
+
     nb::class_<Ground>(m, "Ground", "A fixed surface of triangles.")
         .def("__init__", &make_ground, nb::arg("vertices"), nb::arg("triangles"),
              nb::sig("def __init__(self, vertices: " ARRAY ", triangles: " ARRAY ") -> None"),
@@ -369,5 +402,13 @@ void bind_scene(nb::module_ &m)
              nb::arg("reduce") = false,
              nb::sig("def contacts(self, shape: Shape, pose: Pose | " ARRAY ", max_distance: float = 0.0, *, reduce: bool = False) -> "
                      "tuple[" RECORDS ", " RECORDS "]"),
-             "The contacts of a shape and all their points: structured arrays of dtype('ground contact') and dtype('point').");
+             "The contacts of a shape and all their points: structured arrays of dtype('ground contact') and dtype('point').")
+        .def("ray", &ground_ray, nb::arg("origin"), nb::arg("direction"), nb::kw_only(), nb::arg("t_max") = infinity,
+             nb::sig("def ray(self, origin: " ARRAY ", direction: " ARRAY ", *, t_max: float = ...) -> RayHit"),
+             "Where a ray first meets the surface, from either side. origin, direction: shape (3,).")
+        .def("cast", &ground_cast, nb::arg("shape"), nb::arg("motion"), nb::arg("max_distance") = 0.0, nb::kw_only(),
+             nb::arg("time_begin") = 0.0, nb::arg("time_end") = 1.0, nb::arg("time_tolerance") = 1e-9,
+             nb::sig("def cast(self, shape: Shape, motion: Motion | Pose | " ARRAY ", max_distance: float = 0.0, *, "
+                     "time_begin: float = 0.0, time_end: float = 1.0, time_tolerance: float = 1e-9) -> GroundCast"),
+             "Whether a moving shape stays farther than max_distance from the surface, or when it first does not.");
 }

@@ -33,38 +33,6 @@ uint32_t vertex_number(uint64_t number)
     return uint32_t(number);
 }
 
-/// Triangles, polygons of one size as the rows of an array, or a list of lists.
-void read_faces(nb::handle faces, std::vector<uint32_t> &indices, std::vector<uint32_t> &valences)
-{
-    std::vector<size_t> shape;
-    if (nb::isinstance<nb::list>(faces) || nb::isinstance<nb::tuple>(faces)) {
-        for (nb::handle face : faces) {
-            const std::vector<uint64_t> corners = read_integers(face, "a face of faces", shape);
-            for (const uint64_t corner : corners) {
-                indices.push_back(vertex_number(corner));
-            }
-            valences.push_back(uint32_t(corners.size()));
-        }
-        return;
-    }
-    const std::vector<uint64_t> corners = read_integers(faces, "faces", shape);
-    if (shape.size() != 2) {
-        refuse("faces has the shape " + text(shape) + ", not (m, 3)");
-    }
-    for (const uint64_t corner : corners) {
-        indices.push_back(vertex_number(corner));
-    }
-    valences.assign(shape[0], uint32_t(shape[1]));
-}
-
-
-void check_points(const Doubles &points, const char *name)
-{
-    if (points.ndim() != 2 || points.dim(1) != 3) {
-        refuse(std::string(name) + " has the shape " + text(points.shape()) + ", not (n, 3)");
-    }
-}
-
 Shape make_shape(nb::handle points, nb::handle faces, const std::string &policy, double swept_radius, double scale)
 {
     const Doubles vertices(points, "points");
@@ -114,6 +82,36 @@ swiftprox_motion fixed_at(const Pose &pose)
 }
 
 } // namespace
+
+void read_faces(nb::handle faces, std::vector<uint32_t> &indices, std::vector<uint32_t> &valences)
+{
+    std::vector<size_t> shape;
+    if (nb::isinstance<nb::list>(faces) || nb::isinstance<nb::tuple>(faces)) {
+        for (nb::handle face : faces) {
+            const std::vector<uint64_t> corners = read_integers(face, "a face of faces", shape);
+            for (const uint64_t corner : corners) {
+                indices.push_back(vertex_number(corner));
+            }
+            valences.push_back(uint32_t(corners.size()));
+        }
+        return;
+    }
+    const std::vector<uint64_t> corners = read_integers(faces, "faces", shape);
+    if (shape.size() != 2) {
+        refuse("faces has the shape " + text(shape) + ", not (m, 3)");
+    }
+    for (const uint64_t corner : corners) {
+        indices.push_back(vertex_number(corner));
+    }
+    valences.assign(shape[0], uint32_t(shape[1]));
+}
+
+void check_points(const Doubles &points, const char *name)
+{
+    if (points.ndim() != 2 || points.dim(1) != 3) {
+        refuse(std::string(name) + " has the shape " + text(points.shape()) + ", not (n, 3)");
+    }
+}
 
 swiftprox_motion read_motion(nb::handle source, const char *name)
 {

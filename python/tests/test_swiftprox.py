@@ -265,3 +265,126 @@ def test_a_ground():
     assert abs(ground.distance(box, at(0, 0, 3)).distance - 2) < 1e-12
     contacts, points = ground.contacts(box, at(0, 0, 0.9))
     assert len(contacts) == 1 and len(points) == 4 and np.allclose(contacts["normal"][0], [0, 0, 1])
+
+
+def test_rays_and_casts_at_a_ground():
+    ground = sp.Ground([[-9, -9, 0], [9, -9, 0], [0, 9, 0], [0, 9, 5]], [[0, 1, 2], [0, 3, 1]])
+    hit = ground.ray([0, 0, 8], [0, 0, -2])
+    # The second triangle rises from the line y = -9 to z = 5 at y = 9.
+    assert hit.outcome == "hit" and hit.part == 1 and hit.entry[0] <= 2.75 <= hit.entry[1] <= hit.entry[0] + 1e-11
+    below = ground.ray([0, 0, -1], [0, 0, 1])
+    assert below.part == 0 and below.entry[0] <= 1 <= below.entry[1] and np.array_equal(below.normal, [0, 0, -1])
+    assert below.feature == ("face", 0)
+    miss = ground.ray([0, 0, 8], [0, 0, -2], t_max=2)
+    assert miss.outcome == "miss" and miss.part is None and np.isnan(miss.entry).all()
+
+    flat, box = sp.Ground([[-9, -9, 0], [9, -9, 0], [0, 9, 0]], [[0, 1, 2]]), sp.Shape.box(1, 1, 1)
+    cast = flat.cast(box, sp.Motion.between(at(0, 0, 4), at(0, 0, 0)))
+    assert cast.outcome == "hit" and cast.triangle == 0 and cast.t_lower <= 0.75 <= cast.t_upper <= cast.t_lower + 1e-9
+    assert np.array_equal(cast.contact.normal, [0, 0, 1]) and isinstance(cast, sp.Cast)
+    early = flat.cast(box, sp.Motion.between(at(0, 0, 4), at(0, 0, 0)), 1.0)
+    assert early.t_lower <= 0.5 <= early.t_upper
+    free = flat.cast(box, sp.Motion.between(at(0, 0, 4), at(0, 0, 3)))
+    assert free.outcome == "free" and free.triangle is None and 1.9 < free.clearance <= 2
+    with pytest.raises(sp.InputError, match="max_distance"):
+        flat.cast(box, EYE, -1)
+
+
+def dumbbell():
+    """Two cubes of the half extent 1, about (-2, 0, 0) and (2, 0, 0)."""
+    return sp.Compound([sp.Shape.box(1, 1, 1)] * 2, [at(-2), at(2)])
+
+
+def test_a_pair_of_compounds():
+    body, ball = dumbbell(), sp.Shape.sphere(0.5)
+    bodies = sp.CompoundPair(body, ball)
+    assert not bodies.intersects(EYE, at(0)) and bodies.intersects(EYE, at(3.25))
+    answer = bodies.distance(EYE, at(5))
+    assert answer.lower <= 1.5 <= answer.upper and (answer.piece1, answer.piece2) == (1, 0)
+    assert answer.outcome == sp.Outcome.SEPARATED and isinstance(answer, sp.Distance) and "piece1=1" in repr(answer)
+    assert np.allclose(answer.world1, [3, 0, 0]) and np.allclose(answer.local1, [1, 0, 0]) and np.allclose(answer.normal, [-1, 0, 0])
+    bodies.verify(EYE, at(5), answer)
+    with pytest.raises(sp.Unverified):
+        bodies.verify(EYE, at(4.5), answer)
+    with pytest.raises(sp.InputError, match="CompoundDistance"):
+        bodies.verify(EYE, at(5), 1.5)
+    met = bodies.distance(EYE, at(-2))
+    assert met.outcome == sp.Outcome.INTERSECTING and met.piece1 == 0
+    bodies.verify(EYE, at(-2), met)
+    beyond = bodies.distance(EYE, at(5), 1)
+    assert beyond.outcome == sp.Outcome.BEYOND and beyond.piece1 is None and beyond.piece2 is None
+    bodies.verify(EYE, at(5), beyond)
+    signed = bodies.signed(EYE, at(2, 0, 1.25))
+    assert signed.lower <= -0.25 <= signed.upper and signed.piece1 == 1
+
+    slab = sp.CompoundPair(body, sp.Shape.box(5, 5, 1))
+    contacts, points = slab.contacts(EYE, at(0, 0, -1.75))
+    assert contacts["piece1"].tolist() == [0, 1] and contacts["point_count"].tolist() == [4, 4] and len(points) == 8
+    assert (contacts["lower"] <= -0.25).all() and (contacts["upper"] >= -0.25).all() and contacts["first_point"].tolist() == [0, 4]
+    assert len(slab.contacts(EYE, at(0, 0, -2.25))[0]) == 0 and len(slab.contacts(EYE, at(0, 0, -2.25), 0.5)[0]) == 2
+    comb = sp.Compound([sp.Shape.box(0.1, 1, 1)] * 40, [at(k) for k in range(40)])
+    contacts, points = sp.CompoundPair(comb, sp.Shape.box(50, 5, 1)).contacts(EYE, at(0, 0, -1.75))
+    assert contacts["piece1"].tolist() == list(range(40)) and len(points) == 160
+
+
+def test_rays_and_points_against_a_compound():
+    body = dumbbell()
+    hit = body.ray(EYE, [9, 0, 0], [-2, 0, 0])
+    assert hit.outcome == "hit" and hit.part == 1 and hit.entry[0] <= 3 <= hit.entry[1] and hit.exit[0] <= 4 <= hit.exit[1]
+    assert np.array_equal(hit.normal, [1, 0, 0]) and hit.feature[0] == "face"
+    assert body.ray(at(0, 0, 1), [0, 0, 9], [0, 0, -1]).part is None
+    assert body.ray(EYE, [-2, 0, 0], [0, 0, 1]).outcome == "inside"
+    point = body.point(EYE, [2.5, 0, 0])
+    assert point.location == "inside" and point.piece == 1 and point.lower <= -0.5 <= point.upper
+    assert body.point(at(1), [4, 0.5, 0]).location == "on"
+    outside = body.point(EYE, [-6, 4, 1])
+    assert outside.location == "outside" and outside.piece == 0 and outside.lower <= np.sqrt(18) <= outside.upper
+    assert np.allclose(outside.world, [-3, 1, 1])
+
+
+def test_compounds_are_made_of_shapes_and_meshes():
+    body = dumbbell()
+    shape, pose = body.piece(1)
+    assert body.piece_count == 2 and shape.vertex_count == 8 and np.array_equal(pose, at(2))
+    made = sp.Compound(sp.Shape.box(0.1, 1, 1 + k) for k in range(3))
+    assert np.abs(made.piece(2)[0].vertices).max() == 3 and sp.Scene().add(sp.Shape.sphere(1 + k) for k in range(3))
+    # An L of the area 3, one high: outline, then both lids and the walls.
+    outline = [[0, 0], [2, 0], [2, 1], [1, 1], [1, 2], [0, 2]]
+    points = [[x, y, z] for z in (0, 1) for x, y in outline]
+    walls = [[k, (k + 1) % 6, 6 + (k + 1) % 6, 6 + k] for k in range(6)]
+    mesh = sp.Compound.from_mesh(points, [[5, 4, 3, 2, 1, 0], [6, 7, 8, 9, 10, 11], *walls])
+    ball = sp.CompoundPair(mesh, sp.Shape.sphere(0.25))
+    near = ball.distance(EYE, at(1.5, 1.5, 0.5))
+    # The corner of the L is a quarter from the ball along x and y.
+    assert near.lower <= 0.25 <= near.upper and not ball.intersects(EYE, at(1.5, 1.5, 0.5))
+    for call, words in [
+        (lambda: sp.Compound([]), "at least one piece"),
+        (lambda: sp.Compound([shape], EYE), "(1, 3, 4)"),
+        (lambda: sp.Compound([shape], [EYE, EYE]), "(1, 3, 4)"),
+        (lambda: sp.Compound([shape], [2 * EYE]), "piece 0"),
+        (lambda: body.piece(2), "piece 2"),
+        (lambda: sp.CompoundPair(body, 3), "compound2"),
+        (lambda: sp.Compound.from_mesh(points, [[0, 1, 99]]), "99"),
+        (lambda: body.ray(EYE, [0, 0, 0], [0, 0, 0]), "direction"),
+        (lambda: body.point(EYE, [0, 0]), "(2,)"),
+    ]:
+        with pytest.raises(sp.InputError) as caught:
+            call()
+        assert words in str(caught.value) and len(str(caught.value)) > 10
+
+
+def test_threads_that_share_a_pair_of_compounds_take_turns():
+    shared, wrong = sp.CompoundPair(dumbbell(), dumbbell()), []
+
+    def work():
+        for pose in X1[:300]:
+            answer = shared.distance(EYE, pose)
+            if answer.outcome == sp.Outcome.INTERSECTING and not shared.intersects(EYE, pose):
+                wrong.append(pose)
+
+    threads = [threading.Thread(target=work) for _ in range(4)]
+    for thread in threads:
+        thread.start()
+    for thread in threads:
+        thread.join(60)
+    assert not any(thread.is_alive() for thread in threads) and not wrong
