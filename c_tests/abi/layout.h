@@ -539,6 +539,15 @@ MEMBER(swiftprox_compound_contacts, point_capacity, 24, 8)
 MEMBER(swiftprox_compound_contacts, contact_count, 32, 8)
 MEMBER(swiftprox_compound_contacts, point_count, 40, 8)
 
+STRUCT(swiftprox_moving_compound, 16, 8)
+MEMBER(swiftprox_moving_compound, compound, 0, 8)
+MEMBER(swiftprox_moving_compound, motion, 8, 8)
+
+STRUCT(swiftprox_compound_cast_answer, 328, 8)
+MEMBER(swiftprox_compound_cast_answer, answer, 0, 320)
+MEMBER(swiftprox_compound_cast_answer, piece1, 320, 4)
+MEMBER(swiftprox_compound_cast_answer, piece2, 324, 4)
+
 STRUCT(swiftprox_compound_ray_answer, 88, 8)
 MEMBER(swiftprox_compound_ray_answer, answer, 0, 80)
 MEMBER(swiftprox_compound_ray_answer, piece, 80, 4)

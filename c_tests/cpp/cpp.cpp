@@ -230,6 +230,13 @@ static void pairs()
     CHECK(touching && touching.value.contact_count >= 2);
     CHECK(swiftprox::try_compound_cast_ray(pair_here, {{-9, 0, 0}, {1, 0, 0}, 99}).value.piece == 0);
     CHECK(swiftprox::try_compound_locate_point(pair_here, {2, 0, 0}).value.piece == 1);
+    const auto fall = swiftprox::try_motion_between(Pose::at(3, 0, 10), here, {0, 0, 0}, 3);
+    const auto rest = swiftprox::try_motion_between(here, here, {0, 0, 0}, 3);
+    const swiftprox::MovingCompound pair_at_rest{pair_of_boxes.value, rest.value.motion};
+    const swiftprox::MovingCompound pair_that_falls{pair_of_boxes.value, fall.value.motion};
+    const auto fallen = swiftprox::try_compound_cast(pair_at_rest, pair_that_falls, compound_cache);
+    CHECK(fallen && fallen.value.answer.outcome == SWIFTPROX_CAST_OUTCOME_HIT && fallen.value.answer.time_lower > 0.5);
+    CHECK_OK(swiftprox::try_compound_cast_verify(pair_at_rest, pair_that_falls, fallen.value).status);
     const auto top = box.try_find_face(0);
     CHECK(top && box.try_face(top.value).value.corners.size() == 4 && box.try_face(top.value).value.labels[0] == 0);
     CHECK(box.try_face(6).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);

@@ -151,6 +151,65 @@ static void a_mesh(void)
     CHECK(body == NULL);
 }
 
+/* A dumbbell falls on another one, or past it. */
+static void casts(void)
+{
+    const swiftprox_compound *body = dumbbell();
+    static swiftprox_compound_cache cache;
+    swiftprox_compound_cast_answer answer;
+    swiftprox_cast_config config = SWIFTPROX_CAST_CONFIG_DEFAULT;
+    swiftprox_motion still = {0}, fall = {0};
+    swiftprox_moving_compound one, two;
+    still.kind = SWIFTPROX_MOTION_KIND_FIXED;
+    memcpy(still.start, identity, sizeof identity);
+    fall.kind = SWIFTPROX_MOTION_KIND_AFFINE;
+    place(fall.start, 3, 0, 10);
+    place(fall.end, 3, 0, 0);
+    one.compound = two.compound = body;
+    one.motion = &still;
+    two.motion = &fall;
+    CHECK_OK(swiftprox_compound_cast(one, two, &cache, NULL, &answer));
+    CHECK(answer.answer.outcome == SWIFTPROX_CAST_OUTCOME_HIT && answer.piece1 == 1 && answer.piece2 == 0);
+    CHECK(answer.answer.time_lower <= 0.8 && 0.8 <= answer.answer.time_upper);
+    CHECK(answer.answer.time_upper - answer.answer.time_lower <= 1e-9);
+    CHECK_OK(swiftprox_compound_cast_verify(one, two, NULL, &answer));
+    answer.answer.time_lower = 0.81;
+    answer.answer.time_upper = 0.82;
+    CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "pieces 1 and 0", swiftprox_compound_cast_verify(one, two, NULL, &answer));
+    answer.piece1 = 9;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "9", swiftprox_compound_cast_verify(one, two, NULL, &answer));
+
+    place(fall.start, 0, 2.5, 10);
+    place(fall.end, 0, 2.5, 0);
+    CHECK_OK(swiftprox_compound_cast(one, two, &cache, NULL, &answer));
+    CHECK(answer.answer.outcome == SWIFTPROX_CAST_OUTCOME_FREE && answer.piece1 == 2 && answer.piece2 == 2);
+    CHECK(0 < answer.answer.clearance && answer.answer.clearance <= 0.5);
+    CHECK_OK(swiftprox_compound_cast_verify(one, two, NULL, &answer));
+    config.max_distance = 0.75;
+    CHECK_OK(swiftprox_compound_cast(one, two, &cache, &config, &answer));
+    CHECK(answer.answer.outcome == SWIFTPROX_CAST_OUTCOME_HIT);
+    CHECK_OK(swiftprox_compound_cast_verify(one, two, &config, &answer));
+
+    config.ignores_parting = 1;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "ignores_parting",
+                swiftprox_compound_cast(one, two, &cache, &config, &answer));
+    CHECK(answer.answer.outcome == SWIFTPROX_CAST_OUTCOME_NONE && isnan(answer.answer.time_lower));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "cache", swiftprox_compound_cast(one, two, NULL, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_compound_cast(one, two, &cache, NULL, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_compound_cast_verify(one, two, NULL, NULL));
+    fall.kind = 77;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "object2.motion->kind",
+                swiftprox_compound_cast(one, two, &cache, NULL, &answer));
+    two.motion = NULL;
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "object2.motion", swiftprox_compound_cast(one, two, &cache, NULL, &answer));
+    one.compound = NULL;
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "object1.compound", swiftprox_compound_cast(one, two, &cache, NULL, &answer));
+    memset(&answer, 0x77, sizeof answer);
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "answer->answer->outcome",
+                swiftprox_compound_cast_verify(one, two, NULL, &answer));
+    swiftprox_compound_release(body);
+}
+
 static void mistakes(void)
 {
     const swiftprox_compound *body = dumbbell(), *none = body;
@@ -201,6 +260,7 @@ int main(void)
     answers_that_are_known();
     contacts_rays_and_points();
     a_mesh();
+    casts();
     mistakes();
     return check_report("compound");
 }

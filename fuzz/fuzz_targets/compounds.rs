@@ -1,6 +1,7 @@
 //! Two bodies of several pieces, placed in them or not, at poses that touch or miss each other by a few roundings. The cache is
 //! carried on, stale or of any bytes. Checked: verdict, distance and signed distance against all pairs of pieces asked one by one,
-//! `verify` of each, and a pair of few corners against exact rationals.
+//! `verify` of each, and a pair of few corners against exact rationals. The last two steps are the ends of a motion, whose cast is
+//! held against its own check and against distances on the way.
 #![no_main]
 
 use std::sync::Arc;
@@ -8,11 +9,12 @@ use std::sync::Arc;
 use libfuzzer_sys::arbitrary::{Result, Unstructured};
 use libfuzzer_sys::fuzz_target;
 use swiftprox::compound::{
-    Compound, CompoundAnswer, CompoundCache, CompoundSignedDistance, Piece, PlacedCompound, distance, intersection,
-    signed_distance, verify,
+    Compound, CompoundAnswer, CompoundCache, CompoundCastAnswer, CompoundSignedDistance, MovingCompound, Piece,
+    PlacedCompound, cast, distance, intersection, signed_distance, verify, verify_cast,
 };
 use swiftprox::error::Error;
 use swiftprox::math::{Pose, Vector};
+use swiftprox::motion::{CastConfig, CastOutcome, Motion, motion_between};
 use swiftprox::pair::{self, Outcome, PairConfig, SignedDistance, SignedDistanceCache};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox_fuzz::geometry::{points, pose, poses};
@@ -35,6 +37,7 @@ fuzz_target!(|bytes: &[u8]| {
 fn run(u: &mut Unstructured) -> Result<()> {
     let (one, two) = (body(u)?, body(u)?);
     let mut cache = CompoundCache::default();
+    let mut last: Option<[Pose; 2]> = None;
     for _ in 0..MOST_STEPS {
         let poses = poses(u, [&one.clouds[0], &two.clouds[0]])?;
         if u.ratio(1, 4)? {
@@ -46,6 +49,9 @@ fn run(u: &mut Unstructured) -> Result<()> {
         };
         if is_accepted(&one, &poses[0]) && is_accepted(&two, &poses[1]) {
             check([&one, &two], [&poses[0], &poses[1]], &mut cache);
+            if let Some(before) = last.replace(poses) {
+                check_cast([&one, &two], [before, poses], &mut cache);
+            }
         } else {
             let (before, mut answer) = (cache.clone(), CompoundAnswer::default());
             let placed = [one.compound.at(&poses[0]), two.compound.at(&poses[1])];
@@ -139,6 +145,34 @@ fn check(bodies: [&Body; 2], poses: [&Pose; 2], cache: &mut CompoundCache) {
         assert!(found.distance.lower <= upper && lower <= found.distance.upper, "{found:?} {lower:e} {upper:e}");
         assert_eq!(found.distance.outcome, outcome);
     }
+}
+
+/// A cast from some poses to others.
+fn check_cast(bodies: [&Body; 2], [from, to]: [[Pose; 2]; 2], cache: &mut CompoundCache) {
+    let mut screws = Vec::new();
+    for k in 0..2 {
+        // What moves too far is refused.
+        let Ok((screw, _)) = motion_between(&from[k], &to[k], &Vector::zeros(), 0.0) else { return };
+        screws.push(Motion::Screw(screw));
+    }
+    let moving = |k: usize| MovingCompound { compound: &bodies[k].compound, motion: &screws[k] };
+    let both = [moving(0), moving(1)];
+    let config = CastConfig { step_budget: 200, time_tolerance: 1e-6, ..CastConfig::default() };
+    let mut found = CompoundCastAnswer::default();
+    if cast(both, cache, &config, &mut found).is_err() {
+        assert_eq!(found.answer.outcome, CastOutcome::None);
+        return;
+    }
+    match verify_cast(both, &config, &found) {
+        Ok(()) | Err(Error::Argument(_)) => {}
+        Err(error) => panic!("{error}: {found:?}"),
+    }
+    // Poses at the beginning are exact.
+    let places = [bodies[0].compound.at(&from[0]), bodies[1].compound.at(&from[1])];
+    let mut at_first = CompoundAnswer::default();
+    distance(places, cache, &PairConfig::default(), &mut at_first).expect("accepted poses");
+    let is_free = found.answer.outcome == CastOutcome::Free;
+    assert!(!is_free || at_first.answer.upper >= found.answer.clearance, "{found:?} {at_first:?}");
 }
 
 /// A cache of any words, most of them small, as numbers of pieces and kinds are.

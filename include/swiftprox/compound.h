@@ -8,6 +8,7 @@
 #define SWIFTPROX_COMPOUND_H
 
 #include "geometry.h"
+#include "motion.h"
 
 #ifdef __cplusplus
 extern "C" {
@@ -259,6 +260,69 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_compound_verify(struct swiftprox_placed_compound object1,
                                            struct swiftprox_placed_compound object2,
                                            const struct swiftprox_compound_answer *answer);
+
+/** @} */
+
+/**
+ * @defgroup swiftprox_compound_cast Casts of compounds
+ * @{
+ */
+
+/** A compound and how it moves, an argument by value. Both pointers are only read during the call. */
+typedef struct swiftprox_moving_compound {
+  /** The compound. */
+  const struct swiftprox_compound *compound;
+  /** Its motion. */
+  const struct swiftprox_motion *motion;
+} swiftprox_moving_compound;
+
+/** The answer to a cast of two compounds. */
+typedef struct swiftprox_compound_cast_answer {
+  /**
+   * Outcome, times and clearance are those of the compounds. Upper, contact and proof are about two of their pieces: those that
+   * meet first or, where none do, those that end the cast. Local points are in the frames of these pieces.
+   */
+  struct swiftprox_cast_answer answer;
+  /** The piece of compound 1; its number of pieces where none is named. */
+  uint32_t piece1;
+  /** The piece of compound 2, likewise. */
+  uint32_t piece2;
+} swiftprox_compound_cast_answer;
+
+/**
+ * Decides whether two moving compounds stay farther apart than config->max_distance, or when they first do not. Guarantees and
+ * members are as for swiftprox_pair_cast; the step budget is for each two pieces. A hit names the two pieces that meet first, as
+ * far as intervals of time tell.
+ *
+ * `cache` may be shared with swiftprox_compound_distance. It affects speed and the choice of times within the guaranteed bounds.
+ * On failure the answer is reset and its outcome is SWIFTPROX_CAST_OUTCOME_NONE; SWIFTPROX_ERROR_BUG also resets the cache. Same
+ * errors as swiftprox_pair_cast. SWIFTPROX_ERROR_INVALID_ARGUMENT: also if config->ignores_parting is set.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_compound_cast(struct swiftprox_moving_compound object1,
+                                         struct swiftprox_moving_compound object2,
+                                         struct swiftprox_compound_cache *cache,
+                                         const struct swiftprox_cast_config *config,
+                                         struct swiftprox_compound_cast_answer *answer);
+
+/**
+ * Checks an answer of swiftprox_compound_cast for the same motions and config, independently of its search. SWIFTPROX_OK: it is
+ * right.
+ *
+ * The pieces that are named are checked as by swiftprox_pair_cast_verify. All others are proved to be farther apart than
+ * max_distance, and at least clearance, up to time_lower, by their boxes or one by one. That boxes contain their pieces is not
+ * checked again. Same errors as swiftprox_pair_cast_verify; SWIFTPROX_ERROR_INVALID_ARGUMENT also for numbers of pieces that the
+ * compounds do not have.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_compound_cast_verify(struct swiftprox_moving_compound object1,
+                                                struct swiftprox_moving_compound object2,
+                                                const struct swiftprox_cast_config *config,
+                                                const struct swiftprox_compound_cast_answer *answer);
 
 /** @} */
 

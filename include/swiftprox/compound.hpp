@@ -3,7 +3,7 @@
 #define SWIFTPROX_COMPOUND_HPP
 
 #include "compound.h"
-#include "pair.hpp"
+#include "motion.hpp"
 
 namespace swiftprox
 {
@@ -113,6 +113,21 @@ class PlacedCompound
     Pose pose_;
 };
 
+/** A compound and how it moves. The motion is its own; a share of the compound must live on, so that a temporary one is refused. */
+class MovingCompound
+{
+  public:
+    MovingCompound(const Compound &compound, const swiftprox_motion &motion) noexcept : compound_(compound.get()), motion_(motion) {}
+    MovingCompound(const Compound &&, const swiftprox_motion &) = delete;
+    /** Good while this is. */
+    swiftprox_moving_compound to_c() const & noexcept { return {compound_, &motion_}; }
+    swiftprox_moving_compound to_c() const && = delete;
+
+  private:
+    const swiftprox_compound *compound_;
+    swiftprox_motion motion_;
+};
+
 /** What a pair of compounds remembers: keep one for each pair. Cold when made. */
 struct CompoundCache : swiftprox_compound_cache {
     CompoundCache() noexcept : swiftprox_compound_cache{} {}
@@ -155,6 +170,20 @@ inline Result<void> try_compound_verify(const PlacedCompound &a, const PlacedCom
                                         const swiftprox_compound_answer &answer) noexcept
 {
     return detail::status(swiftprox_compound_verify(a.to_c(), b.to_c(), &answer));
+}
+inline Result<swiftprox_compound_cast_answer> try_compound_cast(const MovingCompound &a, const MovingCompound &b,
+                                                                CompoundCache &cache, const CastConfig &config = {}) noexcept
+{
+    const swiftprox_cast_config c = config.to_c();
+    Result<swiftprox_compound_cast_answer> result;
+    result.status = swiftprox_compound_cast(a.to_c(), b.to_c(), &cache, &c, &result.value);
+    return result;
+}
+inline Result<void> try_compound_cast_verify(const MovingCompound &a, const MovingCompound &b,
+                                             const swiftprox_compound_cast_answer &answer, const CastConfig &config = {}) noexcept
+{
+    const swiftprox_cast_config c = config.to_c();
+    return detail::status(swiftprox_compound_cast_verify(a.to_c(), b.to_c(), &c, &answer));
 }
 /** Writes as many contacts and points as there is room for. */
 inline Result<swiftprox_compound_contacts> try_compound_contacts(const PlacedCompound &a, const PlacedCompound &b,
@@ -201,6 +230,16 @@ inline swiftprox_compound_signed_distance_answer compound_signed_distance(const 
 inline void compound_verify(const PlacedCompound &a, const PlacedCompound &b, const swiftprox_compound_answer &answer)
 {
     take(try_compound_verify(a, b, answer));
+}
+inline swiftprox_compound_cast_answer compound_cast(const MovingCompound &a, const MovingCompound &b, CompoundCache &cache,
+                                                    const CastConfig &config = {})
+{
+    return take(try_compound_cast(a, b, cache, config));
+}
+inline void compound_cast_verify(const MovingCompound &a, const MovingCompound &b, const swiftprox_compound_cast_answer &answer,
+                                 const CastConfig &config = {})
+{
+    take(try_compound_cast_verify(a, b, answer, config));
 }
 inline swiftprox_compound_contacts compound_contacts(const PlacedCompound &a, const PlacedCompound &b,
                                                      Range<swiftprox_compound_contact> contacts,

@@ -44,6 +44,11 @@ struct CompoundSignedDistance : swiftprox_signed_distance {
     nb::object piece1, piece2;
 };
 
+struct CompoundCast : Cast {
+    nb::object piece1, piece2;
+    uint32_t numbers[2];
+};
+
 struct CompoundPoint {
     swiftprox_point_answer answer{};
     uint32_t piece = 0;
@@ -194,12 +199,33 @@ nb::tuple contacts(CompoundPair &pair, nb::handle pose1, nb::handle pose2, doubl
                           copy_records("point", points.data(), points.size()));
 }
 
-void verify(const CompoundPair &pair, nb::handle pose1, nb::handle pose2, nb::handle answer)
+CompoundCast cast(CompoundPair &pair, nb::handle motion1, nb::handle motion2, double max_distance, double time_begin,
+                  double time_end, double time_tolerance)
 {
-    const Pose a = read_pose(pose1, "pose1"), b = read_pose(pose2, "pose2");
+    const swiftprox_motion a = read_motion(motion1, "motion1"), b = read_motion(motion2, "motion2");
+    const swiftprox_cast_config config = cast_config(max_distance, time_begin, time_end, time_tolerance);
+    swiftprox_compound_cast_answer answer;
+    run_alone(pair, [&] {
+        return swiftprox_compound_cast({pair.compound1.get(), &a}, {pair.compound2.get(), &b}, &pair.cache, &config, &answer);
+    });
+    return {{answer.answer, config}, piece1(pair, answer.piece1), piece2(pair, answer.piece2), {answer.piece1, answer.piece2}};
+}
+
+void verify(const CompoundPair &pair, nb::handle first, nb::handle second, nb::handle answer)
+{
+    CompoundCast *cast;
+    if (nb::try_cast(answer, cast, false) && cast) {
+        const swiftprox_motion a = read_motion(first, "pose1"), b = read_motion(second, "pose2");
+        const swiftprox_compound_cast_answer said = {cast->answer, cast->numbers[0], cast->numbers[1]};
+        run([&] {
+            return swiftprox_compound_cast_verify({pair.compound1.get(), &a}, {pair.compound2.get(), &b}, &cast->config, &said);
+        });
+        return;
+    }
+    const Pose a = read_pose(first, "pose1"), b = read_pose(second, "pose2");
     CompoundDistance *distance;
     if (!nb::try_cast(answer, distance, false) || !distance) {
-        refuse("answer must be a CompoundDistance");
+        refuse("answer must be a CompoundDistance or a CompoundCast");
     }
     const swiftprox_compound_answer said = {*distance, distance->numbers[0], distance->numbers[1]};
     run([&] { return swiftprox_compound_verify({pair.compound1.get(), a.m}, {pair.compound2.get(), b.m}, &said); });
@@ -290,6 +316,10 @@ void bind_compound(nb::module_ &m)
         m, "CompoundSignedDistance", "The least signed distance of two pieces, with their points, normal and features.");
     bind_pieces(signed_distances, "CompoundSignedDistance");
 
+    nb::class_<CompoundCast, Cast>(m, "CompoundCast", "When two moving compounds first meet; contact is about the two pieces.")
+        .def_ro("piece1", &CompoundCast::piece1, nb::sig("def piece1(self) -> int | None"), "The piece of body 1; None if they are free.")
+        .def_ro("piece2", &CompoundCast::piece2, nb::sig("def piece2(self) -> int | None"), "The piece of body 2; None if they are free.");
+
     nb::class_<CompoundPair>(m, "CompoundPair",
                              "Two compounds, and what is remembered from query to query. Calls from several threads take turns.")
         .def("__init__", [](CompoundPair *self, nb::handle a, nb::handle b) {
@@ -310,7 +340,13 @@ void bind_compound(nb::module_ &m)
                      "tuple[" RECORDS ", " RECORDS "]"),
              "The contacts of pieces at most max_distance apart, and the points of all: dtype('compound contact'), dtype('point').\n\n"
              "The points of a contact begin at its first_point; there are point_count. reduce: four points each at most.")
+        .def("cast", &cast, nb::arg("motion1"), nb::arg("motion2"), nb::arg("max_distance") = 0.0, nb::kw_only(),
+             nb::arg("time_begin") = 0.0, nb::arg("time_end") = 1.0, nb::arg("time_tolerance") = 1e-9,
+             nb::sig("def cast(self, motion1: Motion | " POSE ", motion2: Motion | " POSE ", max_distance: float = 0.0, *, "
+                     "time_begin: float = 0.0, time_end: float = 1.0, time_tolerance: float = 1e-9) -> CompoundCast"),
+             "Whether two moving compounds stay farther apart than max_distance, or when they first do not.")
         .def("verify", &verify, nb::arg("pose1"), nb::arg("pose2"), nb::arg("answer"),
-             nb::sig("def verify(self, " TWO_POSES ", answer: CompoundDistance) -> None"),
-             "Proves a distance anew, without the search that found it; raises Unverified if it is wrong.");
+             nb::sig("def verify(self, pose1: Motion | " POSE ", pose2: Motion | " POSE ", answer: CompoundDistance | CompoundCast) -> None"),
+             "Proves an answer anew, without the search that found it; raises Unverified if it is wrong.\n\n"
+             "Of a CompoundCast the two arguments are its motions.");
 }

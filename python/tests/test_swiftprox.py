@@ -327,6 +327,27 @@ def test_a_pair_of_compounds():
     assert contacts["piece1"].tolist() == list(range(40)) and len(points) == 160
 
 
+def test_casts_of_compounds():
+    bodies, fall = sp.CompoundPair(dumbbell(), dumbbell()), sp.Motion.between(at(3, 0, 10), at(3, 0, 0))
+    hit = bodies.cast(EYE, fall)
+    assert hit.outcome == "hit" and (hit.piece1, hit.piece2) == (1, 0) and hit.t_lower <= 0.8 <= hit.t_upper <= hit.t_lower + 1e-9
+    assert np.allclose(hit.contact.normal, [0, 0, -1]) and isinstance(hit, sp.Cast)
+    bodies.verify(EYE, fall, hit)
+    with pytest.raises(sp.Unverified):
+        bodies.verify(EYE, sp.Motion.between(at(3, 0, 9), at(3, 0, 0)), hit)
+    past = sp.Motion.between(at(0, 2.5, 10), at(0, 2.5, 0))
+    free = bodies.cast(EYE, past)
+    assert free.outcome == "free" and free.piece1 is None and 0 < free.clearance <= 0.5
+    bodies.verify(EYE, past, free)
+    assert bodies.cast(EYE, past, 0.75).outcome == "hit"
+    # The ball is at 2 (cos, sin, 0) of its angle, a quarter turn in all. It meets the plane y = 1.5 at 30 degrees.
+    ball = sp.CompoundPair(sp.Compound([sp.Shape.sphere(0.5)], [at(2)]), sp.Shape.box(9, 1, 9))
+    turn = sp.Motion.screw(EYE, [0, 0, 0], [0, 0, np.pi / 2])
+    hit = ball.cast(turn, at(0, 2.5))
+    assert hit.t_lower <= 1 / 3 + 1e-12 and hit.t_upper >= 1 / 3 - 1e-12 and hit.t_upper <= hit.t_lower + 1e-9
+    ball.verify(turn, at(0, 2.5), hit)
+
+
 def test_rays_and_points_against_a_compound():
     body = dumbbell()
     hit = body.ray(EYE, [9, 0, 0], [-2, 0, 0])

@@ -1,6 +1,7 @@
 //! Answers on two compounds: plain data, laid out for C.
 
 use crate::manifold::{Manifold, ManifoldPoint};
+use crate::motion::CastAnswer;
 use crate::pair::{PairAnswer, SignedDistance};
 use crate::point::PointAnswer;
 use crate::ray::RayAnswer;
@@ -58,6 +59,19 @@ pub struct CompoundContacts {
     pub contacts: Vec<CompoundContact>,
     /// The points of all.
     pub points: Vec<ManifoldPoint>,
+}
+
+/// The answer to a cast of two compounds.
+#[derive(Debug, Clone, Copy, PartialEq, Default)]
+#[repr(C)]
+pub struct CompoundCastAnswer {
+    /// Outcome, times and clearance are those of the compounds. Upper, contact and proof are about two of their pieces: those that
+    /// meet first or, where none do, those that end the cast. Local points are in the frames of these pieces.
+    pub answer: CastAnswer,
+    /// The piece of compound 1; its number of pieces where none is named.
+    pub piece1: u32,
+    /// The piece of compound 2, likewise.
+    pub piece2: u32,
 }
 
 /// The part of a ray that is in a compound. The number of pieces stands for none.

@@ -10,19 +10,24 @@ mod body;
 mod between;
 mod cache;
 mod walk;
+mod approach;
 mod answer;
 mod queries;
 mod signed_distance;
 mod contacts;
 mod single;
 mod verify;
+mod cast;
 
 use crate::base::math::Pose;
+use crate::motion::Motion;
 pub use answer::{
-    CompoundAnswer, CompoundContact, CompoundContacts, CompoundPointAnswer, CompoundRayAnswer, CompoundSignedDistance,
+    CompoundAnswer, CompoundCastAnswer, CompoundContact, CompoundContacts, CompoundPointAnswer, CompoundRayAnswer,
+    CompoundSignedDistance,
 };
 pub use body::{Compound, Piece};
 pub use cache::CompoundCache;
+pub use cast::{cast, verify_cast};
 pub use contacts::contacts;
 pub use queries::{distance, intersection};
 pub use signed_distance::signed_distance;
@@ -36,6 +41,15 @@ pub struct PlacedCompound<'a> {
     pub compound: &'a Compound,
     /// Its pose.
     pub pose: &'a Pose,
+}
+
+/// A compound and how it moves. A point p of a piece is where the motion has the point pose·p of the compound, in real arithmetic.
+#[derive(Debug, Clone, Copy)]
+pub struct MovingCompound<'a> {
+    /// Its pieces.
+    pub compound: &'a Compound,
+    /// Its motion.
+    pub motion: &'a Motion<'a>,
 }
 
 impl Compound {

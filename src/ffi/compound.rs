@@ -7,6 +7,7 @@ use super::arrays::{CMesh, check_count, read_mesh};
 use super::depth::{CManifoldConfig, check_room, read_manifold_config};
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::{guard, keep_panics_quiet};
+use super::motion::{CCastConfig, CMotion, called, cast_config, check_cast_enumerators, read_motion};
 use super::object::share;
 use super::pair::{CPairConfig, check_enumerators, read_config};
 use super::pointers::{array, exclusive, handle, input, output, release, retained};
@@ -15,8 +16,8 @@ use crate::base::error::Result;
 use crate::base::math::Pose;
 use crate::base::memory::{push, with_capacity};
 use crate::compound::{
-    self, Compound, CompoundAnswer, CompoundCache, CompoundContact, CompoundContacts, CompoundPointAnswer,
-    CompoundRayAnswer, CompoundSignedDistance, Piece, PlacedCompound,
+    self, Compound, CompoundAnswer, CompoundCache, CompoundCastAnswer, CompoundContact, CompoundContacts,
+    CompoundPointAnswer, CompoundRayAnswer, CompoundSignedDistance, MovingCompound, Piece, PlacedCompound,
 };
 use crate::manifold::ManifoldPoint;
 use crate::pair::PairConfig;
@@ -323,6 +324,100 @@ pub unsafe extern "C" fn swiftprox_compound_verify(
     })
 }
 
+/// A compound and how it moves, an argument by value. Both pointers are only read during the call.
+#[derive(Debug, Clone, Copy)]
+#[repr(C)]
+pub struct CMovingCompound {
+    /// The compound.
+    pub compound: *const Compound,
+    /// Its motion.
+    pub motion: *const CMotion,
+}
+
+/// Decides whether two moving compounds stay farther apart than config->max_distance, or when they first do not. Guarantees and
+/// members are as for swiftprox_pair_cast; the step budget is for each two pieces. A hit names the two pieces that meet first, as
+/// far as intervals of time tell.
+///
+/// `cache` may be shared with swiftprox_compound_distance. It affects speed and the choice of times within the guaranteed bounds.
+/// On failure the answer is reset and its outcome is SWIFTPROX_CAST_OUTCOME_NONE; SWIFTPROX_ERROR_BUG also resets the cache. Same
+/// errors as swiftprox_pair_cast. SWIFTPROX_ERROR_INVALID_ARGUMENT: also if config->ignores_parting is set.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_compound_cast(
+    object1: CMovingCompound,
+    object2: CMovingCompound,
+    cache: *mut CCompoundCache,
+    config: *const CCastConfig,
+    answer: *mut CompoundCastAnswer,
+) -> StatusCode {
+    // SAFETY: the caller's; any bytes make a valid cache.
+    let status = guard(|| unsafe {
+        output(answer, "answer", CompoundCastAnswer::default())?;
+        let cache = exclusive(cache.cast::<CompoundCache>(), "cache")?;
+        with_moving([object1, object2], |bodies| {
+            Ok(compound::cast(bodies, cache, &cast_config(config)?, &mut *answer)?)
+        })
+    });
+    if status == StatusCode::ErrorBug {
+        // SAFETY: null, or writable by the caller.
+        unsafe { reset(cache, answer) };
+    }
+    status
+}
+
+/// Checks an answer of swiftprox_compound_cast for the same motions and config, independently of its search. SWIFTPROX_OK: it is
+/// right.
+///
+/// The pieces that are named are checked as by swiftprox_pair_cast_verify. All others are proved to be farther apart than
+/// max_distance, and at least clearance, up to time_lower, by their boxes or one by one. That boxes contain their pieces is not
+/// checked again. Same errors as swiftprox_pair_cast_verify; SWIFTPROX_ERROR_INVALID_ARGUMENT also for numbers of pieces that the
+/// compounds do not have.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_compound_cast_verify(
+    object1: CMovingCompound,
+    object2: CMovingCompound,
+    config: *const CCastConfig,
+    answer: *const CompoundCastAnswer,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules; an answer whose enumerators are valid is one, whatever else it holds.
+        let (config, answer) = unsafe {
+            if answer.is_null() {
+                return Err(Failure::null("answer"));
+            }
+            check_cast_enumerators(&raw const (*answer).answer, "answer->answer")?;
+            (cast_config(config)?, &*answer)
+        };
+        // SAFETY: the header's pointer rules.
+        unsafe { with_moving([object1, object2], |bodies| Ok(compound::verify_cast(bodies, &config, answer)?)) }
+    })
+}
+
+/// Runs what asks about two moving compounds, in Rust's terms.
+///
+/// # Safety
+/// The pointers meet the header's pointer rules.
+unsafe fn with_moving(
+    [object1, object2]: [CMovingCompound; 2],
+    run: impl FnOnce([MovingCompound; 2]) -> Checked<()>,
+) -> Checked<()> {
+    // SAFETY: the header's pointer rules.
+    let (compound1, motion1, compound2, motion2) = unsafe {
+        (
+            handle(object1.compound, "object1.compound")?,
+            input(object1.motion, "object1.motion")?,
+            handle(object2.compound, "object2.compound")?,
+            input(object2.motion, "object2.motion")?,
+        )
+    };
+    let (pose1, pose2) = (called(motion1), called(motion2));
+    let first = read_motion(motion1, &pose1, "object1.motion")?;
+    let second = read_motion(motion2, &pose2, "object2.motion")?;
+    run([
+        MovingCompound { compound: compound1, motion: &first },
+        MovingCompound { compound: compound2, motion: &second },
+    ])
+}
+
 /// A compound where it is, in Rust's terms.
 ///
 /// # Safety
@@ -363,16 +458,25 @@ unsafe fn query<A: Copy + Default>(
     });
     if status == StatusCode::ErrorBug {
         // SAFETY: null, or writable by the caller.
-        unsafe {
-            if let Some(cache) = cache.cast::<CompoundCache>().as_mut() {
-                *cache = CompoundCache::default();
-            }
-            if !answer.is_null() {
-                answer.write(A::default());
-            }
-        }
+        unsafe { reset(cache, answer) };
     }
     status
+}
+
+/// What stands after a bug.
+///
+/// # Safety
+/// Each is null, or writable.
+unsafe fn reset<A: Default>(cache: *mut CCompoundCache, answer: *mut A) {
+    // SAFETY: by the caller; any bytes make a valid cache.
+    unsafe {
+        if let Some(cache) = cache.cast::<CompoundCache>().as_mut() {
+            *cache = CompoundCache::default();
+        }
+        if !answer.is_null() {
+            answer.write(A::default());
+        }
+    }
 }
 
 fn create(compound: *mut *const Compound, make: impl FnOnce() -> Checked<Compound>) -> StatusCode {

@@ -376,7 +376,7 @@ pub(super) fn with_motions<T>(motions: &[CMotion], run: impl FnOnce(&[Motion]) -
 }
 
 /// The callback of a motion that has one.
-fn called(motion: &CMotion) -> impl Fn(f64) -> Pose + use<> {
+pub(super) fn called(motion: &CMotion) -> impl Fn(f64) -> Pose + use<> {
     let (callback, user) = (motion.pose, motion.user);
     move |time| {
         let mut pose = [f64::NAN; 12];
@@ -389,7 +389,11 @@ fn called(motion: &CMotion) -> impl Fn(f64) -> Pose + use<> {
 }
 
 /// The name is put together for a refusal only.
-fn read_motion<'a>(motion: &CMotion, pose: &'a dyn Fn(f64) -> Pose, name: impl Display) -> Checked<Motion<'a>> {
+pub(super) fn read_motion<'a>(
+    motion: &CMotion,
+    pose: &'a dyn Fn(f64) -> Pose,
+    name: impl Display,
+) -> Checked<Motion<'a>> {
     let start = Pose::from_row_major(&motion.start);
     let Some(kind) = MotionKind::from_number(motion.kind) else {
         return Err(unknown(motion.kind, &format!("{name}->kind"), "swiftprox_motion_kind"));
@@ -426,7 +430,19 @@ unsafe fn read_answer<'a>(answer: *const CastAnswer) -> Checked<&'a CastAnswer> 
     if answer.is_null() {
         return Err(Failure::null("answer"));
     }
-    // SAFETY: not null, readable by the caller; read as integers, whatever they hold.
+    // SAFETY: not null, readable by the caller; its enumerators are valid, and any other bytes are.
+    unsafe {
+        check_cast_enumerators(answer, "answer")?;
+        Ok(&*answer)
+    }
+}
+
+/// Refuses unknown enumerators of an answer, which is called by that name.
+///
+/// # Safety
+/// `answer` is readable.
+pub(super) unsafe fn check_cast_enumerators(answer: *const CastAnswer, name: &str) -> Checked<()> {
+    // SAFETY: readable by the caller; read as integers, whatever they hold.
     let [outcome, of_contact, decided_by, kind1, kind2] = unsafe {
         let contact = &raw const (*answer).contact;
         [
@@ -437,11 +453,10 @@ unsafe fn read_answer<'a>(answer: *const CastAnswer) -> Checked<&'a CastAnswer> 
             (&raw const (*contact).feature2.kind).cast::<i32>().read(),
         ]
     };
-    read_enumerator::<CastOutcome>(outcome, "answer->outcome", "swiftprox_cast_outcome")?;
-    read_enumerator::<Outcome>(of_contact, "answer->contact.outcome", "swiftprox_outcome")?;
-    read_enumerator::<DecidedBy>(decided_by, "answer->contact.decided_by", "swiftprox_decided_by")?;
-    read_enumerator::<FeatureKind>(kind1, "answer->contact.feature1.kind", "swiftprox_feature_kind")?;
-    read_enumerator::<FeatureKind>(kind2, "answer->contact.feature2.kind", "swiftprox_feature_kind")?;
-    // SAFETY: its enumerators are valid, and any other bytes are.
-    Ok(unsafe { &*answer })
+    read_enumerator::<CastOutcome>(outcome, &format!("{name}->outcome"), "swiftprox_cast_outcome")?;
+    read_enumerator::<Outcome>(of_contact, &format!("{name}->contact.outcome"), "swiftprox_outcome")?;
+    read_enumerator::<DecidedBy>(decided_by, &format!("{name}->contact.decided_by"), "swiftprox_decided_by")?;
+    read_enumerator::<FeatureKind>(kind1, &format!("{name}->contact.feature1.kind"), "swiftprox_feature_kind")?;
+    read_enumerator::<FeatureKind>(kind2, &format!("{name}->contact.feature2.kind"), "swiftprox_feature_kind")?;
+    Ok(())
 }

@@ -57,16 +57,35 @@ impl Travel {
     /// # Errors
     /// [`Error::Argument`] for values so large that doubles do not bound them.
     pub fn new(body: &Carried, turn: &Turn, range: [f64; 2]) -> Result<Travel> {
+        let from_axis = |screw: &Screw| distance_from_axis(body, screw, turn);
+        Travel::within(body.motion, turn, range, reach(body), from_axis)
+    }
+
+    /// Of all that is no farther than `lever` from the origin of the moving frame.
+    ///
+    /// # Errors
+    /// As of [`Travel::new`].
+    pub fn of_frame(motion: &Motion, turn: &Turn, range: [f64; 2], lever: f64) -> Result<Travel> {
+        debug_assert!(lever >= 0.0);
+        let reach = reach_from_centre(motion, lever);
+        Travel::within(motion, turn, range, reach, |_| STRETCH * reach * (1.0 + 8.0 * U))
+    }
+
+    fn within(
+        motion: &Motion,
+        turn: &Turn,
+        range: [f64; 2],
+        reach: f64,
+        from_axis: impl FnOnce(&Screw) -> f64,
+    ) -> Result<Travel> {
         debug_assert!(range[0] <= range[1]);
-        let motion = body.motion;
         let longest = range[0].abs().max(range[1].abs());
-        let reach = reach(body);
         check_sizes(motion, turn, longest, reach)?;
         let bend = match motion {
             Motion::Fixed(_) | Motion::Affine { .. } => Bend::None,
             Motion::Screw(screw) if turn.speed > 0.0 => {
                 // The axis is off by 6.5u, the square of the speed by 12u.
-                let most = turn.speed * turn.speed * distance_from_axis(body, screw, turn) * (1.0 + 64.0 * U);
+                let most = turn.speed * turn.speed * from_axis(screw) * (1.0 + 64.0 * U);
                 Bend::Turn { axis: turn.axis, most }
             }
             Motion::Screw(_) => Bend::None,
@@ -105,7 +124,12 @@ impl Travel {
 fn reach(body: &Carried) -> f64 {
     let lever = body.shape.extent().lever;
     let lever = body.place.map_or(lever, |place| STRETCH * lever + place.translation().norm() * (1.0 + 8.0 * U));
-    match body.motion {
+    reach_from_centre(body.motion, lever)
+}
+
+/// The same for points within `lever` of the moving frame's origin.
+fn reach_from_centre(motion: &Motion, lever: f64) -> f64 {
+    match motion {
         Motion::Screw(screw) => (lever + screw.centre.norm()) * (1.0 + 8.0 * U),
         _ => lever,
     }

@@ -3,7 +3,7 @@
 use super::kinds::Motion;
 use super::turn::Turn;
 use crate::base::error::Result;
-use crate::base::math::{Pose, Vector};
+use crate::base::math::Pose;
 use crate::shape::Shape;
 
 /// A shape and how it moves.
@@ -32,14 +32,6 @@ impl<'a> From<Moving<'a>> for Carried<'a> {
 }
 
 impl Carried<'_> {
-    /// The turn of the object.
-    pub(super) fn turn(&self) -> Turn {
-        match self.motion {
-            Motion::Screw(screw) => Turn::new(&screw.rotation),
-            _ => Turn::new(&Vector::zeros()),
-        }
-    }
-
     /// The pose of the shape at a time, up to rounding.
     ///
     /// # Errors

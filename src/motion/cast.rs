@@ -22,26 +22,43 @@ use crate::pair::{Outcome, PairAnswer, PairCache};
 /// finite or too large, and for a callback that shows that it breaks its bound; [`Error::Pose`](crate::base::error::Error::Pose)
 /// for a pose that no query accepts. Then `answer` and `cache` are as they were.
 pub fn cast(bodies: [Moving; 2], cache: &mut PairCache, config: &CastConfig, answer: &mut CastAnswer) -> Result<()> {
-    cast_carried(bodies.map(Carried::from), cache, config, answer)
+    cast_carried(bodies.map(Carried::from), config.range(), cache, config, answer)
 }
 
-/// The same of pieces of moving objects.
+/// The same of pieces of moving objects, as a part of a cast over a range that is no shorter: its check bounds rounding for all of
+/// that.
 ///
 /// # Errors
 /// As of [`cast`].
 pub(crate) fn cast_carried(
     bodies: [Carried; 2],
+    range: [f64; 2],
     cache: &mut PairCache,
     config: &CastConfig,
     answer: &mut CastAnswer,
 ) -> Result<()> {
     with_default(|| {
         config.check()?;
-        let pair = MovingPair::new(bodies, config.range())?;
+        debug_assert!(range[0] <= config.time_begin && config.time_end <= range[1]);
+        let pair = MovingPair::new(bodies, range)?;
         let mut sweep = Sweep::new(&pair, cache);
         *answer = run(&pair, &mut sweep, config)?;
         *cache = sweep.cache;
         Ok(())
+    })
+}
+
+/// The distance of two pieces of moving objects at a time of the range, as an answer's [`CastAnswer::contact`] has it.
+///
+/// # Errors
+/// As of [`cast`].
+pub(crate) fn distance_at(bodies: [Carried; 2], config: &CastConfig, time: f64) -> Result<PairAnswer> {
+    debug_assert!((config.time_begin..=config.time_end).contains(&time));
+    with_default(|| {
+        let pair = MovingPair::new(bodies, config.range())?;
+        let mut sweep = Sweep::new(&pair, &PairCache::default());
+        let here = pair.at(time)?;
+        sweep.distance(&here)
     })
 }
 

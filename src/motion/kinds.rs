@@ -60,6 +60,14 @@ impl fmt::Debug for Callback<'_> {
 }
 
 impl Motion<'_> {
+    /// How the object turns.
+    pub(super) fn turn(&self) -> Turn {
+        match self {
+            Motion::Screw(screw) => Turn::new(&screw.rotation),
+            _ => Turn::new(&Vector::zeros()),
+        }
+    }
+
     /// The pose of the object at a time, up to rounding; `turn` is that of a screw's rotation.
     ///
     /// # Errors

@@ -37,7 +37,7 @@ impl<'a> MovingPair<'a> {
         let bodies = bodies.map(Into::into);
         let prepare = |body: &Carried| {
             body.motion.check()?;
-            let turn = body.turn();
+            let turn = body.motion.turn();
             Ok((turn, Travel::new(body, &turn, range)?))
         };
         let in_words = |error: Error, object: &str| match error {

@@ -42,7 +42,7 @@ impl<'a> Swept<'a> {
     pub fn new(body: Carried<'a>, range: [f64; 2]) -> Result<Swept<'a>> {
         check_times(range)?;
         body.motion.check()?;
-        let turn = body.turn();
+        let turn = body.motion.turn();
         let travel = Travel::new(&body, &turn, range)?;
         // Within a time h a point stays within a·h²/8 of its chord, with a the largest acceleration.
         let most = travel.most_acceleration();

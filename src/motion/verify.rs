@@ -2,7 +2,7 @@
 
 use super::answer::{CastAnswer, CastOutcome};
 use super::bound::least_between;
-use super::carried::Moving;
+use super::carried::{Carried, Moving};
 use super::cast::wanted;
 use super::config::{CastConfig, shortest_step};
 use super::moving::{Moment, MovingPair};
@@ -36,6 +36,14 @@ const MOST_STEPS: u32 = 1_000_000;
 /// [`Error::Unverified`] with what does not hold, or could not be proved; [`Error::Argument`] for an answer that holds no outcome;
 /// else as [`super::cast`] and [`crate::verify::verify`].
 pub fn verify_cast(bodies: [Moving; 2], config: &CastConfig, answer: &CastAnswer) -> Result<()> {
+    verify_carried(bodies.map(Carried::from), config, answer)
+}
+
+/// The same of pieces of moving objects.
+///
+/// # Errors
+/// As of [`verify_cast`].
+pub(crate) fn verify_carried(bodies: [Carried; 2], config: &CastConfig, answer: &CastAnswer) -> Result<()> {
     in_default(|| {
         config.check()?;
         MovingPair::new(bodies, config.range())?;

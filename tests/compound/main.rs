@@ -2,5 +2,6 @@
 
 mod answers;
 mod bodies;
+mod casts;
 mod more_queries;
 mod tiny_gaps;

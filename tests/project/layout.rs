@@ -9,10 +9,10 @@ use std::path::Path;
 use std::process::Command;
 
 use swiftprox::compound::{
-    CompoundAnswer, CompoundContact, CompoundPointAnswer, CompoundRayAnswer, CompoundSignedDistance,
+    CompoundAnswer, CompoundCastAnswer, CompoundContact, CompoundPointAnswer, CompoundRayAnswer, CompoundSignedDistance,
 };
 use swiftprox::ffi::arrays::CMesh;
-use swiftprox::ffi::compound::{CCompoundCache, CCompoundContacts, CPlacedCompound, CompoundInfo};
+use swiftprox::ffi::compound::{CCompoundCache, CCompoundContacts, CMovingCompound, CPlacedCompound, CompoundInfo};
 use swiftprox::ffi::decomposition::CDecomposition;
 use swiftprox::ffi::depth::{CDepthCache, CDepthConfig, CManifoldCache, CManifoldConfig, CManifoldRoom};
 use swiftprox::ffi::ground::{CGroundRoom, CPlacedGround, GroundCount, GroundInfo};
@@ -211,6 +211,8 @@ fn layouts() -> Vec<Layout> {
         swiftprox_compound_contacts = CCompoundContacts {
             contacts, contact_capacity, points, point_capacity, contact_count, point_count
         },
+        swiftprox_moving_compound = CMovingCompound { compound, motion },
+        swiftprox_compound_cast_answer = CompoundCastAnswer { answer, piece1, piece2 },
         swiftprox_compound_ray_answer = CompoundRayAnswer { answer, piece },
         swiftprox_compound_point_answer = CompoundPointAnswer { answer, piece },
         swiftprox_replay_step_info = CReplayStep {

@@ -6,6 +6,7 @@ Lengths are in the unit of the vertices. A pose is a (3, 4) array [R|T], or a (4
 from ._core import (
     Cast,
     Compound,
+    CompoundCast,
     CompoundDistance,
     CompoundPair,
     CompoundPoint,
@@ -38,6 +39,7 @@ from ._core import (
 __all__ = [
     "Cast",
     "Compound",
+    "CompoundCast",
     "CompoundDistance",
     "CompoundPair",
     "CompoundPoint",

@@ -227,7 +227,7 @@ fn cast_all(question: &Question, room: &mut Room) -> Result<SceneCastAnswer> {
         let bodies = [question.carried(mover), second];
         let mut answer = CastAnswer::default();
         let config = CastConfig { time_end: until, ..**config };
-        motion::cast_carried(bodies, caches.of(pair), &config, &mut answer)?;
+        motion::cast_carried(bodies, config.range(), caches.of(pair), &config, &mut answer)?;
         earliest.queries = earliest.queries.saturating_add(answer.queries);
         if answer.outcome == CastOutcome::Free {
             continue;
