@@ -6,7 +6,8 @@ import sys
 import pytest
 
 EXAMPLES = pathlib.Path(__file__).parent.parent / "examples"
-NEEDS = {"hello": (), "meshes": ("trimesh",), "mujoco_step": ("mujoco",), "robot": ("yourdfpy",), "interval": ("matplotlib",)}
+NEEDS = {"hello": (), "meshes": ("trimesh",), "mujoco_step": ("mujoco",), "robot": ("yourdfpy",), "interval": ("matplotlib",),
+         "link": ()}
 
 
 def test_all_examples_are_here():
@@ -19,3 +20,12 @@ def test_example(name, tmp_path):
         pytest.importorskip(package)
     done = subprocess.run([sys.executable, EXAMPLES / f"{name}.py"], cwd=tmp_path, capture_output=True, text=True, timeout=120)
     assert done.returncode == 0 and done.stdout, done.stderr
+
+
+def test_the_link_is_read_group_by_group(tmp_path):
+    done = subprocess.run([sys.executable, EXAMPLES / "link.py"], cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert done.stdout.splitlines() == [
+        "5 pieces: base, arm, finger_left, bridge, finger_right",
+        "a rod between the fingers is 0.040 m from finger_left",
+        "as it falls, it meets bridge at t = 0.300",
+    ]
