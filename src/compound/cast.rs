@@ -21,8 +21,8 @@ const SHARE: f64 = 1.0 - 1e-9;
 ///
 /// # Errors
 /// As of [`crate::motion::cast`], and [`Error::Pose`] where the product of a compound's and a piece's pose is refused.
-/// [`Error::Argument`] also for `config.ignores_parting`: compounds part from some pieces alone. [`Error::Memory`]. Then `answer` is
-/// as it was.
+/// [`Error::Argument`] also for `config.ignores_parting`: compounds part from some pieces alone. [`Error::Memory`]. Then
+/// `answer` is as it was.
 pub fn cast(
     bodies: [MovingCompound; 2],
     cache: &mut CompoundCache,
