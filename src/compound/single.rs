@@ -9,7 +9,7 @@ use crate::base::error::Result;
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::environment::with_default;
 use crate::point::{PointLocation, check_finite};
-use crate::ray::{Ray, RayAnswer, RayOutcome};
+use crate::ray::{Ray, RayAnswer, RayOutcome, entry_of_box};
 
 /// Where a ray enters a compound, and in which piece: the first entry over all pieces. Guaranteed as
 /// [`crate::ray::cast_ray`] is.
@@ -174,30 +174,13 @@ impl Slabs<'_> {
     /// No point of the ray before this is in a box; infinite where none is.
     ///
     /// For t where the ray is in the compound |t·d| is at most 1.02·(|p − T| + L), of which 4u are the error of Rᵀ·d: the slack
-    /// holds it. The quotients are right to 4u.
+    /// holds it.
     fn entry(&self, fitted: &Fitted) -> f64 {
-        let Some(direction) = self.direction else { return 0.0 };
-        let (mut entry, mut exit) = (0.0, self.t_max);
-        for k in 0..3 {
+        let Some(direction) = &self.direction else { return 0.0 };
+        let ways = |k: usize| {
             let (way, reach) = (fitted.centre[k] - self.frame.point[k], fitted.half[k] + self.frame.slack);
-            let along = direction[k];
-            if along == 0.0 {
-                if way.abs() > reach {
-                    return f64::INFINITY;
-                }
-                continue;
-            }
-            let [one, other] = [(way - reach) / along, (way + reach) / along];
-            let (first, last) = if along > 0.0 { (one, other) } else { (other, one) };
-            // Away from each other, whichever their signs; comparisons are false for a NaN.
-            let (first, last) = ((first - 8.0 * U * first.abs()).min(f64::MAX), last + 8.0 * U * last.abs());
-            if first > entry {
-                entry = first;
-            }
-            if last < exit {
-                exit = last;
-            }
-        }
-        if entry > exit { f64::INFINITY } else { entry }
+            [way - reach, way + reach]
+        };
+        entry_of_box(ways, direction, self.t_max)
     }
 }

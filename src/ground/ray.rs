@@ -1,4 +1,4 @@
-//! Where a ray first meets a ground: the first of its triangles, each answered by [`crate::ray`].
+//! Where a ray first meets a ground: the first of its triangles. Those that rounding leaves open are answered by [`crate::ray`].
 
 use super::PlacedGround;
 use super::reach::ROUNDING;
@@ -6,8 +6,9 @@ use super::tree::{Bounds, Visit};
 use crate::base::error::{Error, Result};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::environment::with_default;
-use crate::ray::{Ray, RayAnswer, RayOutcome, cast_ray};
-use crate::shape::TriangleShape;
+use crate::pair::{Feature, FeatureKind};
+use crate::ray::{Ray, RayAnswer, RayOutcome, cast_ray, entry_of_box};
+use crate::shape::{Triangle, TriangleShape};
 
 /// The answer of a ray cast at a ground.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -33,9 +34,8 @@ impl PlacedGround<'_> {
             let start = Bounds { lower: slabs.point, upper: slabs.point };
             let miss = RayAnswer { outcome: RayOutcome::Miss, ..RayAnswer::default() };
             let found = GroundRayAnswer { answer: miss, triangle: self.ground.triangle_count() as u32 };
-            let scratch = self.ground.triangle_shape().copy()?;
             let mut first =
-                First { ground: *self, ray, slabs, scratch, found, entry: f64::INFINITY, enough: f64::INFINITY };
+                First { ground: *self, ray, slabs, scratch: None, found, entry: f64::INFINITY, enough: f64::INFINITY };
             self.ground.tree().walk(&start, &mut first)?;
             if first.found.answer.outcome == RayOutcome::Hit {
                 first.found.answer.entry[0] = first.entry;
@@ -50,7 +50,8 @@ struct First<'a> {
     ground: PlacedGround<'a>,
     ray: &'a Ray,
     slabs: Slabs,
-    scratch: TriangleShape,
+    /// Made on first need.
+    scratch: Option<TriangleShape>,
     found: GroundRayAnswer,
     /// No triangle of those is hit before.
     entry: f64,
@@ -69,7 +70,16 @@ impl Visit for First<'_> {
         if !self.goes_to(&Bounds::of(&own.corners), 0.0) {
             return Ok(true);
         }
-        let answer = cast_ray(self.scratch.of(&own).at(self.ground.pose), self.ray)?;
+        let answer = match self.rounded(&own) {
+            Some(answer) => answer,
+            None => {
+                let scratch = match &mut self.scratch {
+                    Some(scratch) => scratch,
+                    none => none.insert(self.ground.ground.triangle_shape().copy()?),
+                };
+                cast_ray(scratch.of(&own).at(self.ground.pose), self.ray)?
+            }
+        };
         match answer.outcome {
             RayOutcome::Inside => {
                 self.found = GroundRayAnswer { answer, triangle };
@@ -87,6 +97,75 @@ impl Visit for First<'_> {
             RayOutcome::Miss | RayOutcome::None | RayOutcome::Undecided => {}
         }
         Ok(true)
+    }
+}
+
+/// An interval no wider than this, relative to 1 and to its place, is as good as that of [`cast_ray`].
+const NARROW: f64 = f64::from_bits((1023 - 40) << 52);
+
+impl First<'_> {
+    /// The answer of a triangle that the ray certainly misses, or certainly goes through from one side to the other; `None` of one
+    /// near a side, a plane along the ray, or an end of it.
+    ///
+    /// Corners are off by 6u of the translation and of twice their local coordinates, ways from the origin by u more of both. With
+    /// δ above that, ways of a length of at most A and B, and sides of at most S: the volume of a ray and a side is off by less
+    /// than |d|·(2δ·(A + B + δ) + 16u·A·B), the normal by 4δ·(S + δ) + 16u·S², its product with a way by that times A,
+    /// 2δ·S², and 8u.
+    fn rounded(&self, triangle: &Triangle) -> Option<RayAnswer> {
+        let (origin, direction, pose) = (self.ray.origin(), self.ray.direction(), self.ground.pose);
+        let ways = triangle.corners.map(|corner| pose.transform(&corner) - origin);
+        let local = triangle.corners.iter().map(|corner| corner.lp_norm(1)).sum::<f64>();
+        let off = 16.0 * U * (pose.translation().lp_norm(1) + 2.0 * local + origin.lp_norm(1));
+        let length = direction.lp_norm(1);
+        /// Products of such lengths neither overflow nor underflow.
+        const PLAIN: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
+        if !(PLAIN.contains(&length) && PLAIN.contains(&off)) {
+            return None;
+        }
+        let lengths = ways.map(|way| way.lp_norm(1));
+        let (mut least, mut most, mut is_clear) = (f64::INFINITY, f64::NEG_INFINITY, true);
+        for k in 0..3 {
+            let next = (k + 1) % 3;
+            let volume = direction.dot(&ways[k].cross(&ways[next]));
+            let error =
+                length * (2.0 * off * (lengths[k] + lengths[next] + off) + 16.0 * U * lengths[k] * lengths[next]);
+            is_clear &= volume.abs() > error;
+            (least, most) = (least.min(volume + error), most.max(volume - error));
+        }
+        // False for a NaN.
+        if least < 0.0 && most > 0.0 {
+            return Some(RayAnswer { outcome: RayOutcome::Miss, ..RayAnswer::default() });
+        }
+        let [one, other] = [ways[1] - ways[0], ways[2] - ways[0]];
+        let normal = one.cross(&other);
+        let side = one.lp_norm(1).max(other.lp_norm(1));
+        let off_normal = 4.0 * off * (side + off) + 16.0 * U * side * side;
+        let (height, fall) = (normal.dot(&ways[0]), normal.dot(&direction));
+        let off_height = lengths[0] * (off_normal + 8.0 * U * side * side) + 2.0 * off * side * side;
+        let off_fall = length * (off_normal + 8.0 * U * side * side);
+        let entry = height / fall;
+        let error = 2.0 * (off_height + entry.abs() * off_fall) / fall.abs();
+        if !(is_clear && fall.abs() > 4.0 * off_fall && error <= NARROW * (1.0 + entry.abs())) {
+            return None;
+        }
+        if entry + error < 0.0 || entry - error > self.ray.t_max {
+            return Some(RayAnswer { outcome: RayOutcome::Miss, ..RayAnswer::default() });
+        }
+        if !(entry - error > 0.0 && entry + error < self.ray.t_max) {
+            return None;
+        }
+        let within = [entry - error, entry + error];
+        // Against the ray; the sum with +0 turns −0 into 0.
+        let normal = (normal * (-fall.signum() / normal.norm())).add_scalar(0.0);
+        Some(RayAnswer {
+            outcome: RayOutcome::Hit,
+            entry: within,
+            exit: within,
+            normal: normal.into(),
+            feature: Feature { kind: FeatureKind::Face, ids: [triangle.label, 0] },
+            steps: 1,
+            ..RayAnswer::default()
+        })
     }
 }
 
@@ -116,30 +195,11 @@ impl Slabs {
         Ok(Slabs { point: inverse * (origin - translation), direction, t_max: ray.t_max, slack })
     }
 
-    /// No point of the ray before this is in a box; infinite where none is. The quotients are right to 4u.
+    /// No point of the ray before this is in a box; infinite where none is.
     fn entry(&self, bounds: &Bounds) -> f64 {
-        let Some(direction) = self.direction else { return 0.0 };
-        let (mut entry, mut exit) = (0.0, self.t_max);
-        for k in 0..3 {
-            let ways = [bounds.lower[k] - self.slack - self.point[k], bounds.upper[k] + self.slack - self.point[k]];
-            let along = direction[k];
-            if along == 0.0 {
-                if ways[0] > 0.0 || ways[1] < 0.0 {
-                    return f64::INFINITY;
-                }
-                continue;
-            }
-            let [one, other] = ways.map(|way| way / along);
-            let (first, last) = if along > 0.0 { (one, other) } else { (other, one) };
-            // Away from each other, whichever their signs; comparisons are false for a NaN.
-            let (first, last) = ((first - 8.0 * U * first.abs()).min(f64::MAX), last + 8.0 * U * last.abs());
-            if first > entry {
-                entry = first;
-            }
-            if last < exit {
-                exit = last;
-            }
-        }
-        if entry > exit { f64::INFINITY } else { entry }
+        let Some(direction) = &self.direction else { return 0.0 };
+        let ways =
+            |k: usize| [bounds.lower[k] - self.slack - self.point[k], bounds.upper[k] + self.slack - self.point[k]];
+        entry_of_box(ways, direction, self.t_max)
     }
 }

@@ -20,11 +20,13 @@ mod search;
 mod rounded;
 mod swept_exact;
 mod swept;
+mod slabs;
 
 pub use answer::{RayAnswer, RayOutcome};
 #[doc(hidden)]
 pub use line::SIDE;
 pub use query::Ray;
+pub(crate) use slabs::entry_of_box;
 
 use crate::answer::sum_above;
 use crate::base::error::Result;
