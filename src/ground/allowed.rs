@@ -3,7 +3,7 @@
 //! at a peak those of the body's faces. Best is the one along which they are farthest apart, or overlap least.
 
 use super::PlacedGround;
-use super::lowest::{is_inside, local_point};
+use super::lowest::{PlacedTriangle, is_inside, local_point};
 use super::normals::TILT;
 use super::reach::Reach;
 use super::vertices::Vertices;
@@ -12,7 +12,6 @@ use crate::base::math::{Matrix, UNIT_ROUNDOFF, Vector, is_unit};
 use crate::body::polyhedron::Face;
 use crate::pair::{Feature, FeatureKind, Outcome, Placed, SignedDistance};
 use crate::placed::state::FeatureId;
-use crate::shape::Triangle;
 
 /// So many directions are tried across a side. A round body of 10,000 vertices takes some 20.
 const MOST_TRIED: usize = 64;
@@ -58,33 +57,46 @@ pub(super) struct Search<'a> {
     vertices: Vertices<'a>,
     ground: PlacedGround<'a>,
     reach: &'a Reach,
-    own: &'a Triangle,
-    /// The triangle's normal and corners in the world.
-    up: Vector,
-    corners: [Vector; 3],
+    triangle: &'a PlacedTriangle,
 }
 
 impl<'a> Search<'a> {
-    pub fn new(vertices: Vertices<'a>, ground: PlacedGround<'a>, reach: &'a Reach, own: &'a Triangle) -> Search<'a> {
-        let corners = own.corners.map(|corner| ground.pose.transform(&corner));
-        Search { body: vertices.body, vertices, ground, reach, own, up: reach.world_normal(&own.normal), corners }
+    pub fn new(
+        vertices: Vertices<'a>,
+        ground: PlacedGround<'a>,
+        reach: &'a Reach,
+        triangle: &'a PlacedTriangle,
+    ) -> Search<'a> {
+        Search { body: vertices.body, vertices, ground, reach, triangle }
+    }
+
+    /// The triangle's own normal, along which a vertex is lowest.
+    pub fn own(&self, vertex: u32) -> Best {
+        self.upwards(&Low { normal: self.triangle.up, vertex, point: self.point(vertex) })
+    }
+
+    fn upwards(&self, low: &Low) -> Best {
+        let gap = low.normal.dot(&(low.point - self.triangle.corners[0]));
+        Best { normal: low.normal, gap, place: Place::Face(low.vertex) }
     }
 
     /// The best normal. Rounding may hide which of two that are about as good is better.
-    /// `start` is a vertex that may be the lowest.
-    pub fn best(&self, start: u32) -> Best {
-        let low = self.lowest(&self.up, start);
-        let gap = self.up.dot(&(low.point - self.corners[0]));
-        let mut best = Best { normal: self.up, gap, place: Place::Face(low.vertex) };
-        for k in 0..3 {
-            if let Some(far) = self.ground.ground.far_normal(3 * self.own.label + k) {
-                self.across(k as usize, low, &self.reach.world_normal(&far), &mut best);
+    /// `vertex` is the lowest along the triangle's own.
+    pub fn best(&self, vertex: u32) -> Best {
+        let PlacedTriangle { own, marks, up, .. } = self.triangle;
+        let low = Low { normal: *up, vertex, point: self.point(vertex) };
+        let mut best = self.upwards(&low);
+        for k in (0..3).filter(|k| marks.has_far_normal(*k)) {
+            if let Some(far) = self.ground.ground.far_normal(3 * own.label + k as u32) {
+                self.across(k, low, &self.reach.world_normal(&far), &mut best);
             }
         }
+        let mut peaks = (0..3).filter(|k| marks.may_be_peak(*k)).peekable();
         if best.gap < 0.0
+            && peaks.peek().is_some()
             && let Some(inverse) = self.body.pose.rotation().try_inverse()
         {
-            (0..3).for_each(|k| self.at_peak(k, &inverse, &mut best));
+            peaks.for_each(|k| self.at_peak(k as u32, &inverse, &mut best));
         }
         best
     }
@@ -103,7 +115,7 @@ impl<'a> Search<'a> {
     /// above the side as its lowest vertex. Between two normals it is at most as far as the lowest vertices of both are; where that
     /// is better than the best, the lowest vertex there either is one of them or divides what is left in two.
     fn across(&self, k: usize, own: Low, far: &Vector, best: &mut Best) {
-        let [tail, head] = [self.corners[k], self.corners[(k + 1) % 3]];
+        let [tail, head] = [self.triangle.corners[k], self.triangle.corners[(k + 1) % 3]];
         // Along the normals between, the vertex that is below the side is a height of which the ends are the most, while it is
         // negative.
         if best.gap < 0.0 && far.dot(&(own.point - tail)) <= best.gap && own.normal.dot(&(own.point - tail)) <= best.gap
@@ -152,10 +164,10 @@ impl<'a> Search<'a> {
         if polyhedron.dimension < 3 {
             return;
         }
-        let corner = self.corners[k as usize];
+        let corner = self.triangle.corners[k as usize];
         let local = inverse * (corner - pose.translation()) - polyhedron.centre;
         // No normal at the corner leads out along a side of it.
-        let sides = [1, 2].map(|by| self.corners[(k as usize + by) % 3] - corner);
+        let sides = [1, 2].map(|by| self.triangle.corners[(k as usize + by) % 3] - corner);
         let most = sides.map(|side| 4.0 * TILT * side.norm());
         for (face, plane) in (0..).zip(&polyhedron.faces) {
             // In the body's frame, where lengths are a little others if its rotation is not quite rigid.
@@ -169,7 +181,11 @@ impl<'a> Search<'a> {
                 continue;
             }
             let normal = normal.normalize();
-            if !self.ground.ground.is_normal_at_vertex(3 * self.own.label + k, &self.reach.local_normal(&normal)) {
+            if !self
+                .ground
+                .ground
+                .is_normal_at_vertex(3 * self.triangle.own.label + k, &self.reach.local_normal(&normal))
+            {
                 continue;
             }
             let gap = normal.dot(&(self.lowest(&normal, plane.vertex).point - corner));
@@ -181,13 +197,13 @@ impl<'a> Search<'a> {
 
     /// The contact of a body behind the triangle, along the triangle's normal.
     pub fn push_from_behind(&self) -> SignedDistance {
-        let low = self.lowest(&self.up, 0);
-        let gap = self.up.dot(&(low.point - self.corners[0]));
+        let low = self.lowest(&self.triangle.up, 0);
+        let gap = self.triangle.up.dot(&(low.point - self.triangle.corners[0]));
         let label = self.body.shape.polyhedron().vertex_labels[low.vertex as usize];
-        let features = [(FeatureKind::Vertex, label), (FeatureKind::Face, self.own.label)];
+        let features = [(FeatureKind::Vertex, label), (FeatureKind::Face, self.triangle.own.label)];
         let features = features.map(|(kind, label)| Feature { kind, ids: [label, 0] });
         let found = SignedDistance { outcome: Outcome::Intersecting, ..SignedDistance::default() };
-        self.between(&self.up, &low.point, &(low.point - self.up * gap), features, &found)
+        self.between(&self.triangle.up, &low.point, &(low.point - self.triangle.up * gap), features, &found)
     }
 
     /// The contact along the best normal, with the outcome of `found`, and whether its points are on both. If not, they are the
@@ -197,7 +213,7 @@ impl<'a> Search<'a> {
         let polyhedron = self.body.shape.polyhedron();
         let vertex =
             |vertex: u32| Feature { kind: FeatureKind::Vertex, ids: [polyhedron.vertex_labels[vertex as usize], 0] };
-        let face_feature = Feature { kind: FeatureKind::Face, ids: [self.own.label, 0] };
+        let face_feature = Feature { kind: FeatureKind::Face, ids: [self.triangle.own.label, 0] };
         match place {
             Place::Face(lowest) => {
                 let point = self.point(lowest);
@@ -211,10 +227,11 @@ impl<'a> Search<'a> {
                 (self.between(&normal, &point, &(point - normal * gap), [vertex(lowest), face_feature], found), false)
             }
             Place::Side(k, [one, other]) => {
-                let [tail, side] = [self.corners[k], self.corners[(k + 1) % 3] - self.corners[k]];
+                let [tail, side] =
+                    [self.triangle.corners[k], self.triangle.corners[(k + 1) % 3] - self.triangle.corners[k]];
                 let [a, line] = [self.point(one), self.point(other) - self.point(one)];
                 let ([s, t], is_over) = nearest_of_lines(&(a - tail), &side, &line);
-                let labels = [self.own.labels[k], self.own.labels[(k + 1) % 3]];
+                let labels = [self.triangle.own.labels[k], self.triangle.own.labels[(k + 1) % 3]];
                 let feature2 = Feature { kind: FeatureKind::Edge, ids: labels };
                 let own = a + line * t;
                 let feature1 = self.feature_between([one, other], &normal, &own);
@@ -223,7 +240,7 @@ impl<'a> Search<'a> {
                 (self.between(&normal, &own, &on, [feature1, feature2], found), is_over)
             }
             Place::Corner(k, face) => {
-                let on = self.corners[k];
+                let on = self.triangle.corners[k];
                 let own = on + normal * gap;
                 let local = local_point(self.body.pose, &own) - polyhedron.centre;
                 let lengths = polyhedron.radius + own.lp_norm(1) + self.body.pose.translation().lp_norm(1);
@@ -234,7 +251,7 @@ impl<'a> Search<'a> {
                     return (self.between(&normal, &point, &on, [vertex(lowest), face_feature], found), false);
                 }
                 let feature1 = label(polyhedron, FeatureId::Face(face), &local);
-                let feature2 = Feature { kind: FeatureKind::Vertex, ids: [self.own.labels[k], 0] };
+                let feature2 = Feature { kind: FeatureKind::Vertex, ids: [self.triangle.own.labels[k], 0] };
                 (self.between(&normal, &own, &on, [feature1, feature2], found), true)
             }
         }
@@ -244,8 +261,8 @@ impl<'a> Search<'a> {
     pub fn inner(&self, best: &Best, nearest: &SignedDistance) -> Option<SignedDistance> {
         let (normal, towards) = (best.normal, Vector::from(nearest.normal));
         let own = Vector::from(nearest.world1) + towards * self.body.shape.swept_radius();
-        let face = Feature { kind: FeatureKind::Face, ids: [self.own.label, 0] };
-        let height = normal.dot(&(own - self.corners[0]));
+        let face = Feature { kind: FeatureKind::Face, ids: [self.triangle.own.label, 0] };
+        let height = normal.dot(&(own - self.triangle.corners[0]));
         let inner = self.between(&normal, &own, &(own - normal * height), [nearest.feature1, face], nearest);
         let is_below = normal.dot(&towards) > 0.0 && self.is_over(&inner.local2.into());
         is_below.then_some(inner)
@@ -292,8 +309,8 @@ impl<'a> Search<'a> {
 
     /// Whether a point of the plane of the triangle, in the ground's frame, is in it, rounding included.
     fn is_over(&self, point: &Vector) -> bool {
-        let farthest = self.own.corners.iter().map(|corner| corner.lp_norm(1)).fold(0.0, f64::max);
-        is_inside(self.own, point, -64.0 * UNIT_ROUNDOFF * (point.lp_norm(1) + farthest))
+        let farthest = self.triangle.own.corners.iter().map(|corner| corner.lp_norm(1)).fold(0.0, f64::max);
+        is_inside(&self.triangle.own, point, -64.0 * UNIT_ROUNDOFF * (point.lp_norm(1) + farthest))
     }
 }
 

@@ -3,20 +3,21 @@
 use super::PlacedGround;
 use super::allowed::Search;
 use super::answer::GroundContacts;
+use super::common::{Meet, add_common};
 use super::corner::{Behind, behind_face};
 use super::grouping::{group, least_gap};
-use super::inside::{nearest_point, triangle_over};
-use super::lowest::{Limit, Lowest};
+use super::inside::triangle_over;
+use super::lowest::{Limit, Lowest, PlacedTriangle, inside_by};
 use super::normals::TILT;
 use super::reach::Reach;
 use super::room::{Room, Touch};
-use super::tree::{Bounds, Visit};
+use super::simplex::{self, Nearest};
 use super::vertices::Vertices;
 use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::push;
 use crate::base::simd::environment::with_default;
-use crate::manifold::{ManifoldConfig, ManifoldPoint, add_points, manifold_along, witness};
+use crate::manifold::{Manifold, ManifoldConfig, ManifoldPoint, add_points, manifold_along, witness};
 use crate::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed, SignedDistance, SignedDistanceCache};
 use crate::shape::{Triangle, TriangleShape};
 
@@ -66,7 +67,7 @@ pub(crate) fn add_contacts(
         body.pose.check()?;
         ground.pose.check()?;
         let reach = Reach::new(body, ground)?;
-        let bounds = reach.bounds;
+        let (bounds, enough) = (reach.bounds, config.max_distance / reach.stretch);
         let within = PairConfig { max_distance: config.max_distance, ..PairConfig::default() };
         let Room { triangle, touches, points, vertices, .. } = &mut found.room;
         let vertices = Vertices::place(body, vertices)?;
@@ -88,10 +89,12 @@ pub(crate) fn add_contacts(
             shape,
             touches,
             points,
+            enough,
             lowest: 0,
             missed: None,
         };
-        ground.ground.tree().walk(&bounds, &mut meeting)?;
+        let box_near = bounds.grown(enough);
+        ground.ground.tree().overlapping(&box_near, |triangle| meeting.visit(triangle))?;
         meeting.keep_missed()?;
         meeting.push_out()?;
         meeting.leave_out_needless();
@@ -111,64 +114,68 @@ struct Meeting<'a> {
     shape: &'a mut TriangleShape,
     touches: &'a mut Vec<Touch>,
     points: &'a mut Vec<ManifoldPoint>,
+    /// `max_distance`, in the frame of the ground.
+    enough: f64,
     /// The vertex that was lowest over the last triangle.
     lowest: u32,
     /// Of the contacts with triangles that have no points over them the one that overlaps least.
     missed: Option<(u32, SignedDistance)>,
 }
 
-impl Visit for Meeting<'_> {
-    fn goes_to(&mut self, _: &Bounds, gap: f64) -> bool {
-        gap * self.reach.stretch <= self.all.max_distance
-    }
-
-    fn triangle(&mut self, triangle: u32) -> Result<bool> {
-        let own = self.ground.ground.triangle(triangle);
-        let is_behind = own.normal.dot(&(self.reach.centre - own.corners[0])) < -self.ground.ground.thickness();
-        if is_behind || !self.is_near(&Bounds::of(&own.corners)) {
-            return Ok(true);
+impl Meeting<'_> {
+    /// Comes to a triangle.
+    fn visit(&mut self, triangle: u32) -> Result<()> {
+        let ground = self.ground.ground;
+        let (normal, corner) = (ground.normal(triangle), ground.tail(3 * triangle));
+        let is_behind = normal.dot(&(self.reach.centre - corner)) < -ground.thickness();
+        if is_behind || self.reach.is_over(&normal, &corner, self.enough) {
+            return Ok(());
         }
-        let nearest = match self.nearest(&own)? {
-            Found::Beyond => return Ok(true),
-            Found::Nearest(nearest) => Some(nearest),
-            Found::Meeting => None,
-        };
-        let is_allowed = |nearest: &SignedDistance| {
-            let normal = self.reach.local_normal(&nearest.normal.into());
-            self.ground.ground.allows(triangle, &normal)
-        };
-        if let Some(nearest) = nearest.filter(is_allowed) {
-            self.touch(triangle, &nearest, true, None)?;
-            return Ok(true);
+        let own = ground.triangle(triangle);
+        if self.reach.is_beside(&own.corners, self.enough) {
+            return Ok(());
         }
-        let search = Search::new(self.vertices, self.ground, self.reach, &own);
-        let best = search.best(self.lowest);
+        let placed = PlacedTriangle::new(own, self.ground, self.reach);
+        let search = Search::new(self.vertices, self.ground, self.reach, &placed);
+        let (nearest, best) = match self.nearest(&placed)? {
+            Found::Beyond => return Ok(()),
+            Found::Nearest(nearest) => {
+                let normal = self.reach.local_normal(&nearest.normal.into());
+                if self.ground.ground.allows(triangle, &normal) {
+                    self.touch(&placed, &nearest, true, None)?;
+                    return Ok(());
+                }
+                (Some(nearest), search.best(self.lowest))
+            }
+            Found::Meeting => (None, search.best(self.lowest)),
+            Found::Through => (None, search.own(self.lowest)),
+        };
         let gap = best.gap - self.body.shape.swept_radius();
         let found = nearest.unwrap_or(SignedDistance { outcome: Outcome::Intersecting, ..SignedDistance::default() });
         let is_met = found.outcome == Outcome::Intersecting;
         // What is apart, but behind the triangle along all of its normals by more than rounding, is before another one.
         let rounding = TILT * self.body.shape.polyhedron().radius;
         if !(is_met || gap > -rounding) || gap > self.all.max_distance {
-            return Ok(true);
+            return Ok(());
         }
         let (contact, is_over) = search.contact(&best, &found);
         let beside = (is_met && !is_over).then(|| witness(&contact));
-        if self.touch(triangle, &contact, is_over, beside)? {
-            return Ok(true);
+        if self.touch(&placed, &contact, is_over, beside)? {
+            return Ok(());
         }
         // The lowest vertex is beside the triangle, and no faces meet over it: another point of the body may be below it.
         if best.is_along_own_normal() {
-            let nearest = if nearest.is_some() { found } else { self.signed_distance()? };
+            let nearest = if nearest.is_some() { found } else { self.signed_distance(&placed.own)? };
             if let Some(inner) = search.inner(&best, &nearest) {
-                self.touch(triangle, &inner, true, beside)?;
-                return Ok(true);
+                self.touch(&placed, &inner, true, beside)?;
+                return Ok(());
             }
         }
         let is_less = self.missed.is_none_or(|(_, missed)| contact.upper > missed.upper);
         if is_met && is_less {
             self.missed = Some((triangle, contact));
         }
-        Ok(true)
+        Ok(())
     }
 }
 
@@ -179,45 +186,41 @@ enum Found {
     Nearest(SignedDistance),
     /// They have points in common; how deep they are is open.
     Meeting,
+    /// The same, and they overlap least along the triangle's own normal.
+    Through,
 }
 
 impl Meeting<'_> {
-    fn is_near(&mut self, bounds: &Bounds) -> bool {
-        self.goes_to(bounds, bounds.gap(&self.reach.bounds))
-    }
-
-    /// How near the body is to a triangle, which is shown unless that is beyond `max_distance`.
-    fn nearest(&mut self, own: &Triangle) -> Result<Found> {
-        let up = self.reach.world_normal(&own.normal);
-        let lowest = Lowest::new(&self.vertices, self.ground, own, &up, self.lowest);
+    /// How near the body is to a triangle. Sets the lowest vertex.
+    fn nearest(&mut self, triangle: &PlacedTriangle) -> Result<Found> {
+        let lowest = Lowest::new(&self.vertices, triangle, &triangle.up, self.lowest);
         self.lowest = lowest.vertex;
         let limit = Limit { radius: self.body.shape.swept_radius(), max_distance: self.all.max_distance };
         if limit.is_beyond(lowest.lower) {
             return Ok(Found::Beyond);
         }
-        let is_meeting = lowest.is_through(self.body, own, self.reach);
-        let mut contact = if is_meeting { None } else { lowest.contact(self.body, own, self.reach, limit) };
-        if contact.is_none() && !is_meeting {
-            contact = match behind_face(self.body, self.ground, own, &lowest, limit) {
-                Behind::Beyond => return Ok(Found::Beyond),
-                Behind::Nearest(contact) => Some(contact),
-                Behind::Meets => {
-                    self.shape.show(own);
-                    return Ok(Found::Meeting);
-                }
-                Behind::Open if self.is_aside(own, limit) => return Ok(Found::Beyond),
-                Behind::Open => None,
-            };
+        let inside = inside_by(triangle, &(lowest.world - lowest.up * lowest.height));
+        if lowest.is_through(&self.reach.centre_in_world, triangle) {
+            return Ok(if lowest.is_least(triangle, inside) { Found::Through } else { Found::Meeting });
         }
-        self.shape.show(own);
-        if is_meeting {
-            return Ok(Found::Meeting);
-        }
-        if let Some(contact) = contact {
+        if let Some(contact) = lowest.contact(self.body, &triangle.own, self.reach, limit, inside) {
             return Ok(Found::Nearest(contact));
+        }
+        match behind_face(self.body, self.reach, triangle, &lowest, limit) {
+            Behind::Beyond => return Ok(Found::Beyond),
+            Behind::Nearest(contact) => return Ok(Found::Nearest(contact)),
+            Behind::Meets => return Ok(Found::Meeting),
+            Behind::Open => {}
+        }
+        match simplex::nearest(&self.vertices, self.reach, triangle, &lowest, limit) {
+            Nearest::Beyond => return Ok(Found::Beyond),
+            Nearest::Apart(contact) => return Ok(Found::Nearest(contact)),
+            Nearest::Meeting if limit.radius == 0.0 => return Ok(Found::Meeting),
+            Nearest::Meeting | Nearest::Open => {}
         }
         // That takes longer than all before.
         if limit.radius == 0.0 {
+            self.shape.show(&triangle.own);
             let bodies = [self.body, self.shape.complete().at(self.ground.pose)];
             let mut answer = PairAnswer::default();
             pair::distance(bodies, &mut PairCache::default(), &self.within, &mut answer)?;
@@ -227,29 +230,13 @@ impl Meeting<'_> {
                 _ => Found::Nearest((&answer).into()),
             });
         }
-        let contact = self.signed_distance()?;
+        let contact = self.signed_distance(&triangle.own)?;
         Ok(if contact.outcome == Outcome::Beyond { Found::Beyond } else { Found::Nearest(contact) })
     }
 
-    /// Whether the body is beyond `max_distance` along the way from the triangle to its centre, or to the vertex that is lowest
-    /// there.
-    fn is_aside(&self, own: &Triangle, limit: Limit) -> bool {
-        let (mut point, mut vertex) = (self.reach.centre, self.lowest);
-        (0..2).any(|_| {
-            let way = point - nearest_point(&own.corners, &point).0;
-            let up = self.ground.pose.rotate(&way);
-            let length = up.norm();
-            if !(length > f64::MIN_POSITIVE.sqrt()) {
-                return false;
-            }
-            let lowest = Lowest::new(&self.vertices, self.ground, own, &(up / length), vertex);
-            (point, vertex) = (self.reach.point(&lowest.world), lowest.vertex);
-            limit.is_beyond(lowest.lower)
-        })
-    }
-
-    /// The signed distance of the body and the triangle that is shown.
-    fn signed_distance(&mut self) -> Result<SignedDistance> {
+    /// The signed distance of the body and a triangle.
+    fn signed_distance(&mut self, triangle: &Triangle) -> Result<SignedDistance> {
+        self.shape.show(triangle);
         let bodies = [self.body, self.shape.complete().at(self.ground.pose)];
         let mut contact = SignedDistance::default();
         pair::signed_distance(bodies, &mut SignedDistanceCache::default(), &self.within, &mut contact)?;
@@ -262,24 +249,35 @@ impl Meeting<'_> {
     /// Whether there are any.
     fn touch(
         &mut self,
-        triangle: u32,
+        triangle: &PlacedTriangle,
         contact: &SignedDistance,
         is_over: bool,
         beside: Option<ManifoldPoint>,
     ) -> Result<bool> {
-        let bodies = [self.body, self.shape.shown().at(self.ground.pose)];
         let first_point = self.points.len();
-        // A point that is not over the triangle is none of the points that faces have in common, however deep it is.
-        let far = SignedDistance { lower: f64::INFINITY, upper: f64::INFINITY, ..*contact };
-        let along = if is_over { contact } else { &far };
-        let mut manifold = add_points(self.points, |sink| manifold_along(bodies, along, &self.all, sink))?;
+        let (body, reach, max_distance) = (&self.vertices, self.reach, self.all.max_distance);
+        let meet = Meet { body, reach, triangle, contact, is_over, max_distance };
+        let reference = match add_common(&meet, self.points)? {
+            Some(reference) => reference,
+            None => {
+                self.shape.show(&triangle.own);
+                let bodies = [self.body, self.shape.shown().at(self.ground.pose)];
+                // A point that is not over the triangle is none of the points that faces have in common, however deep it is.
+                let far = SignedDistance { lower: f64::INFINITY, upper: f64::INFINITY, ..*contact };
+                let along = if is_over { contact } else { &far };
+                add_points(self.points, |sink| manifold_along(bodies, along, &self.all, sink))?.reference
+            }
+        };
         // Without a reference it is the contact's own pair of points.
-        if manifold.reference == 0 && !is_over {
+        if reference == 0 && !is_over {
             self.points.truncate(first_point);
             return Ok(false);
         }
-        (manifold.lower, manifold.upper) = least_gap(&self.points[first_point..]);
-        push(self.touches, Touch { triangle, manifold, first_point, beside })?;
+        let (lower, upper) = least_gap(&self.points[first_point..]);
+        let count = (self.points.len() - first_point) as u32;
+        let &SignedDistance { outcome, normal, .. } = contact;
+        let manifold = Manifold { outcome, reference, lower, upper, normal, point_count: count, found_count: count };
+        push(self.touches, Touch { triangle: triangle.own.label, manifold, first_point, beside })?;
         Ok(true)
     }
 
@@ -290,8 +288,8 @@ impl Meeting<'_> {
     /// A body that meets the ground has a contact, if only beside the triangle.
     fn keep_missed(&mut self) -> Result<()> {
         if let Some((triangle, contact)) = self.missed.filter(|_| !self.is_met()) {
-            self.shape.show(&self.ground.ground.triangle(triangle));
-            self.touch(triangle, &contact, true, None)?;
+            let placed = PlacedTriangle::new(self.ground.ground.triangle(triangle), self.ground, self.reach);
+            self.touch(&placed, &contact, true, None)?;
         }
         Ok(())
     }
@@ -304,14 +302,13 @@ impl Meeting<'_> {
             return Ok(());
         }
         let Some(triangle) = triangle_over(self.ground.ground, &self.reach.centre)? else { return Ok(()) };
-        let own = self.ground.ground.triangle(triangle);
-        let contact = Search::new(self.vertices, self.ground, self.reach, &own).push_from_behind();
+        let placed = PlacedTriangle::new(self.ground.ground.triangle(triangle), self.ground, self.reach);
+        let contact = Search::new(self.vertices, self.ground, self.reach, &placed).push_from_behind();
         // Its centre may be inside where the body is not, as that of an open surface.
         if contact.upper >= 0.0 {
             return Ok(());
         }
-        self.shape.show(&own);
-        self.touch(triangle, &contact, true, None)?;
+        self.touch(&placed, &contact, true, None)?;
         Ok(())
     }
 
@@ -346,6 +343,61 @@ impl Meeting<'_> {
         let heights = corners.map(|corner| normal.dot(&self.ground.pose.transform(&corner)));
         let high = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);
         low - contact.least_gap()[0] >= high - TILT * self.body.shape.polyhedron().radius
+    }
+}
+
+/// Bodies beside the triangles of hills.
+#[cfg(test)]
+pub(super) mod near_hills {
+    use super::{PlacedTriangle, Reach, Vertices};
+    use crate::base::math::{Pose, Vector};
+    use crate::ground::surface::{Ground, HeightGrid};
+    use crate::random::Random;
+    use crate::shape::{Shape, ShapeOptions};
+
+    /// A body and a triangle near it.
+    pub struct Near<'a> {
+        pub ground: &'a Ground,
+        pub place: &'a Pose,
+        pub vertices: &'a Vertices<'a>,
+        pub reach: &'a Reach,
+        pub triangle: &'a PlacedTriangle,
+    }
+
+    /// Boxes and round bodies over and in random hills that are turned, too; `judge` is called for each triangle near one.
+    pub fn near_hills(seed: u64, rounds: usize, mut judge: impl FnMut(&Near, &mut Random)) {
+        let mut random = Random::new(seed);
+        for round in 0..if cfg!(miri) { 2 } else { rounds } {
+            let steep = [0.1, 0.3, 1.0][round % 3];
+            let heights: Vec<f64> = (0..49).map(|_| random.uniform(-steep, steep)).collect();
+            let ground =
+                Ground::from_heights(&HeightGrid { rows: 7, columns: 7, spacing: [1.0; 2], heights: &heights })
+                    .unwrap();
+            let points: Vec<Vector> = match round % 2 {
+                0 => (0..8).map(|k| Vector::from_fn(|axis, _| if k >> axis & 1 == 0 { -0.6 } else { 0.6 })).collect(),
+                _ => (0..30).map(|_| random.direction() * 0.7).collect(),
+            };
+            let shape = Shape::from_points(&points, &ShapeOptions::default()).unwrap();
+            let place = Pose::new(&random.rotation(), &(random.vector() * 5.0));
+            let turn = if round % 4 < 2 { random.rotation() } else { Pose::IDENTITY.rotation() };
+            let over = Vector::new(random.uniform(2.0, 4.0), random.uniform(2.0, 4.0), random.uniform(0.3, 1.0));
+            let pose = Pose::new(&(place.rotation() * turn), &place.transform(&over));
+            let (body, placed, mut room) = (shape.at(&pose), ground.at(&place), Vec::new());
+            let vertices = Vertices::place(body, &mut room).unwrap();
+            let reach = Reach::new(body, placed).unwrap();
+            for triangle in 0..ground.triangle_count() as u32 {
+                let own = ground.triangle(triangle);
+                let is_behind = own.normal.dot(&(reach.centre - own.corners[0])) < 0.0;
+                if is_behind || own.corners.iter().all(|corner| (corner - over).norm() > 2.0) {
+                    continue;
+                }
+                let triangle = &PlacedTriangle::new(own, placed, &reach);
+                judge(
+                    &Near { ground: &ground, place: &place, vertices: &vertices, reach: &reach, triangle },
+                    &mut random,
+                );
+            }
+        }
     }
 }
 

@@ -2,12 +2,39 @@
 //! triangle and not below, it is the nearest point.
 
 use super::PlacedGround;
+use super::marks::Marks;
 use super::reach::Reach;
 use super::vertices::Vertices;
 use crate::answer::Radii;
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp, is_unit};
 use crate::pair::{Feature, FeatureKind, Outcome, Placed, SignedDistance};
 use crate::shape::Triangle;
+
+/// A triangle in the world.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct PlacedTriangle {
+    pub own: Triangle,
+    pub marks: Marks,
+    /// Its normal and its corners.
+    pub up: Vector,
+    pub corners: [Vector; 3],
+    /// How far heights over it, and feet on it, may be off.
+    pub error: f64,
+}
+
+impl PlacedTriangle {
+    /// Of a ground beside a body, both with poses that are accepted.
+    ///
+    /// A point that is placed is right to 6u of its translation and of twice its local length, the difference of two to u of
+    /// both, the product with a direction to 4u of it, the length of the direction to 4u, the order of two heights to 8u, and the
+    /// direction inside the body to 7u of twice its radius: all in all less than 64u of those lengths.
+    pub fn new(own: Triangle, ground: PlacedGround, reach: &Reach) -> PlacedTriangle {
+        let corners = own.corners.map(|corner| ground.pose.transform(&corner));
+        let lengths = own.corners.iter().map(|corner| corner.lp_norm(1)).sum::<f64>();
+        let (marks, up) = (ground.ground.marks(own.label), reach.world_normal(&own.normal));
+        PlacedTriangle { own, marks, up, corners, error: 64.0 * U * (reach.size + 2.0 * lengths) }
+    }
+}
 
 /// The vertex of the polyhedron that is lowest, up to an excess that counts in `lower`.
 pub(super) struct Lowest {
@@ -17,50 +44,47 @@ pub(super) struct Lowest {
     /// The direction that is up: the triangle's normal in the world, or another.
     pub up: Vector,
     /// Its height over the first corner of the triangle; all of the polyhedron is at least `lower` over the triangle.
-    height: f64,
+    pub height: f64,
     pub lower: f64,
-    /// How far heights and feet may be off.
     pub error: f64,
 }
 
 impl Lowest {
-    /// For a body and a triangle of a ground, with poses that are accepted; the climb begins at `start`.
+    /// For a body and a triangle; a climb begins at `start`.
     ///
-    /// Whichever direction is taken for the normal, the difference of heights along it is a lower bound. A point that is placed is
-    /// right to 6u of its translation and of twice its local length, the difference of two to u of both, the product with the
-    /// direction to 4u of it, the length of the direction to 4u, the order of two heights to 8u, and the direction inside the body
-    /// to 7u of twice its radius: all in all less than 64u of those lengths.
-    pub fn new(body: &Vertices, ground: PlacedGround, triangle: &Triangle, up: &Vector, start: u32) -> Lowest {
+    /// Whichever direction is taken for the normal, the difference of heights along it is a lower bound.
+    pub fn new(body: &Vertices, triangle: &PlacedTriangle, up: &Vector, start: u32) -> Lowest {
         debug_assert!(is_unit(up));
-        let (polyhedron, pose, up) = (body.polyhedron(), body.pose(), *up);
-        let vertex = body.lowest(&up, start);
+        let vertex = body.lowest(up, start);
         let world = body.point(vertex);
-        let corners = triangle.corners.map(|corner| ground.pose.transform(&corner));
+        let PlacedTriangle { corners, error, .. } = triangle;
         let above_first = |point: &Vector| up.dot(&(point - corners[0]));
         let highest = above_first(&corners[1]).max(above_first(&corners[2])).max(0.0);
-        let lengths = triangle.corners.iter().map(|corner| corner.lp_norm(1)).sum::<f64>();
-        let size = pose.translation().lp_norm(1)
-            + ground.pose.translation().lp_norm(1)
-            + 2.0 * (polyhedron.centre.lp_norm(1) + 2.0 * polyhedron.radius + lengths);
-        let (height, error) = (above_first(&world), 64.0 * U * size);
-        let lower = height - highest - body.excess(vertex, &up) - error;
-        Lowest { vertex, world, up, height, lower, error }
+        let height = above_first(&world);
+        let lower = height - highest - body.excess(vertex, up) - error;
+        Lowest { vertex, world, up: *up, height, lower, error: *error }
     }
 
     /// The signed distance of body and triangle where it is certain that the vertex is nearest: it is over the triangle, and the
-    /// polyhedron above it.
-    pub fn contact(&self, body: Placed, triangle: &Triangle, reach: &Reach, limit: Limit) -> Option<SignedDistance> {
-        let foot = self.world - self.up * self.height;
-        let local2 = reach.point(&foot);
-        if !(self.lower > 0.0 && is_inside(triangle, &local2, 4.0 * self.error)) {
+    /// polyhedron above it. `inside` is how far its foot is inside the triangle's sides.
+    pub fn contact(
+        &self,
+        body: Placed,
+        triangle: &Triangle,
+        reach: &Reach,
+        limit: Limit,
+        inside: f64,
+    ) -> Option<SignedDistance> {
+        if !(self.lower > 0.0 && inside >= 4.0 * self.error) {
             return None;
         }
+        let foot = self.world - self.up * self.height;
         let distance = limit.distance([self.lower, self.height + self.error], self.height)?;
         let lowest = self.world - self.up * limit.radius;
         let label = body.shape.polyhedron().vertex_labels[self.vertex as usize];
         Some(SignedDistance {
             local1: local_point(body.pose, &lowest).into(),
-            local2: local2.into(),
+            local2: reach.point(&foot).into(),
             world1: lowest.into(),
             world2: foot.into(),
             normal: self.up.into(),
@@ -73,16 +97,37 @@ impl Lowest {
     /// Whether body and triangle certainly have a point in common: where the way from the vertex below its plane to the centre of
     /// mass above crosses it. The heights of both are off by the error, the place where the way crosses by as much and by the part
     /// of the way that this makes.
-    pub fn is_through(&self, body: Placed, triangle: &Triangle, reach: &Reach) -> bool {
-        let polyhedron = body.shape.polyhedron();
-        let way = body.pose.transform(&polyhedron.mass.centre_of_mass) - self.world;
+    pub fn is_through(&self, centre_of_mass: &Vector, triangle: &PlacedTriangle) -> bool {
+        let way = centre_of_mass - self.world;
         let rise = self.up.dot(&way);
         if !(self.height < -self.error && rise + self.height > self.error) {
             return false;
         }
         let error = 8.0 * self.error * (1.0 + way.norm() / rise);
-        is_inside(triangle, &reach.point(&(self.world - way * (self.height / rise))), error)
+        inside_by(triangle, &(self.world - way * (self.height / rise))) >= error
     }
+
+    /// Whether, where they have points in common, no normal that contacts may have overlaps less than the triangle's own, which is
+    /// up here: the vertex's foot is so far inside that along a normal at any of those angles a point of the triangle is as high.
+    ///
+    /// Be δ the depth and r how far the foot is inside. Along a normal at an angle of θ the point r away from the foot to that side
+    /// is cos θ·δ + sin θ·r above the vertex, which is δ or more if r ≥ δ·tan(θ/2). So it is for all lesser angles.
+    pub fn is_least(&self, triangle: &PlacedTriangle, inside: f64) -> bool {
+        let depth = self.error - self.height;
+        triangle.marks.tan_half().is_some_and(|tan| inside >= depth * tan * (1.0 + 1e-5) + 4.0 * self.error)
+    }
+}
+
+/// How far a point of the plane of a triangle is inside its sides; less than 0 beside it.
+pub(super) fn inside_by(triangle: &PlacedTriangle, point: &Vector) -> f64 {
+    let PlacedTriangle { corners, up, .. } = triangle;
+    let mut least = f64::INFINITY;
+    for k in 0..3 {
+        let [tail, head] = [corners[k], corners[(k + 1) % 3]];
+        let inward = up.cross(&(head - tail));
+        least = least.min(inward.dot(&(point - tail)) / inward.norm());
+    }
+    least
 }
 
 /// How near a body has to be that has a swept radius.

@@ -7,6 +7,7 @@
 mod tree;
 mod triangles;
 mod covers;
+mod marks;
 mod surface;
 mod reach;
 mod normals;
@@ -19,6 +20,8 @@ mod grouping;
 mod vertices;
 mod lowest;
 mod corner;
+mod simplex;
+mod common;
 mod allowed;
 mod inside;
 mod contacts;

@@ -5,9 +5,12 @@
 //! the normal, on any of the triangles around. That is the normal cone of the feature; for a flat or concave edge and for a
 //! vertex in a hollow only the triangles' normals are in it. Any other contact takes the best of those that are: `allowed.rs`.
 
+use super::marks::Marks;
 use super::surface::Ground;
 use super::triangles::{NONE, next, previous};
+use crate::base::error::Result;
 use crate::base::math::{Vector, is_unit};
+use crate::base::memory::filled;
 
 /// How far, as an angle, a normal may be out of the cone and count as in it, 2⁻²⁰: above what rounding to float does to the normals
 /// of a plane, and far below what a simulation feels.
@@ -139,5 +142,86 @@ impl Ground {
         // the edge's, or the opposite.
         let along = (self.tail(next(nearest.1)) - self.tail(nearest.1)).normalize();
         self.is_out_of_front(nearest.1, &(normal - along * along.dot(normal)))
+    }
+}
+
+impl Ground {
+    /// The marks of all triangles.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub(super) fn find_marks(&self) -> Result<Vec<Marks>> {
+        let mut all = filled(Marks::NONE, self.triangle_count())?;
+        let is_there = |triangle: usize| self.normal(triangle as u32) != Vector::zeros();
+        for (triangle, marks) in all.iter_mut().enumerate().filter(|(triangle, _)| is_there(*triangle)) {
+            let has_far = |side: &usize| self.far_normal((3 * triangle + side) as u32).is_some();
+            (0..3).filter(has_far).for_each(|side| marks.set_far_normal(side));
+        }
+        for triangle in (0..all.len()).filter(|triangle| is_there(*triangle)) {
+            all[triangle] = self.marks_around(triangle as u32, &all);
+        }
+        Ok(all)
+    }
+
+    /// Those of a triangle, from what is known of all sides.
+    ///
+    /// A peak's normals are in the cone of the normals of the triangles around it: seen from the own normal, if all are within 90°
+    /// of it, these go once around each (Banchoff 1970). So none leans more than one of a triangle. A peak has three convex edges
+    /// at least: those in which the cone over its edges ends. At a rim all within 90° may be allowed.
+    fn marks_around(&self, triangle: u32, all: &[Marks]) -> Marks {
+        let own = self.normal(triangle);
+        let (mut marks, mut cosine) = (all[triangle as usize], 1.0_f64);
+        for k in 0..3 {
+            let half_edge = 3 * triangle + k;
+            if self.twin(half_edge) == NONE && !self.covers_of_side(half_edge).is_empty() {
+                cosine = -1.0;
+            }
+            let (mut at, mut convex) = (half_edge, 0);
+            loop {
+                cosine = cosine.min(own.dot(&self.normal(at / 3)));
+                convex += u32::from(all[at as usize / 3].has_far_normal(at as usize % 3));
+                at = self.twin(previous(at));
+                if at == NONE {
+                    (cosine, convex) = (cosine.min(0.0), 3);
+                }
+                if at == NONE || at == half_edge {
+                    break;
+                }
+            }
+            if convex >= 3 {
+                marks.set_peak(k as usize);
+            }
+        }
+        marks.set_widest(cosine);
+        marks
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::contacts::near_hills::near_hills;
+
+    /// No normal that is allowed leans more than is marked; only corners that are marked have normals of their own.
+    #[test]
+    fn no_allowed_normal_leans_more_than_is_marked() {
+        let (mut allowed, mut peaks) = (0, 0);
+        near_hills(0x3a2, 60, |near, random| {
+            let own = near.triangle.own;
+            for _ in 0..20 {
+                let normal = (own.normal + random.direction() * random.uniform(0.0, 1.5)).normalize();
+                for k in 0..3 {
+                    let is_there = near.ground.is_normal_at_vertex(3 * own.label + k, &normal);
+                    assert!(!is_there || near.triangle.marks.may_be_peak(k as usize));
+                    peaks += usize::from(is_there);
+                }
+                if near.ground.allows(own.label, &normal) {
+                    let cosine = normal.dot(&own.normal);
+                    let tan_half = ((1.0 - cosine) / (1.0 + cosine)).sqrt();
+                    assert!(near.triangle.marks.tan_half().is_none_or(|most| tan_half <= most));
+                    allowed += usize::from(tan_half > 1e-3);
+                }
+            }
+        });
+        assert!(cfg!(miri) || allowed > 50 && peaks > 50, "{allowed} {peaks}");
     }
 }

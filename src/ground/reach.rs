@@ -17,6 +17,9 @@ fn least_stretch(pose: &Pose) -> f64 {
 /// in, with a margin of 4.
 pub(super) const ROUNDING: f64 = 256.0 * UNIT_ROUNDOFF;
 
+/// Rotations with no entry of RᵀR − I above this are taken for rigid.
+const RIGID: f64 = 16.0 * UNIT_ROUNDOFF;
+
 impl PlacedGround<'_> {
     /// A box in the world around all that the ground acts on, a little larger than it need be: its least and its greatest corner.
     pub(crate) fn world_box(&self) -> [Vector; 2] {
@@ -32,16 +35,41 @@ impl PlacedGround<'_> {
     }
 }
 
+/// The body's own box and its ball, in the frame of the ground.
+struct Own {
+    /// The middle of the box, its axes in columns, and half its sides.
+    middle: Vector,
+    axes: Matrix,
+    half: Vector,
+    /// How far the box reaches from its middle along each of its axes, times their lengths, which are next.
+    along: Vector,
+    lengths: Vector,
+    /// The middle of the ball, and its radius.
+    centre: Vector,
+    radius: f64,
+    /// How far the body may reach beyond both, its swept radius and rounding included.
+    slack: f64,
+}
+
+/// Lengths along vectors that are of length 1 up to rounding are no longer than this.
+const SHORTER: f64 = 1.0 - 32.0 * UNIT_ROUNDOFF;
+
 /// A body beside a ground.
 pub(super) struct Reach {
+    own: Own,
     /// The ground's rotation, its inverse, and where its origin is.
     turn: Matrix,
     inverse: Matrix,
     origin: Vector,
     /// A box around the body, in the frame of the ground, a little larger than it need be.
     pub bounds: Bounds,
-    /// Its centre of mass there.
+    /// Its centre of mass there, and in the world.
     pub centre: Vector,
+    pub centre_in_world: Vector,
+    /// How far both origins are from that of the world, and the body from its own, twice: what rounding errors go by.
+    pub size: f64,
+    /// Whether the body's rotation is one up to rounding: then its transpose is taken for the inverse.
+    pub is_rigid: bool,
     /// A length of the ground's frame is at least so many times as long in the world.
     pub stretch: f64,
 }
@@ -65,10 +93,65 @@ impl Reach {
             + origin.lp_norm(1)
             + 2.0 * (polyhedron.centre.lp_norm(1) + middle.lp_norm(1) + half.lp_norm(1));
         let stretch = least_stretch(ground.pose);
-        let swept = body.shape.swept_radius() / stretch;
-        let half = ((inverse * pose.rotation()).abs() * half).add_scalar(swept + ROUNDING * size);
-        let centre = local(&polyhedron.mass.centre_of_mass);
-        Ok(Reach { turn, inverse, origin, bounds: Bounds { lower: at - half, upper: at + half }, centre, stretch })
+        let beyond = body.shape.swept_radius() / stretch + ROUNDING * size;
+        let (axes, ends) = (inverse * pose.rotation(), ground.ground.tree().bounds());
+        let own = Own {
+            middle: at,
+            axes,
+            half: *half,
+            along: (axes.tr_mul(&axes)).abs() * half,
+            lengths: Vector::from_fn(|k, _| axes.column(k).norm()),
+            centre: local(&polyhedron.centre),
+            radius: polyhedron.radius * pose.most_stretched() / stretch,
+            slack: beyond + 64.0 * UNIT_ROUNDOFF * (ends.lower.lp_norm(1) + ends.upper.lp_norm(1)),
+        };
+        let half = (axes.abs() * half).add_scalar(beyond);
+        let centre_in_world = pose.transform(&polyhedron.mass.centre_of_mass);
+        Ok(Reach {
+            own,
+            turn,
+            inverse,
+            origin,
+            bounds: Bounds { lower: at - half, upper: at + half },
+            centre: inverse * (centre_in_world - origin),
+            centre_in_world,
+            size: pose.translation().lp_norm(1)
+                + origin.lp_norm(1)
+                + 2.0 * (polyhedron.centre.lp_norm(1) + 2.0 * polyhedron.radius),
+            is_rigid: pose.rotation_defect() <= RIGID,
+            stretch,
+        })
+    }
+
+    /// Whether all of the body is farther than `enough` over the plane of a triangle, as its box and its ball tell. In the frame of
+    /// the ground, as all of these.
+    ///
+    /// Placed points are off by less than `slack`, the products with the triangle's normal and corners included; lengths along a
+    /// vector of length 1 + 4u.
+    pub fn is_over(&self, normal: &Vector, corner: &Vector, enough: f64) -> bool {
+        let Own { middle, axes, half, centre, radius, slack, .. } = &self.own;
+        let [x, y, z] = [0, 1, 2].map(|k| axes.column(k).dot(normal).abs() * half[k]);
+        let of_box = normal.dot(&(middle - corner)) - (x + y + z);
+        let of_ball = normal.dot(&(centre - corner)) - radius;
+        (of_box.max(of_ball) - slack) * SHORTER > enough
+    }
+
+    /// Whether a triangle is farther than `enough` from the body's ball, or beside its box along one of its axes.
+    pub fn is_beside(&self, corners: &[Vector; 3], enough: f64) -> bool {
+        let Own { middle, axes, along, lengths, centre, radius, slack, .. } = &self.own;
+        let bounds = Bounds::of(corners);
+        let outside = (bounds.lower - centre).sup(&(centre - bounds.upper)).sup(&Vector::zeros());
+        let far = (enough / SHORTER + radius + slack).max(0.0);
+        if outside.norm_squared() * SHORTER > far * far {
+            return true;
+        }
+        let [a, b, c] = corners.map(|corner| corner - middle);
+        (0..3).any(|k| {
+            let axis = axes.column(k);
+            let limit = along[k] + (enough / SHORTER + slack) * lengths[k];
+            let heights = [axis.dot(&a), axis.dot(&b), axis.dot(&c)];
+            heights.iter().all(|height| *height > limit) || heights.iter().all(|height| *height < -limit)
+        })
     }
 
     /// A normal of the world as one of the ground's frame, of unit length: Rᵀ takes normals back.

@@ -4,12 +4,13 @@ use std::sync::Arc;
 
 use super::PlacedGround;
 use super::covers::Covers;
+use super::marks::Marks;
 use super::tree::{Bounds, Tree};
 use super::triangles::{NONE, Record, Triangles, find_twins};
 use crate::base::error::{Error, Result, check_range};
 use crate::base::mark::Mark;
 use crate::base::math::Vector;
-use crate::base::memory::{collected, in_integers, with_capacity};
+use crate::base::memory::{collected, copied, in_integers, with_capacity};
 use crate::base::normal::{area_vector, normal_of};
 use crate::base::simd::environment::with_default;
 use crate::body::polyhedron::{LARGEST, SMALLEST};
@@ -25,6 +26,7 @@ pub struct Ground {
     triangles: Triangles,
     tree: Tree,
     covers: Covers,
+    marks: Vec<Marks>,
     thickness: f64,
     /// The triangle that queries move to where theirs are: a copy for each query, or for each room that is kept.
     shape: Arc<TriangleShape>,
@@ -137,7 +139,10 @@ impl Ground {
         let triangles = Triangles { vertices, records };
         let covers = Covers::new(&triangles, &tree)?;
         let shape = Arc::new(TriangleShape::new()?);
-        Ok(Ground { triangles, tree, covers, thickness: 0.0, shape, mark: Mark::new() })
+        let mut ground =
+            Ground { triangles, tree, covers, marks: Vec::new(), thickness: 0.0, shape, mark: Mark::new() };
+        ground.marks = ground.find_marks()?;
+        Ok(ground)
     }
 
     /// From grounds that are placed beside each other or overlap, in the order given: their vertices and triangles behind each
@@ -186,8 +191,8 @@ impl Ground {
     /// [`Error::Memory`].
     pub fn try_clone(&self) -> Result<Ground> {
         let (triangles, tree, covers) = (self.triangles.try_clone()?, self.tree.try_clone()?, self.covers.try_clone()?);
-        let shape = self.shape.clone();
-        Ok(Ground { triangles, tree, covers, thickness: self.thickness, shape, mark: Mark::new() })
+        let (marks, shape) = (copied(&self.marks)?, self.shape.clone());
+        Ok(Ground { triangles, tree, covers, marks, thickness: self.thickness, shape, mark: Mark::new() })
     }
 
     /// How far it pushes out what is behind its triangles.
@@ -207,8 +212,9 @@ impl Ground {
 
     /// Memory held, in bytes: less than 8,192, and 200 for each triangle where there are no more vertices than triangles.
     pub fn bytes(&self) -> usize {
-        let Ground { triangles, tree, covers, shape, .. } = self;
-        size_of::<Ground>() + shape.shown().bytes() + triangles.heap_bytes() + tree.heap_bytes() + covers.heap_bytes()
+        let Ground { triangles, tree, covers, marks, shape, .. } = self;
+        let lists = triangles.heap_bytes() + tree.heap_bytes() + covers.heap_bytes() + size_of_val(&marks[..]);
+        size_of::<Ground>() + shape.shown().bytes() + lists
     }
 
     pub(super) fn tree(&self) -> &Tree {
@@ -229,6 +235,10 @@ impl Ground {
     /// The unit normal of a triangle, out of its front.
     pub(super) fn normal(&self, triangle: u32) -> Vector {
         self.triangles.normal(triangle)
+    }
+
+    pub(super) fn marks(&self, triangle: u32) -> Marks {
+        self.marks[triangle as usize]
     }
 
     /// A triangle to be copied and shown.

@@ -28,6 +28,12 @@ impl Bounds {
         Bounds { lower: self.lower.zip_map(&other.lower, f64::min), upper: self.upper.zip_map(&other.upper, f64::max) }
     }
 
+    /// Whether two boxes have points in common. Not branched on axis by axis (rule R4).
+    pub fn meets(&self, other: &Bounds) -> bool {
+        let is_along = |k: usize| (self.lower[k] <= other.upper[k]) & (other.lower[k] <= self.upper[k]);
+        is_along(0) & is_along(1) & is_along(2)
+    }
+
     /// A box that reaches so much farther each way, rounded outward.
     pub fn grown(&self, by: f64) -> Bounds {
         debug_assert!(by >= 0.0);
@@ -110,6 +116,32 @@ impl Tree {
     /// Memory held beside the struct, in bytes.
     pub fn heap_bytes(&self) -> usize {
         size_of_val(&self.nodes[..]) + size_of_val(&self.triangles[..])
+    }
+
+    /// Goes to all triangles in leaves that have points in common with a box.
+    ///
+    /// # Errors
+    /// Those of `visit`.
+    pub fn overlapping(&self, body: &Bounds, mut visit: impl FnMut(u32) -> Result<()>) -> Result<()> {
+        let mut stack = [0_u32; DEEPEST];
+        let mut depth = 1;
+        while depth > 0 {
+            depth -= 1;
+            let number = stack[depth];
+            let node = &self.nodes[number as usize];
+            if !node.bounds.meets(body) {
+                continue;
+            }
+            if node.count > 0 {
+                for &triangle in &self.triangles[node.at as usize..(node.at + node.count) as usize] {
+                    visit(triangle)?;
+                }
+                continue;
+            }
+            (stack[depth], stack[depth + 1]) = (node.at, number + 1);
+            depth += 2;
+        }
+        Ok(())
     }
 
     /// Goes to all triangles that `visit` wants of those near a box, the nearer half of each node first.

@@ -2,14 +2,12 @@
 
 use crate::base::error::Result;
 use crate::base::math::{Pose, Vector, is_unit};
-use crate::base::memory::push;
+use crate::base::memory::reserve;
+use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::Polyhedron;
 use crate::body::polyhedron::fan::PointBlock;
 use crate::distance::certificate::of_vertex;
 use crate::pair::Placed;
-
-/// Looking at so many vertices takes no longer than a climb.
-const MOST_PLACED: usize = 64;
 
 /// A body and the positions of its vertices in the world.
 #[derive(Clone, Copy)]
@@ -26,14 +24,14 @@ impl<'a> Vertices<'a> {
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn place(body: Placed<'a>, room: &'a mut Vec<PointBlock>) -> Result<Vertices<'a>> {
         room.clear();
-        let count = body.shape.polyhedron().vertices.len() as u32;
-        if count as usize <= MOST_PLACED {
-            for first in (0..count).step_by(4) {
-                let points = [0, 1, 2, 3].map(|k| point(body, (first + k).min(count - 1)));
-                let [x, y, z] = [0, 1, 2].map(|axis| points.map(|point| point[axis]));
-                push(room, PointBlock { x, y, z })?;
-            }
-        }
+        let polyhedron = body.shape.polyhedron();
+        reserve(room, polyhedron.vertex_blocks.len())?;
+        simd::dispatch(&mut Place {
+            blocks: &polyhedron.vertex_blocks,
+            centre: &polyhedron.centre,
+            pose: body.pose,
+            room,
+        });
         Ok(Vertices { body, blocks: room })
     }
 
@@ -49,7 +47,9 @@ impl<'a> Vertices<'a> {
 
     /// Where a vertex is.
     pub fn point(&self, vertex: u32) -> Vector {
-        point(self.body, vertex)
+        let Some(block) = self.blocks.get(vertex as usize / 4) else { return point(self.body, vertex) };
+        let lane = vertex as usize % 4;
+        Vector::new(block.x[lane], block.y[lane], block.z[lane])
     }
 
     /// A vertex that is lowest along a unit vector, as far as rounding lets one see; a climb begins at `start`.
@@ -57,23 +57,11 @@ impl<'a> Vertices<'a> {
     /// Two heights are each right to 4u of |p|₁, so another may be lower by 8u of that.
     pub fn lowest(&self, up: &Vector, start: u32) -> u32 {
         debug_assert!(is_unit(up));
-        debug_assert!(is_unit(up));
         if self.blocks.is_empty() {
             return self.polyhedron().support(&self.pose().rotate_back(&-up), start).0;
         }
-        let (mut least, mut places, mut place) = ([f64::INFINITY; 4], [0.0; 4], 0.0);
-        for block in self.blocks {
-            for lane in 0..4 {
-                let height = up.x * block.x[lane] + up.y * block.y[lane] + up.z * block.z[lane];
-                let is_lower = height < least[lane];
-                least[lane] = if is_lower { height } else { least[lane] };
-                places[lane] = if is_lower { place } else { places[lane] };
-            }
-            place += 1.0;
-        }
-        let lane = (1..4).fold(0, |best, lane| if least[lane] < least[best] { lane } else { best });
-        let last = self.polyhedron().vertices.len() as u32 - 1;
-        (4 * places[lane] as u32 + lane as u32).min(last)
+        let lowest = simd::dispatch(&mut Find { blocks: self.blocks, up });
+        lowest.min(self.polyhedron().vertices.len() as u32 - 1)
     }
 
     /// How much lower the body may be than its lowest vertex, beyond the rounding of heights.
@@ -87,6 +75,60 @@ impl<'a> Vertices<'a> {
 
 fn point(body: Placed, vertex: u32) -> Vector {
     body.pose.transform(&body.shape.polyhedron().local_position(vertex))
+}
+
+/// Places blocks of vertices.
+struct Place<'a> {
+    blocks: &'a [PointBlock],
+    centre: &'a Vector,
+    pose: &'a Pose,
+    room: &'a mut Vec<PointBlock>,
+}
+
+impl Kernel for Place<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) {
+        let rows = &self.pose.rows;
+        for block in self.blocks {
+            let x = L::load(&block.x).add(L::splat(self.centre.x));
+            let y = L::load(&block.y).add(L::splat(self.centre.y));
+            let z = L::load(&block.z).add(L::splat(self.centre.z));
+            let mut placed = PointBlock { x: [0.0; 4], y: [0.0; 4], z: [0.0; 4] };
+            // One by one (rule R2).
+            for (row, to) in rows.iter().zip([&mut placed.x, &mut placed.y, &mut placed.z]) {
+                let sum = L::splat(row[2]).mul_add(z, L::splat(row[3]));
+                *to = L::splat(row[0]).mul_add(x, L::splat(row[1]).mul_add(y, sum)).to_array();
+            }
+            // There is room.
+            self.room.push(placed);
+        }
+    }
+}
+
+/// Finds the lowest of placed vertices.
+struct Find<'a> {
+    blocks: &'a [PointBlock],
+    up: &'a Vector,
+}
+
+impl Kernel for Find<'_> {
+    type Output = u32;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> u32 {
+        let [x, y, z] = [L::splat(self.up.x), L::splat(self.up.y), L::splat(self.up.z)];
+        let (mut least, mut places, mut place) = (L::splat(f64::INFINITY), L::splat(0.0), L::splat(0.0));
+        for block in self.blocks {
+            let height = L::load(&block.z).mul_add(z, L::load(&block.y).mul_add(y, L::load(&block.x).mul(x)));
+            places = place.where_greater(least, height, places);
+            least = least.min(height);
+            place = place.add(L::splat(1.0));
+        }
+        let (_, lane) = least.least();
+        4 * places.to_array()[lane] as u32 + lane as u32
+    }
 }
 
 #[cfg(test)]

@@ -136,7 +136,7 @@ pub fn facing(body: Placed, direction: &Vector, witness: &Vector, last: Option<u
 }
 
 /// The cosine between a patch's normal and the contact's from which on the patch may be the reference: 10°.
-const PARALLEL: f64 = 0.984_8;
+pub const PARALLEL: f64 = 0.984_8;
 
 /// By how much less parallel the last reference may be and stay.
 pub const STICKY: f64 = 1e-3;
