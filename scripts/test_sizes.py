@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
-"""Compares the sizes that docs/install.md states with those of a build:  test_sizes.py CC LIBRARIES CARGO_LIBRARIES INCLUDE NEEDS...
+"""Compares the sizes that docs/install.md states with those of a build:  test_sizes.py CC LIBRARIES INCLUDE NEEDS...
 
-LIBRARIES are the libraries as installed, CARGO_LIBRARIES those with debug information, NEEDS what a static program links besides. Sizes
-differ from compiler to compiler: a page is wrong that is off by more than a sixth."""
+LIBRARIES are the libraries as installed, NEEDS what a static program links besides. Sizes differ from compiler to compiler: a page is
+wrong that is off by more than a sixth."""
 import os
 import re
 import subprocess
@@ -10,8 +10,8 @@ import sys
 import tempfile
 import unittest
 
-CC, LIBRARIES, CARGO_LIBRARIES, INCLUDE = sys.argv[1:5]
-NEEDS = sys.argv[5:]
+CC, LIBRARIES, INCLUDE = sys.argv[1:4]
+NEEDS = sys.argv[4:]
 ROOT = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..")
 MEGABYTE, TOLERANCE = 1e6, 1 / 6
 COLLECTING = "-Wl,--gc-sections"
@@ -39,8 +39,7 @@ class Sizes(unittest.TestCase):
         said.append(float(re.search(r"Without it `hello` has ([\d.]+) MB", text)[1]))
         without = [need for need in NEEDS if need != COLLECTING]
         self.assertNotEqual(without, NEEDS)
-        found = [megabytes(LIBRARIES, "libswiftprox.a"), megabytes(CARGO_LIBRARIES, "libswiftprox.a"),
-                 megabytes(LIBRARIES, "libswiftprox.so"), megabytes(CARGO_LIBRARIES, "libswiftprox.so"),
+        found = [megabytes(LIBRARIES, "libswiftprox.a"), megabytes(LIBRARIES, "libswiftprox.so"),
                  hello(*NEEDS), hello("-static", *NEEDS), hello(*without)]
         self.assertEqual(len(said), len(found))
         off = [(page, size) for page, size in zip(said, found) if size is not None and abs(size - page) > TOLERANCE * page]

@@ -54,27 +54,16 @@ pub fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((exponent + 1023) as u64) << 52)
 }
 
-/// The vector times a power of two, such that the product of two is a double and not lost, whatever their lengths.
+/// A power of two times which a length of this order has a square that is a double and not lost; 1 where it has one as it is.
 #[inline]
-pub fn moderate(v: &Vector) -> Vector {
-    let most = v.amax();
-    if (1e-100..=1e100).contains(&most) {
-        return *v;
-    }
-    v * power_of_two(-(most.log2() as i32).clamp(-1022, 1022))
+pub fn moderate_unit(length: f64) -> f64 {
+    debug_assert!(length >= 0.0);
+    if (1e-100..=1e100).contains(&length) { 1.0 } else { power_of_two(-(length.log2() as i32).clamp(-1022, 1022)) }
 }
 
-/// The distance of a point from a segment, of any lengths.
-pub fn distance_from_segment(ends: &[Vector; 2], point: &Vector) -> f64 {
-    let along = ends[1] - ends[0];
-    let whole = length(&along);
-    // A segment without length is a point.
-    if whole == 0.0 {
-        return length(&(point - ends[0]));
-    }
-    let direction = along / whole;
-    let t = clamp((point - ends[0]).dot(&direction) / whole, 0.0, 1.0);
-    length(&(point - ends[0] - along * t))
+/// The vector times a power of two, such that the product of two is a double and not lost, whatever their lengths.
+pub fn moderate(v: &Vector) -> Vector {
+    v * moderate_unit(v.amax())
 }
 
 /// Whether all coordinates are finite.

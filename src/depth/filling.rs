@@ -107,7 +107,7 @@ fn decide(
         let position = exact::locate(polyhedra, poses, hint, Supports::Climbed);
         let overlaps = matches!(position, Position::Overlapping(_));
         let way_out = if overlaps { way_out(polyhedra, poses) } else { None };
-        let is_unknown = overlaps && way_out.is_none() && met.is_none();
+        let is_unknown = overlaps && way_out.is_none() && known.is_none();
         (position, way_out, is_unknown.then(|| exact::overlap_along_axes(polyhedra, poses)))
     })?;
     answer.ending = DepthEnding::Integers;
@@ -132,11 +132,9 @@ fn decide(
                 fill_overlapping(answer, polyhedra, poses, found);
                 return Ok(());
             }
-            // The polytope need not surround the origin, and gives no point. Of a body far longer than the depth its upper end is
-            // all rounding, and integers along the axes tell more.
+            // The polytope need not surround the origin, and gives no point.
             let of_polytope = known.map(|found| (found.expansion.upper, -found.expansion.direction));
-            let least = |(a, along): (f64, Vector), (b, other)| if b < a { (b, other) } else { (a, along) };
-            let (upper, normal) = of_polytope.into_iter().chain(along_axes).fold((f64::INFINITY, Vector::x()), least);
+            let (upper, normal) = of_polytope.or(along_axes).unwrap_or((f64::INFINITY, Vector::x()));
             answer.outcome = Outcome::Intersecting;
             (answer.lower, answer.depth, answer.upper) = (0.0, 0.0, upper);
             // Moved by `upper` along the normal the point leaves each body: there are the faces.

@@ -1,6 +1,6 @@
 //! Whether the polygon of the caller's that is named holds a point of a face which several share.
 
-use crate::base::math::{Vector, distance_from_segment, moderate};
+use crate::base::math::{Vector, clamp, length, moderate};
 use crate::body::polyhedron::Polyhedron;
 
 /// By how much a point over a face is farther from the polygon of a label there than from the nearest of those that share the face.
@@ -32,4 +32,16 @@ fn distance_from_prism(corners: &[Vector], normal: &Vector, point: &Vector) -> f
         return 0.0;
     }
     sides().map(|(tail, head)| distance_from_segment(&[*tail, *head], point)).fold(f64::INFINITY, f64::min)
+}
+
+/// The distance of a point from a segment.
+fn distance_from_segment(ends: &[Vector; 2], point: &Vector) -> f64 {
+    let along = ends[1] - ends[0];
+    let whole = length(&along);
+    if whole == 0.0 {
+        return length(&(point - ends[0]));
+    }
+    let direction = along / whole;
+    let t = clamp((point - ends[0]).dot(&direction) / whole, 0.0, 1.0);
+    length(&(point - ends[0] - along * t))
 }

@@ -1,9 +1,9 @@
 //! Which of the caller's polygons on a face holds a point: if they are few, all are looked at, if many, a search tells.
 
 use crate::base::error::Result;
-use crate::base::math::{Vector, distance_from_segment, is_unit};
+use crate::base::math::{Vector, clamp, is_unit, moderate_unit};
 use crate::body::polyhedron::Polyhedron;
-use crate::body::polyhedron::polygon_search::{FEW_POLYGONS, Partitions, Polygons, holds};
+use crate::body::polyhedron::polygon_search::{FEW_POLYGONS, Partitions, Polygons};
 
 impl Polyhedron {
     /// The caller's polygon that holds a (centred) point of a face, the lowest where several do; the one that misses it least if
@@ -28,7 +28,7 @@ impl Polyhedron {
         let normal = &self.faces[face as usize].normal;
         let mut best = (f64::INFINITY, labels[0]);
         for (k, &label) in (self.face_label_starts[face as usize]..).zip(labels) {
-            let misses = misses_polygon(self.polygons().corners_of(k), normal, point);
+            let misses = misses_polygon(self.polygons(), k, normal, point);
             if misses < best.0 {
                 best = (misses, label);
             }
@@ -68,20 +68,30 @@ impl Polyhedron {
     }
 
     fn polygons(&self) -> Polygons<'_> {
-        Polygons { corners: &self.polygon_corners, starts: &self.polygon_starts }
+        Polygons { corners: &self.polygon_corners, starts: &self.polygon_starts, radius: self.radius }
     }
 }
 
-/// How far a point over a convex polygon's plane lies out of its prism: 0 inside, else the distance to the nearest side. At the
-/// sharp corner of a sliver a point may violate the sides by next to nothing and still be far away.
-fn misses_polygon(corners: &[Vector], normal: &Vector, point: &Vector) -> f64 {
-    debug_assert!(corners.len() >= 3);
+/// How far a point over a convex polygon's plane lies out of its prism: 0 inside, else the distance to the nearest side, in a unit
+/// that all polygons of the body share. At the sharp corner of a sliver a point may violate the sides by next to nothing and still
+/// be far away.
+fn misses_polygon(polygons: Polygons, k: u32, normal: &Vector, point: &Vector) -> f64 {
     debug_assert!(is_unit(normal));
-    if holds(corners, normal, point) {
+    if polygons.holds(k, normal, point) {
         return 0.0;
     }
-    let side = |i: usize| distance_from_segment(&[corners[i], corners[(i + 1) % corners.len()]], point);
-    (0..corners.len()).map(side).fold(f64::INFINITY, f64::min)
+    let corners = polygons.corners_of(k);
+    let unit = moderate_unit(polygons.radius);
+    let mut nearest = f64::INFINITY;
+    for (i, a) in corners.iter().enumerate() {
+        let along = (corners[(i + 1) % corners.len()] - a) * unit;
+        let from = (point - a) * unit;
+        let square = along.norm_squared();
+        // A side without length is a point.
+        let t = if square > 0.0 { clamp(from.dot(&along) / square, 0.0, 1.0) } else { 0.0 };
+        nearest = nearest.min((from - along * t).norm());
+    }
+    nearest
 }
 
 #[cfg(test)]

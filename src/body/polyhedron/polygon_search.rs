@@ -5,7 +5,7 @@
 use std::ops::Range;
 
 use crate::base::error::Result;
-use crate::base::math::{UNIT_ROUNDOFF, Vector, moderate};
+use crate::base::math::{UNIT_ROUNDOFF, Vector, moderate, moderate_unit};
 use crate::base::memory::{OnNeed, collected, extend, filled, push};
 
 /// No node, and no polygon.
@@ -61,13 +61,37 @@ pub struct Polygons<'a> {
     pub corners: &'a [Vector],
     /// See there.
     pub starts: &'a [u32],
+    /// The body's radius.
+    pub radius: f64,
 }
+
+/// Less than so much of the radius's square is a product of sides that may be rounding alone.
+const SLIVER: f64 = 1e-12;
 
 impl<'a> Polygons<'a> {
     /// The corners of polygon k.
     #[inline(always)]
     pub fn corners_of(self, k: u32) -> &'a [Vector] {
         &self.corners[self.starts[k as usize] as usize..self.starts[k as usize + 1] as usize]
+    }
+
+    /// Whether a point over the plane of polygon k is in its prism. The sides of a sliver say nothing, or the same of all points on
+    /// its line: there the point is between the polygon's ends, too.
+    pub fn holds(self, k: u32, normal: &Vector, point: &Vector) -> bool {
+        let corners = self.corners_of(k);
+        debug_assert!(corners.len() >= 3);
+        if moderate_unit(self.radius) != 1.0 {
+            return holds_at_any_size(corners, normal, point);
+        }
+        let Some(mut last) = corners.last() else { return false };
+        let mut most = 0.0;
+        let is_inside_sides = corners.iter().all(|corner| {
+            let inside = normal.cross(&(corner - last)).dot(&(point - last));
+            last = corner;
+            most = if inside > most { inside } else { most };
+            inside >= 0.0
+        });
+        is_inside_sides && (most > SLIVER * self.radius * self.radius || is_between_ends(corners, point))
     }
 
     /// How far a polygon reaches along a direction, from where.
@@ -155,7 +179,7 @@ impl Partitions {
         let mut found = NONE;
         self.for_each_leaf(face, point, |leaf| {
             for &k in leaf {
-                if k < found && holds(polygons.corners_of(k), normal, point) {
+                if k < found && polygons.holds(k, normal, point) {
                     found = k;
                 }
             }
@@ -191,21 +215,18 @@ impl Partitions {
     }
 }
 
-/// Whether a point over a polygon's plane is in its prism. The sides of a sliver say nothing, or the same of all points on its
-/// line: the point is between the polygon's ends, too.
-pub fn holds(corners: &[Vector], normal: &Vector, point: &Vector) -> bool {
-    debug_assert!(corners.len() >= 3);
-    let Some(mut last) = corners.last() else { return false };
-    let is_inside_sides = corners.iter().all(|corner| {
-        let along = corner - last;
-        let is_inside = normal.cross(&moderate(&along)).dot(&moderate(&(point - last))) >= 0.0;
-        last = corner;
-        is_inside
-    });
-    is_inside_sides && is_between_ends(corners, point)
+/// [`Polygons::holds`] where products of lengths may be no doubles.
+#[cold]
+#[inline(never)]
+fn holds_at_any_size(corners: &[Vector], normal: &Vector, point: &Vector) -> bool {
+    let along = |i: usize| moderate(&(corners[(i + 1) % corners.len()] - corners[i]));
+    let is_inside = |i: usize| normal.cross(&along(i)).dot(&moderate(&(point - corners[i]))) >= 0.0;
+    (0..corners.len()).all(is_inside) && is_between_ends(corners, point)
 }
 
 /// Whether a point is between the ends of a polygon along its longest side, up to some roundings of coordinates.
+#[cold]
+#[inline(never)]
 fn is_between_ends(corners: &[Vector], point: &Vector) -> bool {
     let side = |i: usize| corners[(i + 1) % corners.len()] - corners[i];
     let longer = |a: Vector, b: Vector| if b.amax() > a.amax() { b } else { a };
