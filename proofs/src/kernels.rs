@@ -170,7 +170,7 @@ fn in_frame(f: impl Fn(&Frame<Symbolic>, &mut Random, &mut Found)) -> Found {
     let mut random = Random::new(0x70_72_6f_6f_66);
     let bodies = [tetrahedron(&mut random, "v"), tetrahedron(&mut random, "w")];
     let poses = [pose(&mut random, "1", 0.05), pose(&mut random, "2", 0.05)];
-    let frame = Frame::<Symbolic>::new([&bodies[0], &bodies[1]], [&poses[0], &poses[1]]);
+    let frame = Frame::<Symbolic>::new(&Pair { polyhedra: [&bodies[0], &bodies[1]], poses: [&poses[0], &poses[1]] });
     assert!(frame.in_range && frame.rigid);
     // What follows from size and separation is computed on scalars: by the same formulas on the tape, and known by its bits.
     let (size, apart) = (symbol("size", frame.size), symbol("separation", frame.separation));

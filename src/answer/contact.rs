@@ -5,6 +5,7 @@ use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF, Vector, clamp, length};
 use crate::base::simd::{Lanes, Portable};
 use crate::body::polyhedron::{Edge, Face, NONE, Polyhedron};
 use crate::distance::certificate::Minimum;
+use crate::placed::Pair;
 use crate::placed::exact::VertexPair;
 use crate::placed::frame::Frame;
 use crate::placed::state::FeatureId;
@@ -59,18 +60,12 @@ pub fn fill_separated<L: Lanes>(
 }
 
 /// As [`fill_separated`] without a frame, for any magnitudes, and except the normal.
-pub fn fill_placed(
-    answer: &mut PairAnswer,
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    points: &[Vector; 2],
-    features: [FeatureId; 2],
-) {
-    let PlacedPoints { local, world } = placed_points(polyhedra, poses, points);
+pub fn fill_placed(answer: &mut PairAnswer, pair: &Pair, points: &[Vector; 2], features: [FeatureId; 2]) {
+    let PlacedPoints { local, world } = placed_points(pair, points);
     [answer.local1, answer.local2] = local;
     [answer.world1, answer.world2] = world;
-    answer.feature1 = label(polyhedra[0], features[0], &points[0]);
-    answer.feature2 = label(polyhedra[1], features[1], &points[1]);
+    answer.feature1 = label(pair.polyhedra[0], features[0], &points[0]);
+    answer.feature2 = label(pair.polyhedra[1], features[1], &points[1]);
 }
 
 /// Points of two bodies, in both frames.
@@ -82,7 +77,8 @@ pub struct PlacedPoints {
 }
 
 /// Points given in centred coordinates.
-pub fn placed_points(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], points: &[Vector; 2]) -> PlacedPoints {
+pub fn placed_points(pair: &Pair, points: &[Vector; 2]) -> PlacedPoints {
+    let Pair { polyhedra, poses } = *pair;
     let local = [points[0] + polyhedra[0].centre, points[1] + polyhedra[1].centre];
     let world = [placed(poses[0], &local[0]), placed(poses[1], &local[1])];
     PlacedPoints { local: local.map(Into::into), world: world.map(Into::into) }
@@ -129,15 +125,14 @@ pub fn label(polyhedron: &Polyhedron, feature: FeatureId, point: &Vector) -> Fea
 /// holds the point; of several the one that looks most towards the other body. A point may be as far as `within` inside its body,
 /// seen along the direction.
 pub fn features_of_pairs(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
+    pair: &Pair,
     pairs: &[VertexPair],
     points: &[Vector; 2],
     direction: &Vector,
     within: f64,
 ) -> [FeatureId; 2] {
     std::array::from_fn(|i| {
-        let towards = poses[i].rotate_back(&if i == 0 { -direction } else { *direction });
+        let towards = pair.poses[i].rotate_back(&if i == 0 { -direction } else { *direction });
         let mut vertices = [0; 4];
         let mut count = 0;
         for pair in pairs.iter().take(4) {
@@ -146,7 +141,7 @@ pub fn features_of_pairs(
                 count += 1;
             }
         }
-        feature_of_vertices(polyhedra[i], &vertices[..count], &points[i], &towards, within)
+        feature_of_vertices(pair.polyhedra[i], &vertices[..count], &points[i], &towards, within)
     })
 }
 
@@ -250,6 +245,10 @@ fn face_ahead(polyhedron: &Polyhedron, vertex: u32, point: &Vector, towards: &Ve
         if way < best.1 { (face, way) } else { best }
     };
     let mut best = faces_at(polyhedron, vertex).take(MOST_NEIGHBOURS).fold((NONE, f64::INFINITY), nearer);
+    if best.0 == NONE {
+        // No face at the vertex looks there.
+        best = (0..polyhedron.faces.len() as u32).fold(best, nearer);
+    }
     for _ in 0..LONGEST_WALK {
         let (face, _) = best;
         let record = polyhedron.faces.get(face as usize)?;
@@ -257,7 +256,9 @@ fn face_ahead(polyhedron: &Polyhedron, vertex: u32, point: &Vector, towards: &Ve
         let edges = polyhedron.sides[range].iter().map(|&side| &polyhedron.edges[side as usize]);
         best = edges.flat_map(|edge| [edge.left(), edge.right()]).fold(best, nearer);
         if best.0 == face {
-            return (misses_face(polyhedron, face, point) <= within).then_some(face);
+            // The plane's height is rounded; `within` may be exactly the way to it.
+            let reach = within + rounding(polyhedron);
+            return (misses_face(polyhedron, face, point) <= reach).then_some(face);
         }
     }
     None
@@ -351,14 +352,10 @@ fn distance_to_edge(polyhedron: &Polyhedron, edge: &Edge, point: &Vector) -> f64
 
 /// Convex weights of an enclosing tetrahedron, improved by iterative refinement: those from its determinants lose digits where it
 /// is thin, and the two witness points of a contact must coincide.
-pub fn refined_weights(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    pairs: &[VertexPair],
-    mut weights: [f64; 4],
-) -> [f64; 4] {
+pub fn refined_weights(pair: &Pair, pairs: &[VertexPair], mut weights: [f64; 4]) -> [f64; 4] {
+    let polyhedra = pair.polyhedra;
     let &[p0, p1, p2, p3] = pairs else { return weights };
-    let frame = Frame::<Portable>::new(polyhedra, poses);
+    let frame = Frame::<Portable>::new(pair);
     if !frame.in_range {
         return weights;
     }

@@ -4,7 +4,7 @@ use super::PlacedCompound;
 use super::answer::{CompoundContact, CompoundContacts};
 use super::between::{Between, Reaches};
 use super::queries::with_pieces;
-use super::walk::{Aim, Pair, walk};
+use super::walk::{Aim, PiecePair, walk};
 use crate::base::error::Result;
 use crate::base::memory::push;
 use crate::base::simd::environment::with_default;
@@ -32,7 +32,7 @@ fn find(bodies: &[PlacedCompound; 2], config: &ManifoldConfig, found: &mut Compo
     let between = Between::new(bodies, &Reaches::new(bodies)?);
     let mut near = Vec::new();
     let trees = bodies.map(|body| &body.compound.tree);
-    walk(Pair { trees, between: &between, aim: Aim::Distance }, config.max_distance, |pieces| {
+    walk(PiecePair { trees, between: &between, aim: Aim::Distance }, config.max_distance, |pieces| {
         push(&mut near, pieces)?;
         Ok(Some(config.max_distance))
     })?;

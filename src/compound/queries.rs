@@ -4,7 +4,7 @@ use super::PlacedCompound;
 use super::answer::CompoundAnswer;
 use super::between::{Between, Reaches};
 use super::cache::CompoundCache;
-use super::walk::{Aim, Pair, walk};
+use super::walk::{Aim, PiecePair, walk};
 use crate::base::error::Result;
 use crate::base::math::Pose;
 use crate::base::simd::environment::with_default;
@@ -110,7 +110,7 @@ impl Least<'_> {
         }
         if is_open {
             let aim = if self.is_verdict { Aim::Verdict } else { Aim::Distance };
-            let pair = Pair { trees: self.bodies.map(|body| &body.compound.tree), between, aim };
+            let pair = PiecePair { trees: self.bodies.map(|body| &body.compound.tree), between, aim };
             let passed = walk(pair, self.enough, |pieces| {
                 if last == Some(pieces) || self.learn(pieces)? { Ok(Some(self.enough)) } else { Ok(None) }
             })?;

@@ -5,7 +5,7 @@ use super::answer::CompoundSignedDistance;
 use super::between::{Between, Reaches};
 use super::cache::CompoundCache;
 use super::queries::{MORE, with_pieces};
-use super::walk::{Aim, Pair, walk};
+use super::walk::{Aim, PiecePair, walk};
 use crate::base::error::Result;
 use crate::base::simd::environment::with_default;
 use crate::pair::{self, Outcome, PairAnswer, PairConfig, Placed, Query, SignedDistance, SignedDistanceCache};
@@ -64,7 +64,7 @@ impl Least<'_> {
             self.learn(pieces)?;
         }
         let trees = self.bodies.map(|body| &body.compound.tree);
-        let passed = walk(Pair { trees, between, aim: Aim::Distance }, self.enough, |pieces| {
+        let passed = walk(PiecePair { trees, between, aim: Aim::Distance }, self.enough, |pieces| {
             if last != Some(pieces) {
                 self.learn(pieces)?;
             }

@@ -6,7 +6,7 @@ use super::PlacedCompound;
 use super::answer::CompoundAnswer;
 use super::between::{Between, Reaches};
 use super::queries::with_pieces;
-use super::walk::{Aim, Pair, walk};
+use super::walk::{Aim, PiecePair, walk};
 use crate::base::error::{Error, Result};
 use crate::base::simd::environment::with_default;
 use crate::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed};
@@ -39,7 +39,7 @@ pub fn verify(bodies: [PlacedCompound; 2], found: &CompoundAnswer) -> Result<()>
             return Ok(());
         }
         let trees = bodies.map(|body| &body.compound.tree);
-        walk(Pair { trees, between: &between, aim: Aim::Distance }, answer.lower, |pieces| {
+        walk(PiecePair { trees, between: &between, aim: Aim::Distance }, answer.lower, |pieces| {
             with_pieces(&bodies, pieces, |placed| prove_apart(placed, answer.lower))
                 .map_err(|error| about(error, pieces))?;
             Ok(Some(answer.lower))

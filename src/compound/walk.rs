@@ -28,7 +28,7 @@ struct Waiting {
 
 /// Two trees, and what is asked of them.
 #[derive(Clone, Copy)]
-pub(super) struct Pair<'a> {
+pub(super) struct PiecePair<'a> {
     pub trees: [&'a Tree; 2],
     pub between: &'a Between,
     pub aim: Aim,
@@ -40,14 +40,19 @@ pub(super) struct Pair<'a> {
 /// # Errors
 /// Those of `ask`.
 #[inline(always)]
-pub(super) fn walk(pair: Pair, enough: f64, ask: impl FnMut([u32; 2]) -> Result<Option<f64>>) -> Result<f64> {
+pub(super) fn walk(pair: PiecePair, enough: f64, ask: impl FnMut([u32; 2]) -> Result<Option<f64>>) -> Result<f64> {
     let root = simd::dispatch(&mut Roots { pair: &pair });
     // Before there is room for a walk in memory: bodies that are far apart need none.
     if root > enough { Ok(root) } else { descend(pair, root, enough, ask) }
 }
 
 #[inline(never)]
-fn descend(pair: Pair, root: f64, enough: f64, mut ask: impl FnMut([u32; 2]) -> Result<Option<f64>>) -> Result<f64> {
+fn descend(
+    pair: PiecePair,
+    root: f64,
+    enough: f64,
+    mut ask: impl FnMut([u32; 2]) -> Result<Option<f64>>,
+) -> Result<f64> {
     let waiting = [Waiting { bound: root, nodes: [0; 2] }; ROOM];
     let mut walk = Walk { pair, enough, passed: f64::INFINITY, waiting, count: 1 };
     while let Some(pieces) = simd::dispatch(&mut Descent { walk: &mut walk }) {
@@ -61,7 +66,7 @@ fn descend(pair: Pair, root: f64, enough: f64, mut ask: impl FnMut([u32; 2]) -> 
 
 /// A walk.
 struct Walk<'a> {
-    pair: Pair<'a>,
+    pair: PiecePair<'a>,
     /// Pairs that are farther apart are passed by.
     enough: f64,
     /// All that has been passed by is at least this far apart.
@@ -93,7 +98,7 @@ impl Walk<'_> {
 
 /// The bound of all pieces together.
 struct Roots<'a> {
-    pair: &'a Pair<'a>,
+    pair: &'a PiecePair<'a>,
 }
 
 impl Kernel for Roots<'_> {
@@ -101,7 +106,7 @@ impl Kernel for Roots<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> f64 {
-        let Pair { trees: [a, b], between, .. } = self.pair;
+        let PiecePair { trees: [a, b], between, .. } = self.pair;
         between.in_lanes::<L>().of_fitted(&a.nodes[0].fitted, &b.nodes[0].fitted)
     }
 }
@@ -120,7 +125,7 @@ impl Kernel for Descent<'_, '_> {
         if walk.count == 0 {
             return None;
         }
-        let Pair { trees, between, aim } = walk.pair;
+        let PiecePair { trees, between, aim } = walk.pair;
         let between = between.in_lanes::<L>();
         let [tree_a, tree_b] = trees;
         let crosses = aim == Aim::Verdict;

@@ -17,12 +17,11 @@ mod filling;
 mod proof;
 
 use crate::base::error::Result;
-use crate::base::math::Pose;
 use crate::base::simd;
 use crate::base::simd::environment::with_default;
-use crate::body::polyhedron::Polyhedron;
 use crate::depth::facets::Overlap;
 use crate::depth::polytope::{Expansion, Pyramid, Witness};
+use crate::placed::Pair;
 use crate::shape::Placed;
 pub use answer::{DepthAnswer, DepthConfig, DepthEnding, DepthStatistics};
 pub use cache::DepthCache;
@@ -55,18 +54,16 @@ fn answer_query(
     answer: &mut DepthAnswer,
 ) -> Result<()> {
     config.check()?;
-    let [body1, body2] = bodies;
-    let polyhedra = [body1.shape.polyhedron(), body2.shape.polyhedron()];
-    let poses = [body1.pose, body2.pose];
+    let pair = Pair::of(bodies);
     let pyramids = Pyramids::AtRest;
     let mut overlap = Overlap::NONE;
-    let query = &mut DepthQuery { polyhedra, poses, config, cache, answer, pyramids, overlap: &mut overlap };
+    let query = &mut DepthQuery { pair, config, cache, answer, pyramids, overlap: &mut overlap };
     let mut found = simd::dispatch_to_avx2(query);
     if found.is_none() {
-        poses.iter().try_for_each(|pose| pose.check())?;
-        found = search_rescaled(polyhedra, poses, config, cache)?;
+        pair.poses.iter().try_for_each(|pose| pose.check())?;
+        found = search_rescaled(&pair, config, cache)?;
     }
-    fill(answer, polyhedra, poses, found.as_ref(), &overlap)
+    fill(answer, &pair, found.as_ref(), &overlap)
 }
 
 /// Along which direction two bodies that intersect overlap least, for poses that are accepted: a depth from nothing. And the
@@ -74,16 +71,11 @@ fn answer_query(
 ///
 /// # Errors
 /// [`Error::Memory`](crate::base::error::Error::Memory) where integers get none.
-pub(crate) fn deepest(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    pyramids: Pyramids,
-) -> Result<(DepthAnswer, Option<(Pyramid, u8)>)> {
+pub(crate) fn deepest(pair: &Pair, pyramids: Pyramids) -> Result<(DepthAnswer, Option<(Pyramid, u8)>)> {
     let (mut cache, config, mut answer) = (DepthCache::default(), DepthConfig::default(), DepthAnswer::default());
     let mut overlap = Overlap::NONE;
     let mut found = simd::dispatch_to_avx2(&mut DepthQuery {
-        polyhedra,
-        poses,
+        pair: *pair,
         config: &config,
         cache: &mut cache,
         answer: &mut answer,
@@ -93,12 +85,12 @@ pub(crate) fn deepest(
     let mut raised = None;
     if found.is_some() && cache.has_pyramid() {
         let pyramid = cache.pyramid(0);
-        raised = resting::triangle_of(polyhedra, poses, pyramid).map(|triangle| (*pyramid, triangle));
+        raised = resting::triangle_of(pair, pyramid).map(|triangle| (*pyramid, triangle));
     }
     if found.is_none() {
-        found = search_rescaled(polyhedra, poses, &config, &mut cache)?;
+        found = search_rescaled(pair, &config, &mut cache)?;
     }
-    fill(&mut answer, polyhedra, poses, found.as_ref(), &overlap)?;
+    fill(&mut answer, pair, found.as_ref(), &overlap)?;
     Ok((answer, raised))
 }
 
@@ -109,28 +101,23 @@ pub(crate) fn deepest(
 /// [`Error::Memory`](crate::base::error::Error::Memory) where the copies get none.
 #[cold]
 #[inline(never)]
-fn search_rescaled(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    config: &DepthConfig,
-    cache: &mut DepthCache,
-) -> Result<Option<Search>> {
-    let Some(pair) = Rescaled::of(polyhedra, poses)? else { return Ok(None) };
-    let config = DepthConfig { absolute_error: pair.in_unit(config.absolute_error), ..*config };
-    let (polyhedra, poses) = (pair.polyhedra(), pair.poses());
+fn search_rescaled(pair: &Pair, config: &DepthConfig, cache: &mut DepthCache) -> Result<Option<Search>> {
+    let Some(copies) = Rescaled::of(pair)? else { return Ok(None) };
+    let config = DepthConfig { absolute_error: copies.in_unit(config.absolute_error), ..*config };
+    let pair = copies.pair();
     let (mut unused, mut overlap) = (DepthAnswer::default(), Overlap::NONE);
     let (config, answer, pyramids) = (&config, &mut unused, Pyramids::Unused);
-    let query = &mut DepthQuery { polyhedra, poses, config, cache, answer, pyramids, overlap: &mut overlap };
+    let query = &mut DepthQuery { pair, config, cache, answer, pyramids, overlap: &mut overlap };
     // Copies have no fan.
     let Some(Search::Polytope(found)) = simd::dispatch_to_avx2(query) else { return Ok(None) };
     let FoundPolytope { expansion, witness, .. } = found;
-    let upper = pair.upper_of(expansion.upper);
+    let upper = copies.upper_of(expansion.upper);
     if upper == f64::INFINITY && expansion.upper < upper {
         return Ok(None);
     }
     Ok(Some(Search::Polytope(FoundPolytope {
-        expansion: Expansion { lower: pair.lower_of(expansion.lower), upper, ..expansion },
-        witness: Witness { depth: pair.lower_of(witness.depth), ..witness },
+        expansion: Expansion { lower: copies.lower_of(expansion.lower), upper, ..expansion },
+        witness: Witness { depth: copies.lower_of(witness.depth), ..witness },
         ..found
     })))
 }

@@ -3,11 +3,10 @@
 use super::cache::DepthCache;
 use super::scaling::Rescaled;
 use crate::base::error::Result;
-use crate::base::math::Pose;
 use crate::base::memory::listed;
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::body::polyhedron::Polyhedron;
 use crate::depth::polytope::{self, Polytope, SearchStart, Wanted, is_in_scale};
+use crate::placed::Pair;
 use crate::placed::exact::VertexPair;
 use crate::placed::frame::Frame;
 
@@ -29,22 +28,21 @@ pub enum ProofFrom<'a> {
 ///
 /// # Panics
 /// Fails where there is no memory for the triangles, same as [`in_integers`](crate::base::memory::in_integers).
-pub fn proof(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: ProofFrom) -> Result<Vec<[VertexPair; 3]>> {
-    if let Some(found) = simd::dispatch_to_avx2(&mut Proof { polyhedra, poses, from }) {
+pub fn proof(pair: &Pair, from: ProofFrom) -> Result<Vec<[VertexPair; 3]>> {
+    if let Some(found) = simd::dispatch_to_avx2(&mut Proof { pair: *pair, from }) {
         return Ok(found);
     }
-    let Some(pair) = Rescaled::of(polyhedra, poses)? else { return Ok(Vec::new()) };
+    let Some(copies) = Rescaled::of(pair)? else { return Ok(Vec::new()) };
     let from = match from {
         ProofFrom::Pyramid(..) | ProofFrom::Cache(_) => from,
-        ProofFrom::Search(lower) => ProofFrom::Search(pair.in_unit(lower)),
+        ProofFrom::Search(lower) => ProofFrom::Search(copies.in_unit(lower)),
     };
-    let found = simd::dispatch_to_avx2(&mut Proof { polyhedra: pair.polyhedra(), poses: pair.poses(), from });
+    let found = simd::dispatch_to_avx2(&mut Proof { pair: copies.pair(), from });
     Ok(found.unwrap_or_default())
 }
 
 struct Proof<'a> {
-    polyhedra: [&'a Polyhedron; 2],
-    poses: [&'a Pose; 2],
+    pair: Pair<'a>,
     from: ProofFrom<'a>,
 }
 
@@ -54,8 +52,8 @@ impl Kernel for Proof<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Self::Output {
-        let frame = Frame::<L>::new(self.polyhedra, self.poses);
-        if !(frame.in_range && is_in_scale(self.polyhedra)) {
+        let frame = Frame::<L>::new(&self.pair);
+        if !(frame.in_range && is_in_scale(self.pair.polyhedra)) {
             return None;
         }
         let mut polytope = Polytope::<255, 508>::EMPTY;

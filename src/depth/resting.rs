@@ -5,9 +5,9 @@ use super::cache::{DepthCache, PYRAMIDS};
 use crate::answer::{Feature, Outcome, contact};
 use crate::base::math::{Pose, Vector, clamp};
 use crate::base::simd::{self, Kernel, Lanes, Work};
-use crate::body::polyhedron::Polyhedron;
 use crate::depth::facets::{self, Facet, Proved};
 use crate::depth::polytope::{self, Failure, Pyramid, Rest, Rounding};
+use crate::placed::Pair;
 use crate::placed::exact::VertexPair;
 use crate::placed::frame::Frame;
 use crate::placed::state::FeatureId;
@@ -153,7 +153,7 @@ fn fill<L: Lanes>(
     cache: &mut DepthCache,
     rest: &Rest<L>,
 ) {
-    let features = features_of(frame.polyhedra(), poses, cache, rest);
+    let features = features_of(&Pair { polyhedra: frame.polyhedra(), poses }, cache, rest);
     cache.has_proved();
     (answer.outcome, answer.ending) = (Outcome::Intersecting, DepthEnding::Narrow);
     (answer.lower, answer.upper) = (rest.lower, rest.upper);
@@ -167,22 +167,17 @@ fn fill<L: Lanes>(
 /// The features that hold the witness points of the first pyramid: the earlier ones, if the pyramid is still made of the same
 /// vertices.
 #[inline(always)]
-fn features_of<L: Lanes>(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    cache: &mut DepthCache,
-    rest: &Rest<L>,
-) -> [FeatureId; 2] {
+fn features_of<L: Lanes>(pair: &Pair, cache: &mut DepthCache, rest: &Rest<L>) -> [FeatureId; 2] {
     let [a, b, c] = rest.pairs;
     if let Some(features @ [first, second]) = cache.features(rest.triangle)
-        && contact::is_feature_of(polyhedra[0], first, [a[0], b[0], c[0]])
-        && contact::is_feature_of(polyhedra[1], second, [a[1], b[1], c[1]])
+        && contact::is_feature_of(pair.polyhedra[0], first, [a[0], b[0], c[0]])
+        && contact::is_feature_of(pair.polyhedra[1], second, [a[1], b[1], c[1]])
     {
         return features;
     }
     let (within, normal) = (rest.upper - rest.lower, rest.direction.negate().to_vector());
     let points = [rest.points[0].to_vector(), rest.points[1].to_vector()];
-    let features = contact::features_of_pairs(polyhedra, poses, &rest.pairs, &points, &normal, within);
+    let features = contact::features_of_pairs(pair, &rest.pairs, &points, &normal, within);
     cache.keep_features(rest.triangle, features);
     features
 }
@@ -235,13 +230,12 @@ impl<L: Lanes> Work for Raise<'_, L> {
 }
 
 /// In which triangle of its base a pyramid has the witness points of the depth that it proves in the poses of a pair, if it does.
-pub fn triangle_of(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], pyramid: &Pyramid) -> Option<u8> {
-    simd::dispatch_to_avx2(&mut Proving { polyhedra, poses, pyramid })
+pub fn triangle_of(pair: &Pair, pyramid: &Pyramid) -> Option<u8> {
+    simd::dispatch_to_avx2(&mut Proving { pair: *pair, pyramid })
 }
 
 struct Proving<'a> {
-    polyhedra: [&'a Polyhedron; 2],
-    poses: [&'a Pose; 2],
+    pair: Pair<'a>,
     pyramid: &'a Pyramid,
 }
 
@@ -250,7 +244,7 @@ impl Kernel for Proving<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Option<u8> {
-        let frame = Frame::<L>::new(self.polyhedra, self.poses);
+        let frame = Frame::<L>::new(&self.pair);
         if !frame.in_range {
             return None;
         }

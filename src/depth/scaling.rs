@@ -5,6 +5,7 @@ use crate::base::math::{Pose, Vector, power_of_two};
 use crate::body::polyhedron::lookup::Plan;
 use crate::body::polyhedron::outlines::Outlines;
 use crate::body::polyhedron::{LARGEST, Polyhedron};
+use crate::placed::Pair;
 
 /// Copies of both bodies and their poses, the larger body near size 1.
 pub struct Rescaled {
@@ -20,7 +21,8 @@ impl Rescaled {
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory) where the copies get none.
-    pub fn of(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Result<Option<Rescaled>> {
+    pub fn of(pair: &Pair) -> Result<Option<Rescaled>> {
+        let Pair { polyhedra, poses } = *pair;
         let [radius1, radius2] = polyhedra.map(|polyhedron| polyhedron.radius);
         let radius = radius1.max(radius2);
         if !(radius > 0.0 && radius < f64::INFINITY) {
@@ -37,12 +39,8 @@ impl Rescaled {
         }
     }
 
-    pub fn polyhedra(&self) -> [&Polyhedron; 2] {
-        [&self.polyhedra[0], &self.polyhedra[1]]
-    }
-
-    pub fn poses(&self) -> [&Pose; 2] {
-        [&self.poses[0], &self.poses[1]]
+    pub fn pair(&self) -> Pair<'_> {
+        Pair { polyhedra: self.polyhedra.each_ref(), poses: self.poses.each_ref() }
     }
 
     /// A length in the new unit, rounded up where it leaves the range of doubles.

@@ -3,18 +3,17 @@
 use super::answer::{DepthAnswer, DepthConfig};
 use super::cache::DepthCache;
 use super::resting::{self, LeastFacet};
-use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
+use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::base::simd::{Kernel, Lanes, Work};
-use crate::body::polyhedron::Polyhedron;
 use crate::body::polyhedron::fan::Fan;
 use crate::depth::facets::{self, Outcome as ByFacets, Overlap};
 use crate::depth::polytope::{self, Ending, Expansion, Polytope, SearchStart, Wanted, Witness, is_in_scale};
+use crate::placed::Pair;
 use crate::placed::frame::Frame;
 
 /// The search in floating point, compiled for the machine's vector units; it keeps the polytope.
 pub struct DepthQuery<'a> {
-    pub polyhedra: [&'a Polyhedron; 2],
-    pub poses: [&'a Pose; 2],
+    pub pair: Pair<'a>,
     pub config: &'a DepthConfig,
     pub cache: &'a mut DepthCache,
     /// Filled where a pyramid answers.
@@ -114,14 +113,14 @@ impl Kernel for DepthQuery<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Option<Search> {
-        let frame = Frame::<L>::new(self.polyhedra, self.poses);
-        if !(frame.in_range && is_in_scale(self.polyhedra)) {
+        let frame = Frame::<L>::new(&self.pair);
+        if !(frame.in_range && is_in_scale(self.pair.polyhedra)) {
             return None;
         }
         let is_new = self.pyramids == Pyramids::Unused;
         if !is_new
             && (resting::look_at_facet(&frame, self.cache, self.answer)
-                || resting::look_at_pyramids(&frame, self.poses, self.cache, self.answer))
+                || resting::look_at_pyramids(&frame, self.pair.poses, self.cache, self.answer))
         {
             return Some(Search::Answered);
         }
@@ -248,7 +247,7 @@ impl<'a> DepthQuery<'a> {
     /// The fans of a pair of small bodies.
     #[inline(always)]
     fn fans(&self) -> Option<[&'a Fan; 2]> {
-        let [polyhedron1, polyhedron2] = self.polyhedra;
+        let [polyhedron1, polyhedron2] = self.pair.polyhedra;
         Some([polyhedron1.fan.as_ref()?, polyhedron2.fan.as_ref()?])
     }
 

@@ -1,11 +1,12 @@
 //! Proves a pair's verdict when marching alone cannot: the fallback, then integers.
 
-use crate::base::math::{Pose, Vector, clamp};
+use crate::base::math::{Vector, clamp};
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::Polyhedron;
 use crate::distance::certificate::Interval;
 use crate::distance::enclosure::{self, Enclosure};
 use crate::distance::gjk::{self, Supports};
+use crate::placed::Pair;
 use crate::placed::exact::{self, VertexPair};
 use crate::placed::frame::Frame;
 
@@ -85,17 +86,12 @@ impl Wanted {
 ///
 /// # Panics
 /// Fails where integers get no memory, same as [`in_integers`](crate::base::memory::in_integers).
-pub fn decide(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    in_range: bool,
-    hint: &[VertexPair],
-    wanted: Wanted,
-) -> (Decision, Effort) {
+pub fn decide(pair: &Pair, in_range: bool, hint: &[VertexPair], wanted: Wanted) -> (Decision, Effort) {
+    let polyhedra = pair.polyhedra;
     let mut effort = Effort::default();
     let mut start = Pairs::new(hint);
     if in_range {
-        let (proposal, iterations) = simd::dispatch_to_avx2(&mut Propose { polyhedra, poses, hint, wanted });
+        let (proposal, iterations) = simd::dispatch_to_avx2(&mut Propose { pair: *pair, hint, wanted });
         effort.fallback_iterations = iterations;
         match proposal {
             Proposal::Separated(nearest) => {
@@ -109,7 +105,7 @@ pub fn decide(
             Proposal::Open(pairs) => start = pairs,
         }
     }
-    let answer = exact::solve(polyhedra[0], poses[0], polyhedra[1], poses[1], start.as_slice());
+    let answer = exact::solve(pair, start.as_slice());
     effort.exact_iterations = answer.iterations;
     let pairs = Pairs::new(&answer.pairs);
     let mut weights = [0.0; 4];
@@ -141,8 +137,7 @@ enum Proposal {
 
 /// Gilbert-Johnson-Keerthi and the search for an enclosing tetrahedron, compiled for the machine's vector units.
 struct Propose<'a> {
-    polyhedra: [&'a Polyhedron; 2],
-    poses: [&'a Pose; 2],
+    pair: Pair<'a>,
     hint: &'a [VertexPair],
     wanted: Wanted,
 }
@@ -152,8 +147,8 @@ impl Kernel for Propose<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> (Proposal, u32) {
-        let &mut Propose { polyhedra, poses, hint, wanted } = self;
-        let frame = Frame::<L>::new(polyhedra, poses);
+        let &mut Propose { pair, hint, wanted } = self;
+        let frame = Frame::<L>::new(&pair);
         let mut supports = Supports::new(hint);
         let (outcome, iterations) = gjk::solve(&frame, &mut supports, hint, wanted.tight);
         let simplex = match outcome {

@@ -22,6 +22,7 @@ use crate::depth::facets::Proved;
 use crate::depth::polytope::is_in_scale;
 use crate::depth::prove_at_rest;
 use crate::pair::{SignedDistance, fill_at_rest};
+use crate::placed::Pair;
 use crate::placed::frame::Frame;
 use crate::shape::Placed;
 
@@ -59,7 +60,7 @@ impl Kernel for AtRest<'_, '_> {
     fn run<L: Lanes>(&mut self) -> Answered {
         let [body1, body2] = self.bodies;
         let polyhedra = [body1.shape.polyhedron(), body2.shape.polyhedron()];
-        let frame = Frame::<L>::new(polyhedra, [body1.pose, body2.pose]);
+        let frame = Frame::<L>::new(&Pair { polyhedra, poses: [body1.pose, body2.pose] });
         if !(frame.in_range && is_in_scale(polyhedra)) {
             return Answered::Nothing;
         }

@@ -16,6 +16,7 @@ use crate::base::math::{UNIT_ROUNDOFF as U, Vector, power_of_two};
 use crate::base::memory::{in_integers, with_capacity};
 use crate::base::simd::environment::with_default;
 use crate::pair::{HalfSpace, SignedDistance, above_plane, middle, of_lowest};
+use crate::placed::Pair;
 use crate::placed::exact::OverPlane;
 use crate::placed::state::FeatureId;
 use crate::shape::Placed;
@@ -47,10 +48,12 @@ pub(crate) fn half_space_manifold_into(
     config: &ManifoldConfig,
     points: &mut Sink,
 ) -> Result<Manifold> {
-    config.check()?;
-    half_space.check()?;
-    body.pose.check()?;
-    with_default(|| make(body, half_space, config, points))
+    with_default(|| {
+        config.check()?;
+        half_space.check()?;
+        body.pose.check()?;
+        make(body, half_space, config, points)
+    })
 }
 
 fn make(body: Placed, half_space: &HalfSpace, config: &ManifoldConfig, points: &mut Sink) -> Result<Manifold> {
@@ -87,7 +90,9 @@ fn make(body: Placed, half_space: &HalfSpace, config: &ManifoldConfig, points: &
         }
     }
     if config.reduces {
-        for place in four_of(thinned.places(), &[0; FOUR], polyhedron.radius).into_iter().flatten() {
+        // The lowest vertex is one of the four.
+        let most = if is_deep { FOUR } else { FOUR - 1 };
+        for place in four_of(thinned.places(), &[0; FOUR], polyhedron.radius).into_iter().flatten().take(most) {
             if let Origin::Corner(CommonCorner::Vertex { corner, .. }) = place.origin {
                 points.push(|point| *point = plane.point(&outline, corner, &normal));
             }
@@ -199,7 +204,7 @@ impl<'a> Plane<'a> {
     fn point(&self, outline: &Outline, corner: usize, normal: &[f64; 3]) -> ManifoldPoint {
         let (polyhedron, pose, vertex) = (self.body.shape.polyhedron(), self.body.pose, outline.vertex(corner));
         let position = polyhedron.vertices[vertex as usize].position;
-        let points = placed_points([polyhedron; 2], [pose; 2], &[position; 2]);
+        let points = placed_points(&Pair { polyhedra: [polyhedron; 2], poses: [pose; 2] }, &[position; 2]);
         let PlacedPoints { local: [local1, _], world: [world1, _] } =
             moved(&points, [pose; 2], normal, self.radii.outwards());
         let [gap_lower, gap_upper] = self.gap(outline, corner);

@@ -28,6 +28,7 @@ use crate::base::simd;
 use crate::base::simd::environment::with_default;
 use crate::depth::DepthAnswer;
 use crate::pair::{SignedDistance, signed_distance};
+use crate::placed::Pair;
 use crate::placed::frame::between_centres;
 use crate::shape::Placed;
 use answer::FOUR;
@@ -269,10 +270,11 @@ fn clip(
     contact: &SignedDistance,
     points: &mut Sink,
 ) -> usize {
-    let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
+    let pair = &Pair::of(&bodies);
+    let Pair { polyhedra, poses } = *pair;
     // For bodies far from their own origins, these sums agree in nearly all digits.
     let (between, cancelled) = if polyhedra.iter().any(|polyhedron| polyhedron.centre != Vector::zeros()) {
-        between_centres(polyhedra, poses)
+        between_centres(pair)
     } else {
         ((poses[0].translation() - poses[1].translation()).into(), 0.0)
     };

@@ -7,6 +7,7 @@ use super::outline::Outline;
 use crate::answer::{Feature, FeatureKind, PlacedPoints, label, placed_points};
 use crate::base::math::{Pose, Vector};
 use crate::pair::SignedDistance;
+use crate::placed::Pair;
 use crate::placed::state::FeatureId;
 
 /// Two outlines seen along the normal, and the pair of witness points.
@@ -124,7 +125,7 @@ impl View<'_> {
             _ => self.outlines[i].local(&place.spots[i]).unwrap_or_else(Vector::zeros),
         });
         let [feature1, feature2] = [0, 1].map(|i| self.feature(corner, i, &centred[i]));
-        let PlacedPoints { local, world } = placed_points(polyhedra, self.poses, &centred);
+        let PlacedPoints { local, world } = placed_points(&Pair { polyhedra, poses: self.poses }, &centred);
         [point.local1, point.local2] = local;
         [point.world1, point.world2] = world;
         let gap = place.gap();

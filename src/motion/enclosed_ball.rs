@@ -1,15 +1,14 @@
 //! How deep two placed bodies are in each other at least: the ball around the origin in a tetrahedron of vertex differences.
 
-use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::body::polyhedron::Polyhedron;
+use crate::placed::Pair;
 use crate::placed::exact::VertexPair;
 use crate::placed::frame::Frame;
 
 /// Two placed bodies, and vertex pairs whose differences may hold the origin.
 pub(super) struct EnclosedBall<'a> {
-    pub polyhedra: [&'a Polyhedron; 2],
-    pub poses: [&'a Pose; 2],
+    pub pair: Pair<'a>,
     pub pairs: &'a [VertexPair],
 }
 
@@ -31,11 +30,11 @@ impl Kernel for EnclosedBall<'_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> f64 {
         let &[p, q, r, s] = self.pairs else { return 0.0 };
-        let frame = Frame::<L>::new(self.polyhedra, self.poses);
+        let frame = Frame::<L>::new(&self.pair);
         if !frame.in_range {
             return 0.0;
         }
-        let [body1, body2] = self.polyhedra;
+        let [body1, body2] = self.pair.polyhedra;
         let corners = [p, q, r, s].map(|[v, w]| {
             frame.difference(&body1.vertices[v as usize].position, &body2.vertices[w as usize].position).to_vector()
         });

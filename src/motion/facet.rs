@@ -7,6 +7,7 @@ use super::moving::Moment;
 use crate::base::math::{Pose, Vector};
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::{NONE, Polyhedron};
+use crate::placed::Pair;
 use crate::placed::exact::VertexPair;
 
 /// Most vertices of a body that may tie, and most pairs of them, of which all threes are tried: a quad with an edge makes 8.
@@ -35,7 +36,7 @@ impl Touch<'_> {
     pub fn enclosure(&self) -> Option<([VertexPair; 4], f64)> {
         let pairs = self.pairs()?;
         let poses = [&self.there.poses[0], &self.there.poses[1]];
-        Some((pairs, EnclosedBall { polyhedra: self.polyhedra, poses, pairs: &pairs }.radius()))
+        Some((pairs, EnclosedBall { pair: Pair { polyhedra: self.polyhedra, poses }, pairs: &pairs }.radius()))
     }
 
     fn pairs(&self) -> Option<[VertexPair; 4]> {

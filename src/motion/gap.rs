@@ -1,20 +1,20 @@
 //! The gap of two placed bodies along a given direction, rounded down.
 
 use super::bound::UNDERFLOW;
-use crate::base::math::{Pose, STRETCH, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{STRETCH, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::Polyhedron;
 use crate::body::polyhedron::fan::PointBlock;
 use crate::body::tables;
 use crate::distance::certificate::{by_all_vertices, interval, of_vertex, reciprocal_length};
 use crate::distance::gjk::towards;
+use crate::placed::Pair;
 use crate::placed::frame::Frame;
 use crate::placed::voronoi::climb;
 
 /// Bodies along a direction.
 pub(super) struct Along<'a> {
-    pub polyhedra: [&'a Polyhedron; 2],
-    pub poses: [&'a Pose; 2],
+    pub pair: Pair<'a>,
     /// From body 2 to body 1, about of unit length.
     pub direction: &'a Vector,
     /// The starting points of the climbs to the support vertices, and their ends; `None`: the start from the look-up tables.
@@ -25,12 +25,8 @@ impl Along<'_> {
     /// The lowest of body 1 over the highest of body 2, at most: per unit of the direction's length. −∞ where the magnitudes are
     /// beyond what doubles bound. Below 0 it may be too high by 8u of itself, which `least_between` allows for.
     pub fn gap(mut self) -> f64 {
-        if self.polyhedra.iter().all(|polyhedron| !polyhedron.vertex_blocks.is_empty()) {
-            return simd::dispatch(&mut OverAll {
-                polyhedra: self.polyhedra,
-                poses: self.poses,
-                direction: self.direction,
-            });
+        if self.pair.polyhedra.iter().all(|polyhedron| !polyhedron.vertex_blocks.is_empty()) {
+            return simd::dispatch(&mut OverAll { pair: self.pair, direction: self.direction });
         }
         let gap = simd::dispatch(&mut self);
         if gap > f64::NEG_INFINITY { gap } else { self.gap_of_spheres() }
@@ -41,10 +37,10 @@ impl Along<'_> {
     /// Each centre in the world errs by 6u of its translation and of twice its local length, their difference by u, its product
     /// with the direction by 4u, and the direction's length by 4u: together less than 32u of all lengths, and of what underflows.
     fn gap_of_spheres(&self) -> f64 {
-        let [body1, body2] = self.polyhedra;
-        let between = self.poses[0].transform(&body1.centre) - self.poses[1].transform(&body2.centre);
+        let [body1, body2] = self.pair.polyhedra;
+        let between = self.pair.poses[0].transform(&body1.centre) - self.pair.poses[1].transform(&body2.centre);
         let radii = (body1.radius + body2.radius) * STRETCH;
-        let lengths = self.poses.map(|pose| pose.translation().norm()).iter().sum::<f64>();
+        let lengths = self.pair.poses.map(|pose| pose.translation().norm()).iter().sum::<f64>();
         let size = lengths + 2.0 * (body1.centre.norm() + body2.centre.norm()) + radii;
         let gap = self.direction.dot(&between) - radii - 64.0 * U * size - UNDERFLOW;
         // If lengths overflow, nothing is proved.
@@ -58,12 +54,12 @@ impl Kernel for Along<'_> {
     /// Climbing proposes vertices; what they prove holds whichever they are (`distance/certificate/`).
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> f64 {
-        let frame = Frame::<L>::new(self.polyhedra, self.poses);
+        let frame = Frame::<L>::new(&self.pair);
         if !frame.in_range {
             return f64::NEG_INFINITY;
         }
         let [towards1, towards2] = towards(&frame, self.direction);
-        let [body1, body2] = self.polyhedra;
+        let [body1, body2] = self.pair.polyhedra;
         let look_up = |body, towards: Vector| tables::farthest(body, &towards).unwrap_or(0);
         let begin = match *self.vertices {
             Some(vertices) => vertices,
@@ -88,8 +84,7 @@ impl Kernel for Along<'_> {
 
 /// The same over all vertices of bodies that have them in blocks: no tie and no convexity matters.
 struct OverAll<'a> {
-    polyhedra: [&'a Polyhedron; 2],
-    poses: [&'a Pose; 2],
+    pair: Pair<'a>,
     direction: &'a Vector,
 }
 
@@ -104,7 +99,7 @@ impl Kernel for OverAll<'_> {
     /// the gap by 4u of as much. All together is below 17u·s, and s is right to 8u.
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> f64 {
-        let Self { polyhedra, poses, direction } = self;
+        let Self { pair: Pair { polyhedra, poses }, direction } = self;
         let apart = poses[0].translation() - poses[1].translation();
         let towards = [-poses[0].rotate_back(direction), poses[1].rotate_back(direction)];
         let (mut gap, mut size) = (direction.dot(&apart), apart.norm());

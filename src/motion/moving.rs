@@ -11,6 +11,7 @@ use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, is_unit};
 use crate::body::polyhedron::Polyhedron;
 use crate::pair::{PairCache, Placed};
+use crate::placed::Pair;
 
 /// A pair that moves.
 pub(super) struct MovingPair<'a> {
@@ -89,8 +90,8 @@ impl<'a> MovingPair<'a> {
     /// A lower bound of the gap of the motion along a direction of about unit length, from body 2 to body 1.
     pub fn gap(&self, moment: &Moment, direction: &Vector, vertices: &mut Option<[u32; 2]>) -> f64 {
         debug_assert!(direction.norm_squared() <= 1.0 + 1e-6);
-        let polyhedra = self.polyhedra();
-        let gap = Along { polyhedra, poses: [&moment.poses[0], &moment.poses[1]], direction, vertices }.gap();
+        let pair = Pair { polyhedra: self.polyhedra(), poses: [&moment.poses[0], &moment.poses[1]] };
+        let gap = Along { pair, direction, vertices }.gap();
         sum_below(sum_below(gap, -self.radii.upper), -moment.rounding)
     }
 
@@ -164,7 +165,7 @@ impl<'a> MovingPair<'a> {
         let poses = [&moment.poses[0], &moment.poses[1]];
         cache
             .enclosure(polyhedra)
-            .map_or(0.0, |pairs| EnclosedBall { polyhedra, poses, pairs: pairs.as_slice() }.radius())
+            .map_or(0.0, |pairs| EnclosedBall { pair: Pair { polyhedra, poses }, pairs: pairs.as_slice() }.radius())
     }
 
     /// About how fast the gap along a direction grows, by a point of each body in its own frame.

@@ -10,6 +10,7 @@ use super::sweep::{Ahead, FreeStep, MOST_DOUBLINGS, Sweep, Wanted, after, depth_
 use crate::answer::sum_above;
 use crate::base::error::{Error, Result};
 use crate::pair::{DepthCache, Outcome, PairAnswer, PairCache, PairConfig, contact};
+use crate::placed::Pair;
 use crate::verify::{Bounds, holds_ball, in_default, verify, verify_depth};
 
 /// Steps after which a proof is given up.
@@ -155,7 +156,7 @@ fn check_step(pair: &MovingPair, step: &FreeStep, max_distance: f64) -> Result<(
     for ((moment, direction), gap) in moments.iter().zip(&step.directions).zip(step.gaps) {
         let time = moment.time;
         let bodies = pair.placed(moment);
-        let bounds = Bounds::new(bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
+        let bounds = Bounds::new(&Pair::of(&bodies));
         // The gap that the poses must show for the motion, which is as far from them as they are rounded.
         let needed = sum_above((gap + moment.rounding).next_up(), pair.swept());
         if !bounds.is_some_and(|bounds| bounds.prove_lower(&bounds.gap(direction), direction, needed)) {

@@ -9,6 +9,7 @@ use crate::base::math::{UNIT_ROUNDOFF, Vector, clamp};
 use crate::base::memory::in_integers;
 use crate::base::simd::environment::with_default;
 use crate::body::tables;
+use crate::placed::Pair;
 use crate::placed::exact::{self, Height};
 use crate::placed::state::FeatureId;
 use crate::shape::Placed;
@@ -69,9 +70,12 @@ impl HalfSpace {
 /// [`Error::Pose`] for a pose that is not accepted, as in [`distance`](crate::pair::distance), [`Error::Argument`] for a normal
 /// that is 0 or not finite and an offset that is not finite, [`Error::Memory`] where there is none for integers.
 pub fn half_space_distance(body: Placed, half_space: &HalfSpace) -> Result<SignedDistance> {
-    half_space.check()?;
-    body.pose.check()?;
-    in_integers(|| with_default(|| of_lowest(body, half_space)))
+    // Telling what is refused computes, too.
+    with_default(|| {
+        half_space.check()?;
+        body.pose.check()?;
+        in_integers(|| of_lowest(body, half_space))
+    })
 }
 
 /// The same of what is sound, in the default floating-point environment.
@@ -91,7 +95,7 @@ pub(crate) fn of_lowest(body: Placed, half_space: &HalfSpace) -> SignedDistance 
     let [lower, upper] = interval;
     let distance = middle(interval);
     let point = polyhedron.vertices[lowest as usize].position;
-    let points = placed_points([polyhedron; 2], [pose; 2], &[point; 2]);
+    let points = placed_points(&Pair { polyhedra: [polyhedron; 2], poses: [pose; 2] }, &[point; 2]);
     let PlacedPoints { local: [local, _], world: [world, _] } = moved(&points, [pose; 2], &up, radii.outwards());
     let foot = (Vector::from(world) - Vector::from(up) * distance).into();
     SignedDistance {

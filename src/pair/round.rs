@@ -11,6 +11,7 @@ use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::base::simd::{self, Kernel, Lanes, Portable};
 use crate::body::polyhedron::{Polyhedron, Vertex};
 use crate::distance::certificate::{Interval, reciprocal_length};
+use crate::placed::Pair;
 use crate::placed::frame::{Frame, are_acceptable};
 use crate::placed::state::FeatureId;
 use crate::shape::Placed;
@@ -78,7 +79,7 @@ impl Round<'_> {
     #[inline(never)]
     fn answers_any(&self, polyhedra: [&Polyhedron; 2], place: Place) -> bool {
         let poses = self.poses();
-        let frame = Frame::<Portable>::new(polyhedra, poses);
+        let frame = Frame::<Portable>::new(&Pair { polyhedra, poses });
         // A point has no size that could be out of range: all errors are in proportion to the distance.
         let are_points = frame.size == 0.0 && are_acceptable(poses);
         (frame.in_range || are_points) && self.is_filled(&frame, place)
@@ -181,7 +182,7 @@ impl Kernel for OfRigid<'_, '_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Option<bool> {
-        let frame = Frame::<L>::of_rigid(self.polyhedra, self.round.poses());
+        let frame = Frame::<L>::of_rigid(&Pair { polyhedra: self.polyhedra, poses: self.round.poses() });
         let place = match &mut self.place {
             Place::Pair(query, answer) => Place::Pair(*query, answer),
             Place::Signed(answer) => Place::Signed(answer),

@@ -14,6 +14,7 @@ use crate::base::memory::in_integers;
 use crate::base::simd::environment::{self, with_default};
 use crate::depth;
 use crate::depth::{DepthAnswer, DepthCache, DepthConfig, DepthEnding, DepthStatistics};
+use crate::placed::Pair;
 use crate::placed::exact::{self, ExactDistance};
 use crate::shape::Placed;
 use std::cmp::Ordering;
@@ -389,9 +390,7 @@ struct Truth<'a> {
 impl Truth<'_> {
     fn get(&mut self) -> &ExactDistance {
         let [body1, body2] = self.bodies;
-        self.of_polyhedra.get_or_insert_with(|| {
-            exact::distance(body1.shape.polyhedron(), body1.pose, body2.shape.polyhedron(), body2.pose, &[])
-        })
+        self.of_polyhedra.get_or_insert_with(|| exact::distance(&Pair::of(&[body1, body2]), &[]))
     }
 
     /// Whether bodies are farther apart than the tolerance, if the interval of their distance does not tell.

@@ -10,6 +10,7 @@ use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
 use crate::base::scalar::{Ring, Scalar, constant};
 use crate::base::simd::Lanes;
 use crate::body::polyhedron::{LARGEST, Polyhedron, SMALLEST};
+use crate::placed::Pair;
 
 /// A rotation is taken for rigid when no entry of RᵀR − I exceeds this; the rounding of an orthonormal matrix to doubles leaves
 /// a few u.
@@ -137,7 +138,8 @@ pub struct Frame<'a, L> {
 impl<'a, L: Lanes> Frame<'a, L> {
     /// Prepares a pair. The frame is useless unless it is `in_range`.
     #[inline(always)]
-    pub fn new(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2]) -> Frame<'a, L> {
+    pub fn new(pair: &Pair<'a>) -> Frame<'a, L> {
+        let Pair { polyhedra, poses } = *pair;
         let placed = [PoseInLanes::<L>::new(poses[0]), PoseInLanes::<L>::new(poses[1])];
         let (mut in_range, mut skewed) = (true, [false; 2]);
         if !PoseInLanes::are_rigid(&placed) {
@@ -151,7 +153,7 @@ impl<'a, L: Lanes> Frame<'a, L> {
             translations: [placed[0].columns[3], placed[1].columns[3]],
         };
         if polyhedra.iter().any(|polyhedron| polyhedron.centre != Vector::zeros()) {
-            let centred = centred(polyhedra, poses);
+            let centred = centred(pair);
             origins = Origins {
                 offset: L::load(&centred.offset),
                 cancelled: centred.cancelled,
@@ -164,7 +166,8 @@ impl<'a, L: Lanes> Frame<'a, L> {
     /// [`Frame::new`] for [simple](Polyhedron::simple) bodies: only `in_range` if both poses are rigid and within range, without a
     /// closer look.
     #[inline(always)]
-    pub fn of_rigid(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2]) -> Frame<'a, L> {
+    pub fn of_rigid(pair: &Pair<'a>) -> Frame<'a, L> {
+        let Pair { polyhedra, poses } = *pair;
         let placed = [PoseInLanes::<L>::new(poses[0]), PoseInLanes::<L>::new(poses[1])];
         let [translation1, translation2] = [placed[0].columns[3], placed[1].columns[3]];
         let origins = Origins {
@@ -373,8 +376,9 @@ struct Centred {
 
 /// M's weight in `separation` covers the error of the offset: 2u·16u·M.
 #[cold]
-fn centred(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Centred {
-    let ([x, y, z], cancelled) = between_centres(polyhedra, poses);
+fn centred(pair: &Pair) -> Centred {
+    let Pair { polyhedra, poses } = *pair;
+    let ([x, y, z], cancelled) = between_centres(pair);
     let translations = [0, 1].map(|i| {
         let world = poses[i].transform(&polyhedra[i].centre);
         [world.x, world.y, world.z, 0.0]
@@ -386,7 +390,8 @@ fn centred(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Centred {
 ///
 /// Summed in double-double arithmetic and rounded once: the two sums may agree in nearly all digits. Each of the six sums errs by
 /// at most 3u² of a partial sum, all by 18u²·M.
-pub fn between_centres(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> ([f64; 3], f64) {
+pub fn between_centres(pair: &Pair) -> ([f64; 3], f64) {
+    let Pair { polyhedra, poses } = *pair;
     let mut offset = [0.0; 3];
     let mut cancelled = 0.0;
     for (i, out) in offset.iter_mut().enumerate() {

@@ -11,6 +11,7 @@ use crate::base::simd::{Lanes, Portable};
 use crate::body::polyhedron::{LARGEST, Polyhedron, SMALLEST};
 use crate::depth::polytope::farthest;
 use crate::pair::Placed;
+use crate::placed::Pair;
 use crate::placed::exact::body::Body;
 use crate::placed::exact::dyadic::DyadicVector;
 
@@ -36,7 +37,7 @@ pub fn support(body: Placed, direction: [f64; 3]) -> Result<SupportVertex> {
         };
         let position = polyhedron.vertices[vertex as usize].position;
         let radius = body.shape.swept_radius();
-        let points = placed_points([polyhedron; 2], [body.pose; 2], &[position; 2]);
+        let points = placed_points(&Pair { polyhedra: [polyhedron; 2], poses: [body.pose; 2] }, &[position; 2]);
         let outwards = normalised(&direction.into());
         let points = if radius > 0.0 { moved(&points, [body.pose; 2], &outwards, [radius; 2]) } else { points };
         Ok(SupportVertex {

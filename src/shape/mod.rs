@@ -482,12 +482,14 @@ impl Shape {
     /// [`Error::Memory`]; [`Error::Cancelled`] when the caller does not want to go on.
     pub fn scaled(&self, scale: f64, progress: &mut Progress) -> Result<Shape> {
         const FRACTION: u64 = (1 << 52) - 1;
-        if !(scale.is_normal() && scale > 0.0 && scale.to_bits() & FRACTION == 0) {
-            return Err(Error::Argument(format!(
-                "scale {scale:e} is no power of two, so vertices would be rounded: make the shape anew with that scale in its options"
-            )));
-        }
-        in_integers(|| with_default(|| file::scaled(self, scale, progress)))?
+        with_default(|| {
+            if !(scale.is_normal() && scale > 0.0 && scale.to_bits() & FRACTION == 0) {
+                return Err(Error::Argument(format!(
+                    "scale {scale:e} is no power of two, so vertices would be rounded: make the shape anew with that scale in its options"
+                )));
+            }
+            in_integers(|| file::scaled(self, scale, progress))?
+        })
     }
 
     /// The polyhedron that queries run on: P₀ of the levels of detail.

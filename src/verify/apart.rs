@@ -5,28 +5,23 @@ use super::checks::{allowed, between_origins, check_normal, check_unit, too_larg
 use super::witness::{Witness, difference_of};
 use crate::answer::{Outcome, PairAnswer, Radii, sum_above, sum_below};
 use crate::base::error::{Error, Result};
-use crate::base::math::{Pose, Vector, length};
+use crate::base::math::{Vector, length};
 use crate::base::memory::listed;
-use crate::body::polyhedron::Polyhedron;
+use crate::placed::Pair;
 use crate::placed::exact::{self, VertexPair};
 
 /// Proves verdict and interval, and checks the normal; returns the rounding allowance for a length.
-pub(super) fn verify_disjoint(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    radii: &Radii,
-    answer: &PairAnswer,
-) -> Result<f64> {
+pub(super) fn verify_disjoint(pair: &Pair, radii: &Radii, answer: &PairAnswer) -> Result<f64> {
     let normal = Vector::from(answer.normal);
     check_unit(&normal)?;
-    let proof = prove_interval(polyhedra, poses, radii, answer);
+    let proof = prove_interval(pair, radii, answer);
     if !(proof.lower && proof.upper) {
-        prove_interval_exactly(polyhedra, poses, radii, answer, &proof.near)?;
+        prove_interval_exactly(pair, radii, answer, &proof.near)?;
     }
-    let between = between_origins(polyhedra, poses);
-    let allowed = allowed(polyhedra, &between, radii.each).ok_or_else(too_large)?;
+    let between = between_origins(pair);
+    let allowed = allowed(pair.polyhedra, &between, radii.each).ok_or_else(too_large)?;
     if !proof.lower {
-        check_normal(polyhedra, poses, &normal, &between, answer.lower + radii.lower - allowed)?;
+        check_normal(pair, &normal, &between, answer.lower + radii.lower - allowed)?;
     }
     Ok(allowed)
 }
@@ -40,13 +35,13 @@ struct Proof {
 
 /// The interval of a disjoint pair that double-double arithmetic proves. The lower bound is the gap along the normal. The upper
 /// bound comes from the witness points if they are reported, else from the vertices that face each other.
-fn prove_interval(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, answer: &PairAnswer) -> Proof {
+fn prove_interval(pair: &Pair, radii: &Radii, answer: &PairAnswer) -> Proof {
     let most = sum_below(answer.upper, radii.lower);
     let nothing = Proof { lower: false, upper: answer.upper == f64::INFINITY, near: Vec::new() };
-    let Some(bounds) = Bounds::new(polyhedra, poses) else { return nothing };
+    let Some(bounds) = Bounds::new(pair) else { return nothing };
     let normal = Vector::from(answer.normal);
     let gap = bounds.gap(&normal);
-    let witnesses = Witness::of_both(polyhedra, poses, radii, &normal, answer);
+    let witnesses = Witness::of_both(pair, radii, &normal, answer);
     let points = [0, 1].map(|i| witnesses[i].point_inside().unwrap_or(PointInside::vertex(gap.vertices[i])));
     let mut near: Vec<VertexPair> = listed(points[0].vertices.iter().flat_map(|&v| points[1].vertices.map(|w| [v, w])));
     near.sort_unstable();
@@ -60,14 +55,8 @@ fn prove_interval(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii,
 }
 
 /// Proves the interval of a disjoint pair in integers, or refutes it.
-fn prove_interval_exactly(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    radii: &Radii,
-    answer: &PairAnswer,
-    near: &[VertexPair],
-) -> Result<()> {
-    let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], near);
+fn prove_interval_exactly(pair: &Pair, radii: &Radii, answer: &PairAnswer, near: &[VertexPair]) -> Result<()> {
+    let truth = exact::distance(pair, near);
     let ([least1, least2], [most1, most2, deviation]) = (radii.each, radii.most());
     let against = |length: f64| truth.compare_sum(&[length, most1, most2, deviation]);
     // Not 0, even where it is less than the least double.
@@ -94,15 +83,9 @@ pub(super) fn not_in_interval(truth: &exact::ExactDistance, radii: &Radii, answe
 }
 
 /// The points are on their features, and as far apart as the interval requires.
-pub(super) fn check_points(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    radii: &Radii,
-    allowed: f64,
-    answer: &PairAnswer,
-) -> Result<()> {
+pub(super) fn check_points(pair: &Pair, radii: &Radii, allowed: f64, answer: &PairAnswer) -> Result<()> {
     let PairAnswer { lower, upper, .. } = *answer;
-    let apart = length(&check_on_features(polyhedra, poses, radii, allowed, answer)?);
+    let apart = length(&check_on_features(pair, radii, allowed, answer)?);
     if apart >= lower + radii.lower - allowed && apart <= upper + radii.upper + allowed {
         return Ok(());
     }
@@ -110,19 +93,13 @@ pub(super) fn check_points(
 }
 
 /// The points are on their features; from that of the second polyhedron to that of the first, in the world.
-pub(super) fn check_on_features(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    radii: &Radii,
-    allowed: f64,
-    answer: &PairAnswer,
-) -> Result<Vector> {
-    let witnesses = Witness::of_both(polyhedra, poses, radii, &answer.normal.into(), answer);
+pub(super) fn check_on_features(pair: &Pair, radii: &Radii, allowed: f64, answer: &PairAnswer) -> Result<Vector> {
+    let witnesses = Witness::of_both(pair, radii, &answer.normal.into(), answer);
     for witness in &witnesses {
         witness.check_point(allowed)?;
         witness.check_feature()?;
         // A point is on the surface as far as the interval tells that it is nearest.
         witness.check_on_feature(allowed + (answer.upper - answer.lower))?;
     }
-    Ok(difference_of(polyhedra, poses, &witnesses))
+    Ok(difference_of(pair, &witnesses))
 }

@@ -5,6 +5,7 @@ use crate::base::double_double::{DoubleDouble, WideVector, narrow, two_product, 
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp, divisor, length, power_of_two};
 use crate::base::scalar::Ring;
 use crate::body::polyhedron::{Polyhedron, Vertex};
+use crate::placed::Pair;
 use crate::placed::exact::VertexPair;
 
 /// The error of any length computed here, as a multiple of the size of the pair. A coordinate of R₁·x − R₂·y + Δ takes twelve
@@ -14,8 +15,7 @@ pub const ERROR: f64 = f64::from_bits((1023 - 94) << 52);
 
 /// A pair of placed bodies, of any magnitudes, in a unit of length in which its size is near 1.
 pub struct Bounds<'a> {
-    polyhedra: [&'a Polyhedron; 2],
-    poses: [&'a Pose; 2],
+    pair: Pair<'a>,
     /// A length in units of the pair is this times as large, a power of two. Thus lengths and coordinates are exact except for
     /// underflow, of less than the least double each, where 2⁻⁷⁴ and more are the size: of subnormal lengths not more is left.
     unit: f64,
@@ -37,7 +37,8 @@ const MOST_SCALED: i32 = 1000;
 
 impl<'a> Bounds<'a> {
     /// `None` of two points in one place, and where the size overflows.
-    pub fn new(polyhedra: [&'a Polyhedron; 2], poses: [&'a Pose; 2]) -> Option<Bounds<'a>> {
+    pub fn new(pair: &Pair<'a>) -> Option<Bounds<'a>> {
+        let Pair { polyhedra, poses } = *pair;
         let [translation1, translation2] = poses.map(Pose::translation);
         let apart = wide_difference(&translation1, &translation2);
         // The 1-norm of R·p is at most 1.8|p|, for an accepted R.
@@ -50,7 +51,7 @@ impl<'a> Bounds<'a> {
         let in_units = |x: DoubleDouble| DoubleDouble { hi: x.hi * unit, lo: x.lo * unit };
         let [centre1, centre2] = [0, 1].map(|i| rotate(poses[i], &widen(&(polyhedra[i].centre * unit))));
         let between = plus_difference(&apart.map(in_units), &centre1, &centre2);
-        Some(Bounds { polyhedra, poses, unit, between, error: ERROR * (size * unit) })
+        Some(Bounds { pair: *pair, unit, between, error: ERROR * (size * unit) })
     }
 
     /// The most by which a coordinate of [`Bounds::difference`] is off.
@@ -75,8 +76,8 @@ impl<'a> Bounds<'a> {
     /// The largest value of a world direction over all vertices of a body, about its centred origin, and a vertex that has it.
     /// Doubles determine which vertices may have it.
     fn highest(&self, body: usize, direction: &WideVector) -> (DoubleDouble, u32) {
-        let (polyhedron, unit) = (self.polyhedra[body], self.unit);
-        let direction = rotate_back(self.poses[body], direction);
+        let (polyhedron, unit) = (self.pair.polyhedra[body], self.unit);
+        let direction = rotate_back(self.pair.poses[body], direction);
         let rounded = narrow(&direction);
         let value = |vertex: &Vertex| rounded.dot(&(vertex.position * unit));
         let most = polyhedron.vertices.iter().map(value).fold(f64::NEG_INFINITY, f64::max);
@@ -107,8 +108,8 @@ impl<'a> Bounds<'a> {
     /// The difference of two vertices, right to the error of a length in each coordinate.
     pub fn difference(&self, pair: VertexPair) -> WideVector {
         let [point1, point2] = [0, 1].map(|i| {
-            let vertex = &self.polyhedra[i].vertices[pair[i] as usize];
-            rotate(self.poses[i], &widen(&(vertex.position * self.unit)))
+            let vertex = &self.pair.polyhedra[i].vertices[pair[i] as usize];
+            rotate(self.pair.poses[i], &widen(&(vertex.position * self.unit)))
         });
         plus_difference(&self.between, &point1, &point2)
     }
@@ -134,7 +135,8 @@ impl<'a> Bounds<'a> {
 
     /// Whether a point of each body proves the distance to be at most `upper`.
     pub fn prove_upper(&self, points: &[PointInside; 2], upper: f64) -> bool {
-        let [point1, point2] = [0, 1].map(|i| rotate(self.poses[i], &points[i].position(self.polyhedra[i], self.unit)));
+        let [point1, point2] =
+            [0, 1].map(|i| rotate(self.pair.poses[i], &points[i].position(self.pair.polyhedra[i], self.unit)));
         let upper = self.in_units(upper);
         let difference = plus_difference(&self.between, &point1, &point2);
         let (square, most) = (wide_dot(&difference, &difference), two_product(upper, upper));

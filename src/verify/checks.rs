@@ -2,14 +2,16 @@
 
 use crate::answer::PairAnswer;
 use crate::base::error::{Error, Result};
-use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, length};
+use crate::base::math::{UNIT_ROUNDOFF as U, Vector, length};
 use crate::base::memory::{in_integers, listed};
 use crate::base::simd::environment::with_default;
 use crate::body::polyhedron::Polyhedron;
+use crate::placed::Pair;
 use crate::placed::exact::VertexPair;
 
 /// From the centred origin of object 2 to that of object 1. Translations first, so that bodies far out lose no digits.
-pub(super) fn between_origins(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> Vector {
+pub(super) fn between_origins(pair: &Pair) -> Vector {
+    let Pair { polyhedra, poses } = *pair;
     (poses[0].translation() - poses[1].translation())
         + (poses[0].rotate(&polyhedra[0].centre) - poses[1].rotate(&polyhedra[1].centre))
 }
@@ -25,13 +27,8 @@ pub(super) fn allowed(polyhedra: [&Polyhedron; 2], between: &Vector, swept: [f64
 }
 
 /// Along the normal the bodies are at least `least` apart, as far as doubles tell.
-pub(super) fn check_normal(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    normal: &Vector,
-    between: &Vector,
-    least: f64,
-) -> Result<()> {
+pub(super) fn check_normal(pair: &Pair, normal: &Vector, between: &Vector, least: f64) -> Result<()> {
+    let Pair { polyhedra, poses } = *pair;
     let support = |i: usize, direction: Vector| {
         let local = poses[i].rotate_back(&direction);
         polyhedra[i].vertices.iter().map(|v| local.dot(&v.position)).fold(f64::NEG_INFINITY, f64::max)

@@ -13,11 +13,11 @@ use super::numbers::{are_points_said, check_numbers};
 use crate::answer::{Outcome, PairAnswer, Radii, sum_above, sum_below};
 use crate::base::double_double::{narrow, wide_cross, wide_dot, widen};
 use crate::base::error::{Error, Result};
-use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp, length};
+use crate::base::math::{UNIT_ROUNDOFF as U, Vector, clamp, length};
 use crate::base::memory::listed;
 use crate::base::scalar::determinant;
-use crate::body::polyhedron::Polyhedron;
 use crate::depth::{DepthAnswer, DepthCache, PYRAMIDS, ProofFrom, proof};
+use crate::placed::Pair;
 use crate::placed::exact::{self, Differences, Position, Supports, VertexPair};
 use crate::shape::Placed;
 use std::cmp::Ordering;
@@ -44,23 +44,24 @@ use std::cmp::Ordering;
 /// # Errors
 /// As of [`super::verify`]; [`Error::Argument`] also for an `upper` of infinity, a depth beyond the largest double.
 pub fn verify_depth(bodies: [Placed; 2], cache: &DepthCache, answer: &DepthAnswer) -> Result<()> {
-    let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
+    let pair = &Pair::of(&bodies);
     let radii = Radii::of(&bodies).unwrap_or(Radii::NONE);
     in_default(|| {
-        poses.iter().try_for_each(|pose| pose.check())?;
+        pair.poses.iter().try_for_each(|pose| pose.check())?;
         if answer.outcome != Outcome::None {
             check_numbers(&answer.into())?;
         }
         match answer.outcome {
-            Outcome::Intersecting => check_overlapping(polyhedra, poses, cache, &radii, answer),
-            Outcome::Separated => check_separated(polyhedra, poses, &radii, answer),
-            Outcome::Undecided => check_hidden(polyhedra, poses, &radii, answer),
+            Outcome::Intersecting => check_overlapping(pair, cache, &radii, answer),
+            Outcome::Separated => check_separated(pair, &radii, answer),
+            Outcome::Undecided => check_hidden(pair, &radii, answer),
             _ => Err(Error::Argument("the answer holds no depth".into())),
         }
     })
 }
 
-fn check_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, answer: &DepthAnswer) -> Result<()> {
+fn check_separated(pair: &Pair, radii: &Radii, answer: &DepthAnswer) -> Result<()> {
+    let polyhedra = pair.polyhedra;
     if (answer.lower, answer.depth, answer.upper) != (0.0, 0.0, 0.0) {
         return Err(unverified("a depth of objects that are said to be separated".into()));
     }
@@ -69,23 +70,23 @@ fn check_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii
     }
     let normal = Vector::from(answer.normal);
     check_unit(&normal)?;
-    let bounds = Bounds::new(polyhedra, poses);
+    let bounds = Bounds::new(pair);
     // For bodies without radii, more than 0 is proved; for others, more than their sum.
     let least = if radii.upper > 0.0 { radii.upper.next_up() } else { 0.0 };
     if bounds.is_some_and(|bounds| bounds.prove_lower(&bounds.gap(&normal), &normal, least)) {
         return Ok(());
     }
-    let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
+    let truth = exact::distance(pair, &[]);
     if truth.compare_sum(&radii.most()).is_le() {
         return Err(unverified("the objects have a common point".into()));
     }
-    let between = between_origins(polyhedra, poses);
+    let between = between_origins(pair);
     let allowed = allowed(polyhedra, &between, radii.each).ok_or_else(too_large)?;
-    check_normal(polyhedra, poses, &normal, &between, radii.lower - allowed)
+    check_normal(pair, &normal, &between, radii.lower - allowed)
 }
 
 /// Curved bodies whose polyhedra are apart, and may themselves be.
-fn check_hidden(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, answer: &DepthAnswer) -> Result<()> {
+fn check_hidden(pair: &Pair, radii: &Radii, answer: &DepthAnswer) -> Result<()> {
     let &DepthAnswer { outcome, lower, depth, upper, local1, local2, world1, world2, normal, .. } = answer;
     let &DepthAnswer { feature1, feature2, .. } = answer;
     check_interval(answer)?;
@@ -95,8 +96,8 @@ fn check_hidden(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, a
     let points = PairAnswer { local1, local2, world1, world2, normal, feature1, feature2, ..PairAnswer::UNSAID };
     // Their distance is at most what the deviations are.
     let signed = PairAnswer { outcome, lower: -upper, distance: -depth, upper: radii.deviation, ..points };
-    let allowed = verify_disjoint(polyhedra, poses, radii, &signed)?;
-    check_points(polyhedra, poses, radii, allowed, &signed)
+    let allowed = verify_disjoint(pair, radii, &signed)?;
+    check_points(pair, radii, allowed, &signed)
 }
 
 fn check_interval(answer: &DepthAnswer) -> Result<()> {
@@ -110,18 +111,12 @@ fn check_interval(answer: &DepthAnswer) -> Result<()> {
     Err(unverified(format!("not 0 ≤ lower ≤ depth ≤ upper: {lower:e}, {depth:e}, {upper:e}")))
 }
 
-fn check_overlapping(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    cache: &DepthCache,
-    radii: &Radii,
-    answer: &DepthAnswer,
-) -> Result<()> {
+fn check_overlapping(pair: &Pair, cache: &DepthCache, radii: &Radii, answer: &DepthAnswer) -> Result<()> {
     let &DepthAnswer { outcome, lower, depth, upper, local1, local2, world1, world2, normal, .. } = answer;
     let &DepthAnswer { feature1, feature2, .. } = answer;
     check_interval(answer)?;
     let normal = Vector::from(normal);
-    let (position, allowed) = prove_depth(polyhedra, poses, cache, radii, &normal, [lower, upper])?;
+    let (position, allowed) = prove_depth(pair, cache, radii, &normal, [lower, upper])?;
     let signed = PairAnswer {
         outcome,
         lower: -upper,
@@ -137,9 +132,9 @@ fn check_overlapping(
         ..PairAnswer::UNSAID
     };
     if position == Polyhedra::Apart {
-        return check_points(polyhedra, poses, radii, allowed, &signed);
+        return check_points(pair, radii, allowed, &signed);
     }
-    let apart = check_on_features(polyhedra, poses, radii, allowed, &signed)?;
+    let apart = check_on_features(pair, radii, allowed, &signed)?;
     let off = length(&(apart + normal * (depth - radii.upper)));
     if off <= allowed + (upper - lower) {
         return Ok(());
@@ -159,27 +154,27 @@ pub(super) enum Polyhedra {
 /// Proves that the depth of objects is in an interval, and checks the normal; returns where the polyhedra are, and the rounding
 /// allowance for a length.
 pub(super) fn prove_depth(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
+    pair: &Pair,
     cache: &DepthCache,
     radii: &Radii,
     normal: &Vector,
     [lower, upper]: [f64; 2],
 ) -> Result<(Polyhedra, f64)> {
+    let polyhedra = pair.polyhedra;
     let is_round = radii.upper > 0.0;
     if is_round {
-        let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
+        let truth = exact::distance(pair, &[]);
         if !truth.is_zero() {
             check_swept_position(&truth, radii, upper)?;
             let (outcome, normal) = (Outcome::Intersecting, (*normal).into());
             let signed =
                 PairAnswer { outcome, lower: -upper, distance: -upper, upper: -lower, normal, ..PairAnswer::UNSAID };
-            return Ok((Polyhedra::Apart, verify_disjoint(polyhedra, poses, radii, &signed)?));
+            return Ok((Polyhedra::Apart, verify_disjoint(pair, radii, &signed)?));
         }
     }
     check_unit(normal)?;
-    let facts = Facts::new(polyhedra, poses);
-    let between = between_origins(polyhedra, poses);
+    let facts = Facts::new(pair);
+    let between = between_origins(pair);
     let allowed = allowed(polyhedra, &between, radii.each).ok_or_else(too_large)?;
     // The remainder for the polyhedra, rounded inwards.
     let (least, most) = (sum_above(lower, -radii.lower), sum_below(upper, -radii.upper));
@@ -192,7 +187,7 @@ pub(super) fn prove_depth(
     }
     // Round objects whose polyhedra have a common point overlap in any case.
     if most == 0.0 || (least <= 0.0 && !is_round) {
-        check_position(polyhedra, poses, most)?;
+        check_position(pair, most)?;
     }
     Ok((Polyhedra::Meeting, allowed))
 }
@@ -210,8 +205,8 @@ fn check_swept_position(truth: &exact::ExactDistance, radii: &Radii, upper: f64)
 }
 
 /// If the ends are 0, the position must be proved.
-fn check_position(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], upper: f64) -> Result<()> {
-    match exact::locate(polyhedra, poses, &[], Supports::OfAll) {
+fn check_position(pair: &Pair, upper: f64) -> Result<()> {
+    match exact::locate(pair, &[], Supports::OfAll) {
         Position::Separated(_) => Err(unverified("the objects have no common point".into())),
         Position::Touching { .. } if upper > 0.0 => Err(unverified("an overlap of objects that only touch".into())),
         Position::Overlapping(_) if upper == 0.0 => Err(unverified("no overlap of objects that overlap".into())),
@@ -222,11 +217,11 @@ fn check_position(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], upper: f64) ->
 /// Whether four differences of vertices that prove an intersection hold a ball around the origin in their hull: objects are as deep
 /// in each other as its radius, more than 0.
 pub(crate) fn holds_ball(bodies: [Placed; 2], answer: &PairAnswer, radius: f64) -> bool {
-    let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
-    let pairs = proof_of(polyhedra, answer).unwrap_or_default();
+    let pair = &Pair::of(&bodies);
+    let pairs = proof_of(pair.polyhedra, answer).unwrap_or_default();
     let &[p, q, r, s] = pairs.as_slice() else { return false };
     let tetrahedron = [[p, q, r], [p, s, q], [q, s, r], [p, r, s]];
-    encloses_ball(&Facts::new(polyhedra, poses), &tetrahedron, radius).is_ok()
+    encloses_ball(&Facts::new(pair), &tetrahedron, radius).is_ok()
 }
 
 /// The objects overlap by at most `upper` along the normal; of 0 that holds as far as the normal is rounded. Objects with a common
@@ -260,14 +255,14 @@ fn prove_lower(facts: &Facts, cache: &DepthCache, lower: f64) -> Result<()> {
     let mut why = Ok(());
     let pyramids = (0..PYRAMIDS).map(|place| ProofFrom::Pyramid(cache, place));
     for from in pyramids.chain([ProofFrom::Cache(cache), ProofFrom::Search(0.0), ProofFrom::Search(lower)]) {
-        let polytope = proof(facts.polyhedra, facts.poses, from)?;
+        let polytope = proof(&facts.pair, from)?;
         why = encloses_ball(facts, &polytope, lower);
         if why.is_ok() {
             return Ok(());
         }
     }
-    let by_facets = |bounds| facets::prove_lower(facts.polyhedra, bounds, &facts.exact, lower);
-    if facts.bounds.as_ref().is_some_and(by_facets) || facets::prove_point(facts.polyhedra, &facts.exact, lower) {
+    let by_facets = |bounds| facets::prove_lower(facts.pair.polyhedra, bounds, &facts.exact, lower);
+    if facts.bounds.as_ref().is_some_and(by_facets) || facets::prove_point(facts.pair.polyhedra, &facts.exact, lower) {
         return Ok(());
     }
     why.map_err(|why| unverified(format!("a depth of at least {lower:e} is not proved: {why}")))
@@ -333,15 +328,14 @@ pub const CLEAR: f64 = 16.0 * U;
 
 /// Provable facts about vertex differences.
 struct Facts<'a> {
-    polyhedra: [&'a Polyhedron; 2],
-    poses: [&'a Pose; 2],
+    pair: Pair<'a>,
     exact: Differences<'a>,
     bounds: Option<Bounds<'a>>,
 }
 
 impl<'a> Facts<'a> {
-    fn new(polyhedra: [&'a Polyhedron; 2], poses: [&'a Pose; 2]) -> Facts<'a> {
-        Facts { polyhedra, poses, exact: Differences::new(polyhedra, poses), bounds: Bounds::new(polyhedra, poses) }
+    fn new(pair: &Pair<'a>) -> Facts<'a> {
+        Facts { pair: *pair, exact: Differences::new(pair), bounds: Bounds::new(pair) }
     }
 
     /// A difference in units of the pair, right to [`Facts::position_error`] and u of itself.

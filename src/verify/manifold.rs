@@ -12,6 +12,7 @@ use crate::base::error::{Error, Result};
 use crate::base::math::{Vector, length};
 use crate::body::polyhedron::{Face, Polyhedron};
 use crate::manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, id_of};
+use crate::placed::Pair;
 use crate::shape::Placed;
 
 /// Relative to the size of the pair: how far a point may be off the surface that it is on, beside noise and rounding. Places up
@@ -66,7 +67,7 @@ pub fn verify_manifold(
         check_counts(config, manifold)?;
         let radii = Radii::of(&bodies).unwrap_or(Radii::NONE);
         let allowed = check_contact(bodies, cache, config, &radii, manifold)?;
-        let check = Check::new(bodies, config, radii, manifold, allowed);
+        let check = Check::new(Pair::of(&bodies), config, radii, manifold, allowed);
         points
             .iter()
             .enumerate()
@@ -98,7 +99,7 @@ fn check_contact(
     radii: &Radii,
     manifold: &Manifold,
 ) -> Result<f64> {
-    let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
+    let pair = &Pair::of(&bodies);
     let Manifold { outcome, lower, upper, normal, .. } = *manifold;
     let is_sound = match outcome {
         // Deeper than the largest double.
@@ -118,17 +119,16 @@ fn check_contact(
         return Err(unverified(format!("an interval from lower to upper of {lower:e}, {upper:e}: {outcome:?}")));
     }
     if outcome == Outcome::Intersecting {
-        let (_, allowed) = prove_depth(polyhedra, poses, cache.depth(), radii, &normal.into(), [-upper, -lower])?;
+        let (_, allowed) = prove_depth(pair, cache.depth(), radii, &normal.into(), [-upper, -lower])?;
         return Ok(allowed);
     }
     let apart = PairAnswer { outcome, lower, distance: lower, upper, normal, ..PairAnswer::UNSAID };
-    verify_disjoint(polyhedra, poses, radii, &apart)
+    verify_disjoint(pair, radii, &apart)
 }
 
 /// The reference that points are checked against.
 struct Check<'a> {
-    bodies: [Placed<'a>; 2],
-    polyhedra: [&'a Polyhedron; 2],
+    pair: Pair<'a>,
     config: &'a ManifoldConfig,
     radii: Radii,
     manifold: &'a Manifold,
@@ -144,27 +144,27 @@ struct Check<'a> {
 
 impl<'a> Check<'a> {
     fn new(
-        bodies: [Placed<'a>; 2],
+        pair: Pair<'a>,
         config: &'a ManifoldConfig,
         radii: Radii,
         manifold: &'a Manifold,
         allowed: f64,
     ) -> Check<'a> {
-        let polyhedra = bodies.map(|body| body.shape.polyhedron());
-        let between = between_origins(polyhedra, bodies.map(|body| body.pose));
+        let Pair { polyhedra, poses } = pair;
+        let between = between_origins(&pair);
         let size = polyhedra[0].radius + polyhedra[1].radius + length(&between);
         let slack =
             |polyhedron: &Polyhedron| polyhedron.contact_faces.faces.iter().map(|face| face.slack).fold(0.0, f64::max);
         let slacks = polyhedra.map(slack);
         let near = allowed + NEAR * size + NOISE * 2.0 * (slacks[0] + slacks[1]);
         // A pose that stretches makes a slab as much thicker.
-        let out = [0, 1].map(|i| OUT * allowed + slacks[i] * bodies[i].pose.most_stretched());
+        let out = [0, 1].map(|i| OUT * allowed + slacks[i] * poses[i].most_stretched());
         let normal = Vector::from(manifold.normal);
-        let reach = Bounds::new(polyhedra, bodies.map(|body| body.pose)).map(|bounds| {
+        let reach = Bounds::new(&pair).map(|bounds| {
             let gaps = [bounds.gap(&normal), bounds.gap(&-normal)];
             (bounds, gaps)
         });
-        Check { bodies, polyhedra, config, radii, manifold, allowed, near, out, reach }
+        Check { pair, config, radii, manifold, allowed, near, out, reach }
     }
 
     fn check_point(&self, point: &ManifoldPoint) -> Result<()> {
@@ -184,14 +184,13 @@ impl<'a> Check<'a> {
             normal: self.manifold.normal,
             ..PairAnswer::UNSAID
         };
-        let poses = self.bodies.map(|body| body.pose);
-        let witnesses = Witness::of_both(self.polyhedra, poses, &self.radii, &normal, &said);
+        let witnesses = Witness::of_both(&self.pair, &self.radii, &normal, &said);
         for ((witness, towards), out) in witnesses.iter().zip([-normal, normal]).zip(self.out) {
             witness.check_point(out)?;
             self.check_feature(witness)?;
             self.check_facing(witness, &towards, gap_upper - gap_lower)?;
         }
-        let apart = difference_of(self.polyhedra, poses, &witnesses);
+        let apart = difference_of(&self.pair, &witnesses);
         let along = normal.dot(&apart);
         let gap = along - self.radii.upper;
         let has_end = gap_upper < f64::INFINITY || gap_lower == f64::MAX;

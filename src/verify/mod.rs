@@ -14,9 +14,9 @@ mod manifold;
 
 use crate::answer::{DecidedBy, Outcome, PairAnswer, Radii};
 use crate::base::error::{Error, Result};
-use crate::base::math::{Pose, Vector, length};
+use crate::base::math::{Vector, length};
 use crate::base::memory::listed;
-use crate::body::polyhedron::Polyhedron;
+use crate::placed::Pair;
 use crate::placed::exact::{self, VertexPair};
 use crate::shape::Placed;
 use apart::{check_points, not_in_interval, verify_disjoint};
@@ -79,9 +79,9 @@ pub fn verify(bodies: [Placed; 2], answer: &PairAnswer) -> Result<()> {
 }
 
 fn check_answer(bodies: [Placed; 2], answer: &PairAnswer) -> Result<()> {
-    let (polyhedra, poses) = (bodies.map(|body| body.shape.polyhedron()), bodies.map(|body| body.pose));
+    let pair = &Pair::of(&bodies);
     let radii = Radii::of(&bodies).unwrap_or(Radii::NONE);
-    for pose in poses {
+    for pose in pair.poses {
         pose.check()?;
     }
     if answer.outcome != Outcome::None {
@@ -92,14 +92,14 @@ fn check_answer(bodies: [Placed; 2], answer: &PairAnswer) -> Result<()> {
     }
     match answer.outcome {
         Outcome::None => Err(Error::Argument("the answer holds no outcome".into())),
-        Outcome::Separated => verify_separated(polyhedra, poses, &radii, answer),
-        Outcome::Beyond => verify_beyond(polyhedra, poses, &radii, answer),
-        Outcome::Intersecting => verify_intersecting(polyhedra, poses, &radii, answer),
-        Outcome::Undecided => verify_undecided(polyhedra, poses, &radii, answer),
+        Outcome::Separated => verify_separated(pair, &radii, answer),
+        Outcome::Beyond => verify_beyond(pair, &radii, answer),
+        Outcome::Intersecting => verify_intersecting(pair, &radii, answer),
+        Outcome::Undecided => verify_undecided(pair, &radii, answer),
     }
 }
 
-fn verify_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, answer: &PairAnswer) -> Result<()> {
+fn verify_separated(pair: &Pair, radii: &Radii, answer: &PairAnswer) -> Result<()> {
     let PairAnswer { lower, upper, distance, .. } = *answer;
     // A distance below the smallest double leaves `lower` at 0. Without an upper end is a distance above the largest, and one of
     // which only a separating direction is known: that has no points.
@@ -109,37 +109,37 @@ fn verify_separated(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radi
             "not 0 ≤ lower ≤ distance ≤ upper < ∞, 0 < upper: {lower:e}, {distance:e}, {upper:e}"
         )));
     }
-    let allowed = verify_disjoint(polyhedra, poses, radii, answer)?;
+    let allowed = verify_disjoint(pair, radii, answer)?;
     if !are_points_said(&answer.into()) {
         return Ok(());
     }
-    check_points(polyhedra, poses, radii, allowed, answer)
+    check_points(pair, radii, allowed, answer)
 }
 
-fn verify_beyond(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, answer: &PairAnswer) -> Result<()> {
+fn verify_beyond(pair: &Pair, radii: &Radii, answer: &PairAnswer) -> Result<()> {
     let PairAnswer { lower, upper, distance, .. } = *answer;
     if !(lower >= 0.0 && distance == lower && upper == f64::INFINITY) {
         return Err(unverified(format!("not 0 ≤ lower = distance, upper = ∞: {lower:e}, {distance:e}, {upper:e}")));
     }
     check_no_points(answer)?;
-    verify_disjoint(polyhedra, poses, radii, answer).map(|_| ())
+    verify_disjoint(pair, radii, answer).map(|_| ())
 }
 
 /// An interval proves no more than that the objects are not farther apart.
-fn verify_undecided(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, answer: &PairAnswer) -> Result<()> {
+fn verify_undecided(pair: &Pair, radii: &Radii, answer: &PairAnswer) -> Result<()> {
     let PairAnswer { lower, upper, distance, .. } = *answer;
     if !(lower == 0.0 && 0.0 <= distance && distance <= upper) {
         return Err(unverified(format!("not 0 = lower ≤ distance ≤ upper: {lower:e}, {distance:e}, {upper:e}")));
     }
     if radii.deviation > 0.0 && answer.decided_by != DecidedBy::Budget {
-        return verify_hidden(polyhedra, poses, radii, answer);
+        return verify_hidden(pair, radii, answer);
     }
     check_no_points(answer)?;
     check_no_normal(answer)?;
     if upper == f64::INFINITY {
         return Ok(());
     }
-    let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
+    let truth = exact::distance(pair, &[]);
     let [radius1, radius2] = radii.each;
     if truth.compare_sum(&[upper, radius1, radius2]).is_gt() {
         Err(not_in_interval(&truth, radii, answer))
@@ -149,12 +149,12 @@ fn verify_undecided(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radi
 }
 
 /// The polyhedra are apart: the bodies are no deeper in each other than all that is swept and their deviations.
-fn verify_hidden(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], radii: &Radii, answer: &PairAnswer) -> Result<()> {
-    let allowed = verify_disjoint(polyhedra, poses, radii, &PairAnswer { lower: -radii.upper, ..*answer })?;
+fn verify_hidden(pair: &Pair, radii: &Radii, answer: &PairAnswer) -> Result<()> {
+    let allowed = verify_disjoint(pair, radii, &PairAnswer { lower: -radii.upper, ..*answer })?;
     if !are_points_said(&answer.into()) {
         return Ok(());
     }
-    check_points(polyhedra, poses, radii, allowed, answer)
+    check_points(pair, radii, allowed, answer)
 }
 
 fn check_no_points(answer: &PairAnswer) -> Result<()> {
@@ -171,67 +171,52 @@ fn check_no_normal(answer: &PairAnswer) -> Result<()> {
     Err(unverified(format!("a normal of an answer that says no points: {:?}", answer.normal)))
 }
 
-fn verify_intersecting(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    radii: &Radii,
-    answer: &PairAnswer,
-) -> Result<()> {
+fn verify_intersecting(pair: &Pair, radii: &Radii, answer: &PairAnswer) -> Result<()> {
+    let polyhedra = pair.polyhedra;
     if answer.proof_count == 0 && (answer.decided_by == DecidedBy::InscribedSpheres || radii.upper > 0.0) {
-        return verify_without_proof(polyhedra, poses, radii, answer);
+        return verify_without_proof(pair, radii, answer);
     }
     if (answer.lower, answer.upper, answer.distance) != (0.0, 0.0, 0.0) {
         return Err(unverified("an intersection with a distance that is not 0".into()));
     }
     let pairs = proof_of(polyhedra, answer)?;
-    if !exact::encloses_origin(polyhedra[0], poses[0], polyhedra[1], poses[1], &pairs) {
+    if !exact::encloses_origin(pair, &pairs) {
         return Err(unverified("the proof's vertex differences do not hold the origin in their hull".into()));
     }
     if !are_points_said(&answer.into()) {
         return check_no_normal(answer);
     }
     // The point is a convex combination of the proof's vertices.
-    check_common_point(polyhedra, poses, &Radii::NONE, answer, &pairs)
+    check_common_point(pair, &Radii::NONE, answer, &pairs)
 }
 
 /// Overlapping balls, and swept radii, leave no vertex pairs as a proof: integers decide anew.
-fn verify_without_proof(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    radii: &Radii,
-    answer: &PairAnswer,
-) -> Result<()> {
+fn verify_without_proof(pair: &Pair, radii: &Radii, answer: &PairAnswer) -> Result<()> {
     if (answer.lower, answer.upper, answer.distance) != (0.0, 0.0, 0.0) {
         return Err(unverified("an intersection with a distance that is not 0".into()));
     }
-    let truth = exact::distance(polyhedra[0], poses[0], polyhedra[1], poses[1], &[]);
+    let truth = exact::distance(pair, &[]);
     if truth.compare_sum(&radii.each).is_gt() {
         return Err(not_in_interval(&truth, radii, answer));
     }
     if are_points_said(&answer.into()) && radii.upper > 0.0 {
-        return check_common_point(polyhedra, poses, radii, answer, &[]);
+        return check_common_point(pair, radii, answer, &[]);
     }
     check_no_points(answer)?;
     check_no_normal(answer)
 }
 
 /// One point, which is no farther from either polyhedron than its radius; `proof` has vertices around it.
-fn check_common_point(
-    polyhedra: [&Polyhedron; 2],
-    poses: [&Pose; 2],
-    radii: &Radii,
-    answer: &PairAnswer,
-    proof: &[VertexPair],
-) -> Result<()> {
-    let allowed = allowed(polyhedra, &between_origins(polyhedra, poses), radii.each).ok_or_else(too_large)?;
+fn check_common_point(pair: &Pair, radii: &Radii, answer: &PairAnswer, proof: &[VertexPair]) -> Result<()> {
+    let allowed = allowed(pair.polyhedra, &between_origins(pair), radii.each).ok_or_else(too_large)?;
     check_unit(&answer.normal.into())?;
-    let witnesses = Witness::of_both(polyhedra, poses, radii, &Vector::zeros(), answer);
+    let witnesses = Witness::of_both(pair, radii, &Vector::zeros(), answer);
     for (i, witness) in witnesses.iter().enumerate() {
         let around = listed(proof.iter().map(|pair| pair[i]));
         witness.check_swept_point(allowed, &around)?;
         witness.check_feature()?;
     }
-    let apart = length(&difference_of(polyhedra, poses, &witnesses));
+    let apart = length(&difference_of(pair, &witnesses));
     if apart <= allowed {
         return Ok(());
     }

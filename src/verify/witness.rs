@@ -10,6 +10,7 @@ use crate::base::math::{Pose, STRETCH, UNIT_ROUNDOFF as U, Vector, length};
 use crate::base::memory::listed;
 use crate::body::build::assembly::build;
 use crate::body::polyhedron::{Face, Polyhedron};
+use crate::placed::Pair;
 use crate::placed::exact::{self, Differences};
 
 /// A witness point as reported by an answer.
@@ -35,19 +36,13 @@ pub struct Witness<'a> {
 impl<'a> Witness<'a> {
     /// The witnesses of both objects, from an answer of any kind. The points stand for those a swept radius off along a normal,
     /// or along zeros for themselves.
-    pub fn of_both(
-        polyhedra: [&'a Polyhedron; 2],
-        poses: [&'a Pose; 2],
-        radii: &Radii,
-        normal: &Vector,
-        answer: &PairAnswer,
-    ) -> [Witness<'a>; 2] {
+    pub fn of_both(pair: &Pair<'a>, radii: &Radii, normal: &Vector, answer: &PairAnswer) -> [Witness<'a>; 2] {
         let (locals, worlds) = ([answer.local1, answer.local2], [answer.world1, answer.world2]);
         let features = [answer.feature1, answer.feature2];
         std::array::from_fn(|i| Witness {
             object: i + 1,
-            polyhedron: polyhedra[i],
-            pose: poses[i],
+            polyhedron: pair.polyhedra[i],
+            pose: pair.poses[i],
             local: locals[i].into(),
             world: worlds[i].into(),
             feature: features[i],
@@ -164,15 +159,15 @@ impl<'a> Witness<'a> {
     /// How far the polyhedron is from its point, in integers; `around` are vertices whose hull may hold it.
     pub fn outside(&self, around: &[u32]) -> Result<exact::ExactDistance> {
         let near = listed(around.iter().map(|&vertex| [vertex, 0]));
-        self.beside_probe(|[polyhedron, probe], [here, there]| exact::distance(polyhedron, here, probe, there, &near))
+        self.beside_probe(|pair| exact::distance(pair, &near))
     }
 
     /// The object beside a body of one vertex, the polyhedron's point. The translation, which both have in common, is left out:
     /// beside it rounding would move the point more than is allowed.
-    fn beside_probe<T>(&self, tell: impl FnOnce([&Polyhedron; 2], [&Pose; 2]) -> T) -> Result<T> {
+    fn beside_probe<T>(&self, tell: impl FnOnce(&Pair) -> T) -> Result<T> {
         let (probe, rotation) = (build(&[self.local], None)?, self.pose.rotation());
         let [here, there] = [Vector::zeros(), self.inwards].map(|at| Pose::new(&rotation, &at));
-        Ok(tell([self.polyhedron, &probe], [&here, &there]))
+        Ok(tell(&Pair { polyhedra: [self.polyhedron, &probe], poses: [&here, &there] }))
     }
 
     /// The object has the feature.
@@ -200,8 +195,8 @@ impl<'a> Witness<'a> {
         if self.point_of(&parts).is_some_and(|inside| self.off(&inside) <= allowed) {
             return Ok(());
         }
-        let (is_near, distance) = self.beside_probe(|polyhedra, poses| {
-            let differences = Differences::new(polyhedra, poses);
+        let (is_near, distance) = self.beside_probe(|pair| {
+            let differences = Differences::new(pair);
             let (mut is_near, mut least) = (false, f64::INFINITY);
             for (corners, slack) in &parts {
                 let pairs = listed(corners.iter().map(|&corner| [corner, 0]));
@@ -219,10 +214,10 @@ impl<'a> Witness<'a> {
 }
 
 /// From the point of object 2 to that of object 1, those of the polyhedra, in the world.
-pub(super) fn difference_of(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], witnesses: &[Witness; 2]) -> Vector {
+pub(super) fn difference_of(pair: &Pair, witnesses: &[Witness; 2]) -> Vector {
     let [first, second] = [0, 1].map(|i| {
         let Witness { local, inwards, .. } = &witnesses[i];
-        poses[i].rotate(&(local - polyhedra[i].centre)) + inwards
+        pair.poses[i].rotate(&(local - pair.polyhedra[i].centre)) + inwards
     });
-    between_origins(polyhedra, poses) + first - second
+    between_origins(pair) + first - second
 }

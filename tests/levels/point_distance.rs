@@ -3,6 +3,7 @@
 use swiftprox::body::build::assembly::build;
 use swiftprox::body::polyhedron::Polyhedron;
 use swiftprox::math::{Pose, Vector};
+use swiftprox::placed::Pair;
 use swiftprox::placed::exact;
 use swiftprox::shape::levels::point_distance::PointDistance;
 use testkit::models::{ELLIPSOIDS, cuboid, ellipsoid, prism, random_hull};
@@ -45,7 +46,7 @@ fn the_bound_holds_and_is_tight() {
             let scale = [100.0, 2.0, 0.1, 1e-6, 1e-12, 0.0][k % 6] * body.radius.max(1.0);
             let point = near + random.direction() * scale;
             let pose = Pose::new(&Pose::IDENTITY.rotation(), &point);
-            let truth = exact::solve(&probe, &pose, &body, &Pose::IDENTITY, &[]);
+            let truth = exact::solve(&Pair { polyhedra: [&probe, &body], poses: [&pose, &Pose::IDENTITY] }, &[]);
             let found = distance.nearest(&point, hint);
             assert!(found.upper >= truth.lower, "{name}: {:e} below {:e}", found.upper, truth.lower);
             let excess = found.upper - truth.upper;

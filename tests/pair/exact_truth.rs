@@ -4,6 +4,7 @@
 use dashu_ratio::RBig;
 use swiftprox::body::build::assembly::build;
 use swiftprox::body::polyhedron::Polyhedron;
+use swiftprox::placed::Pair;
 use swiftprox::placed::exact::{ExactAnswer, VertexPair, encloses_origin, solve};
 use testkit::cases::{Case, FAMILIES, Random, coordinates, row_major};
 use testkit::certificate::{dot, proved_by};
@@ -36,12 +37,14 @@ fn exact_tier_equals_the_oracle() {
 fn check(case: &Case, truth: &Truth, random: &mut Random) -> Result<(), String> {
     let hull = |points| build(points, None).map_err(|e| format!("no polyhedron: {e}"));
     let (a, b) = (&hull(&case.points_a)?, &hull(&case.points_b)?);
-    let from = |start: &[VertexPair]| solve(a, &case.pose_a, b, &case.pose_b, start);
+    let from = |start: &[VertexPair]| solve(&Pair { polyhedra: [a, b], poses: [&case.pose_a, &case.pose_b] }, start);
 
     let cold = from(&[]);
     check_interval(truth, &cold)?;
     check_proof(case, truth, a, b, &cold)?;
-    if encloses_origin(a, &case.pose_a, b, &case.pose_b, &cold.pairs) != truth.intersecting() {
+    if encloses_origin(&Pair { polyhedra: [a, b], poses: [&case.pose_a, &case.pose_b] }, &cold.pairs)
+        != truth.intersecting()
+    {
         return Err("encloses_origin contradicts the truth".into());
     }
 

@@ -3,6 +3,7 @@
 
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, distance};
+use swiftprox::placed::Pair;
 use swiftprox::placed::exact::solve;
 use testkit::caches::cache_of_features;
 use testkit::random::Random;
@@ -79,7 +80,10 @@ fn beyond_the_tip_of_a_needle_is_no_face() {
             let Some(vertex) = vertex else { continue };
             let at = tip + (tip - blunt) * (size * random.uniform(0.0, 1.0)) + face.normal * random.power(-40, 0);
             let poses = [at, Vector::zeros()].map(|t| Pose::new(&Matrix::identity(), &t));
-            let truth = solve(large.polyhedron(), &poses[0], needle.polyhedron(), &poses[1], &[]);
+            let truth = solve(
+                &Pair { polyhedra: [large.polyhedron(), needle.polyhedron()], poses: [&poses[0], &poses[1]] },
+                &[],
+            );
             let (mut cache, config) = (cache_of_features(4, [vertex as u32, index as u32]), PairConfig::default());
             let mut answer = PairAnswer::default();
             distance([large.at(&poses[0]), needle.at(&poses[1])], &mut cache, &config, &mut answer).unwrap();

@@ -16,6 +16,7 @@ use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::start::policy::{self, StartFrom};
 use swiftprox::pair::start::{Guess, start_pair};
 use swiftprox::pair::{self, DecidedBy, Levels, Outcome, PairAnswer, PairCache, PairConfig, Start};
+use swiftprox::placed::Pair;
 use swiftprox::placed::frame::{Frame, Marker};
 use swiftprox::placed::state::State;
 use swiftprox::progress::Progress;
@@ -531,19 +532,22 @@ fn how_far_a_pair_has_moved_is_told() {
                 [Pose::new(&world, &origin), pose]
             };
             let [before, after] = [placed(0.0, 0.0), placed(around, turned)];
-            let frame = |[pose1, pose2]: &[Pose; 2]| Frame::<Portable>::new(polyhedra, [pose1, pose2]);
             let mut marker = Marker::default();
-            frame(&before).mark(&mut marker);
+            frame(polyhedra, &before).mark(&mut marker);
             // Going around is measured by the size of both bodies at least.
             let around = around * f64::min(1.0, separation / (2.0 * body.polyhedron().radius));
             let angle = f64::hypot(around, turned);
-            let moved = |square| frame(&after).has_moved(&marker, square);
+            let moved = |square| frame(polyhedra, &after).has_moved(&marker, square);
             assert!(moved(0.98 * angle * angle - 1e-9), "{separation} {around} {turned}");
             assert!(!moved(angle * angle + 1e-9), "{separation} {around} {turned}");
             // A cold cache knows of no place.
-            assert!(frame(&after).has_moved(&Marker::default(), 0.25));
+            assert!(frame(polyhedra, &after).has_moved(&Marker::default(), 0.25));
         }
     }
+}
+
+fn frame<'a>(polyhedra: [&'a Polyhedron; 2], poses: &'a [Pose; 2]) -> Frame<'a, Portable> {
+    Frame::new(&Pair { polyhedra, poses: poses.each_ref() })
 }
 
 /// The farther a pair has moved the less its last features say: first they are where the search starts, then their vertices with
@@ -554,14 +558,13 @@ fn the_farther_a_pair_has_moved_the_less_its_last_features_say() {
     let polyhedra = [body.polyhedron(); 2];
     let mut random = Random::new(8);
     let there = Pose::new(&random.rotation(), &(random.direction() * 3.0));
-    let frame = |pose: &Pose| Frame::<Portable>::new(polyhedra, [&Pose::IDENTITY, pose]);
     let mut last = Marker::default();
-    frame(&there).mark(&mut last);
+    frame(polyhedra, &[Pose::IDENTITY, there]).mark(&mut last);
     for axis in [Vector::y(), Vector::z()] {
         let rank = |degrees: u32| {
             let turn = rotation(&axis, f64::from(degrees).to_radians());
             let turned = Pose::new(&(there.rotation() * turn), &there.translation());
-            match policy::choose(&frame(&turned), &last, State::vertex_vertex([0, 0])) {
+            match policy::choose(&frame(polyhedra, &[Pose::IDENTITY, turned]), &last, State::vertex_vertex([0, 0])) {
                 None => 0,
                 Some(StartFrom::LastVertices { rounds, .. }) => rounds,
                 Some(StartFrom::Centres) => u32::MAX,
@@ -588,7 +591,7 @@ fn after_a_short_jump_look_ups_begin_at_the_last_vertices() {
         for numbers in &poses {
             let placed = [0, 1].map(|k| Pose::from_row_major(numbers[12 * k..12 * k + 12].try_into().unwrap()));
             let last = polyhedra.map(|polyhedron| random.below(polyhedron.vertices.len()) as u32);
-            let from = |from| start_pair(polyhedra, [&placed[0], &placed[1]], from);
+            let from = |from| start_pair(&Pair { polyhedra, poses: [&placed[0], &placed[1]] }, from);
             let after = |rounds| from(StartFrom::LastVertices { vertices: last, rounds });
             let anew = from(StartFrom::Centres);
             assert_eq!(after(tables[0].rounds.max(tables[1].rounds)), anew);

@@ -6,6 +6,7 @@ use swiftprox::distance::enclosure::encloses_origin;
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::contact;
 use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, distance, intersection};
+use swiftprox::placed::Pair;
 use swiftprox::placed::exact;
 use swiftprox::placed::frame::Frame;
 use swiftprox::shape::Shape;
@@ -85,9 +86,9 @@ fn the_filter_accepts_only_what_integers_confirm() {
             continue;
         }
         let pairs = [[0, 0], [1, 0], [2, 0], [3, 0]];
-        let frame = Frame::<Portable>::new(polyhedra, [&pose, &Pose::IDENTITY]);
+        let frame = Frame::<Portable>::new(&Pair { polyhedra, poses: [&pose, &Pose::IDENTITY] });
         assert!(frame.in_range);
-        let truth = exact::encloses_origin(polyhedra[0], &pose, polyhedra[1], &Pose::IDENTITY, &pairs);
+        let truth = exact::encloses_origin(&Pair { polyhedra, poses: [&pose, &Pose::IDENTITY] }, &pairs);
         match encloses_origin(&frame, &pairs) {
             Some(weights) => {
                 assert!(truth, "{corners:?} {pose:?}");

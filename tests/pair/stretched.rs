@@ -11,6 +11,7 @@ use swiftprox::body::polyhedron::Polyhedron;
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::contact;
 use swiftprox::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, distance, intersection};
+use swiftprox::placed::Pair;
 use swiftprox::placed::exact::{ExactAnswer, solve};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::verify::verify;
@@ -75,7 +76,7 @@ fn check_pair(mut random: Random, tally: &mut Tally, name: &str) {
     let shapes = [(); 2].map(|()| Shape::from_points(&body(random), &options).expect("finite points"));
     let polyhedra = [shapes[0].polyhedron(), shapes[1].polyhedron()];
     let poses = near_each_other(random, polyhedra);
-    let truth = solve(polyhedra[0], &poses[0], polyhedra[1], &poses[1], &[]);
+    let truth = solve(&Pair { polyhedra, poses: [&poses[0], &poses[1]] }, &[]);
     let mut config = PairConfig::default();
     if random.below(4) == 0 {
         config.max_distance = [truth.lower, truth.upper][random.below(2)] * [1.0, random.power(-2, 2)][random.below(2)];

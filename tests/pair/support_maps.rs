@@ -7,6 +7,7 @@ use swiftprox::body::tables::support_map::{Choice, Grid, SupportMap};
 use swiftprox::distance::support_search::look_up;
 use swiftprox::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector};
 use swiftprox::pair::{self, DecidedBy, Levels, Outcome, PairAnswer, PairCache, PairConfig};
+use swiftprox::placed::Pair;
 use swiftprox::placed::exact;
 use swiftprox::progress::Progress;
 use swiftprox::shape::{LookupKind, LookupOptions, Shape, ShapeOptions};
@@ -146,7 +147,7 @@ fn intervals_from_maps_hold_the_true_distance() {
             by_maps += usize::from(is_by_maps(&answer));
             verify([pair[0].at(&poses[0]), pair[1].at(&poses[1])], &answer).unwrap();
             let polyhedra = pair.map(Shape::polyhedron);
-            let truth = exact::distance(polyhedra[0], &poses[0], polyhedra[1], &poses[1], &[]);
+            let truth = exact::distance(&Pair { polyhedra, poses: [&poses[0], &poses[1]] }, &[]);
             assert_eq!(answer.outcome == Outcome::Intersecting, truth.is_zero());
             assert!(truth.compare(answer.lower).is_ge() && truth.compare(answer.upper).is_le(), "{answer:?}");
             if answer.outcome == Outcome::Separated {

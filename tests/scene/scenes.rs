@@ -6,6 +6,7 @@ use swiftprox::error::Error;
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::pair::{FeatureKind, Outcome, PairAnswer};
+use swiftprox::placed::Pair;
 use swiftprox::placed::exact::solve;
 use swiftprox::scene::{PairResult, Scene, SceneQuery};
 use testkit::random_scene::{Random, cuboid, random_pose};
@@ -113,7 +114,7 @@ fn a_tolerance_is_decided_to_the_last_digit() {
         }
         let [one, other] = [scene.object(ids[0]).unwrap(), scene.object(ids[1]).unwrap()];
         let polyhedra = [one, other].map(|object| object.pieces()[0].polyhedron());
-        let truth = solve(polyhedra[0], one.pose(), polyhedra[1], other.pose(), &[]);
+        let truth = solve(&Pair { polyhedra, poses: [one.pose(), other.pose()] }, &[]);
         assert!(truth.lower < truth.upper && truth.lower.next_up() == truth.upper, "{truth:?}");
         for query in [Scene::query_distance, Scene::query_contact] {
             assert_eq!(listed(query(&mut scene, &up_to(truth.lower)).unwrap().pairs).len(), 0);

@@ -9,6 +9,7 @@ use swiftprox::distance::marching::{self, March, step_limit};
 use swiftprox::math::Pose;
 use swiftprox::pair::start::policy::StartFrom;
 use swiftprox::pair::start::start_pair;
+use swiftprox::placed::Pair;
 use swiftprox::placed::frame::Frame;
 use swiftprox::placed::state::State;
 use swiftprox::placed::voronoi::Rule;
@@ -51,7 +52,11 @@ impl<const FIRST: bool> Method for Marching<FIRST> {
         let polyhedron = self.shape.polyhedron();
         let [pose1, pose2] = &self.poses[i];
         let poses = [pose1, pose2];
-        let afresh = || State::vertex_vertex(start_pair([polyhedron; 2], poses, StartFrom::Farthest).vertices());
+        let afresh = || {
+            State::vertex_vertex(
+                start_pair(&Pair { polyhedra: [polyhedron; 2], poses }, StartFrom::Farthest).vertices(),
+            )
+        };
         let start = self.state.unwrap_or_else(afresh);
         let mut run = Run::<FIRST> { shape: &self.shape, poses, state: start, steps: 0, keep: Keep { gap: None } };
         simd::dispatch(&mut run);
@@ -86,7 +91,7 @@ impl<const FIRST: bool> Kernel for Run<'_, FIRST> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self) {
         let polyhedron = self.shape.polyhedron();
-        let frame = Frame::<L>::new([polyhedron; 2], self.poses);
+        let frame = Frame::<L>::new(&Pair { polyhedra: [polyhedron; 2], poses: self.poses });
         assert!(frame.in_range, "the poses are sound");
         let limit = step_limit([polyhedron; 2]);
         let (march, steps) = marching::march(&frame, self.state, limit, &mut self.keep);

@@ -313,6 +313,7 @@ mod tests {
     use crate::body::build::assembly::build;
     use crate::depth::polytope::planes::{evaluate, nearest};
     use crate::depth::polytope::{Rounding, first};
+    use crate::placed::Pair;
     use crate::random::Random;
 
     /// What is proposed is a cycle around the centre of the difference, and no pair of vertices, of all that there are, is beyond
@@ -327,7 +328,7 @@ mod tests {
             for _ in 0..20 {
                 let poses = [Vector::zeros(), random.direction() * (0.5 * unit)]
                     .map(|translation| Pose::new(&random.rotation(), &translation));
-                let frame = Frame::<Portable>::new([&body; 2], [&poses[0], &poses[1]]);
+                let frame = Frame::<Portable>::new(&Pair { polyhedra: [&body; 2], poses: [&poses[0], &poses[1]] });
                 let rounding = Rounding::of(&frame);
                 let (mut polytope, mut edges) = (Polytope::<64, ROOM>::EMPTY, Edges::<64, 1>::EMPTY);
                 let centre = first::make(&frame, &mut polytope, &rounding, None, &mut 0).unwrap();

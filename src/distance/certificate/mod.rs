@@ -34,8 +34,9 @@ impl Interval {
     /// Whether it proves separation and is as tight as answers must be: 2e-14·max(ρ₁ + ρ₂, distance).
     #[inline(always)]
     pub fn is_tight(&self, size: f64) -> bool {
-        let scale = if self.lower > size { self.lower } else { size };
-        self.lower > 0.0 && self.upper - self.lower <= 2e-14 * scale
+        let width = self.upper - self.lower;
+        // Not 2e-14 times the larger: its instruction raises a flag for a NaN, which the compiler would ask for first.
+        self.lower > 0.0 && (width <= 2e-14 * size || width <= 2e-14 * self.lower)
     }
 
     /// Whether it is wholly on one side of a distance tolerance: then no other start would change the answer.

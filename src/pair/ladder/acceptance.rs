@@ -73,7 +73,7 @@ impl<const BETWEEN_PLANES: bool> Kernel for Closely<'_, '_, BETWEEN_PLANES> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self) {
         let &mut Closely { ref mut acceptance, at } = self;
-        let frame = Frame::<L>::new(acceptance.pair.polyhedra(), acceptance.pair.poses());
+        let frame = Frame::<L>::new(&acceptance.pair.pair());
         let mut closer = CloserLook::<L, BETWEEN_PLANES> { found: None };
         marching::march(&frame, at, 1, &mut closer);
         if let Some((minimum, gap)) = &closer.found {

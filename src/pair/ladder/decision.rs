@@ -126,10 +126,9 @@ impl PairQuery<'_> {
     /// [`Error::Memory`](crate::base::error::Error::Memory) where integers get none: answer and cache are as they were.
     #[inline(never)]
     pub(super) fn decide(&mut self, frame: Option<&Frame<Portable>>, hint: &Hint) -> Result<()> {
-        let (polyhedra, poses) = (self.polyhedra(), self.poses());
+        let pair = &self.pair();
         let wanted = self.wanted();
-        let (decision, effort) =
-            in_integers(|| decide::decide(polyhedra, poses, frame.is_some(), hint.pairs.as_slice(), wanted))?;
+        let (decision, effort) = in_integers(|| decide::decide(pair, frame.is_some(), hint.pairs.as_slice(), wanted))?;
         let decide::Effort { fallback_iterations, exact_iterations } = effort;
         let statistics =
             Statistics { marching_steps: hint.steps, fallback_iterations, exact_iterations, ..Statistics::default() };
@@ -142,17 +141,17 @@ impl PairQuery<'_> {
     }
 
     pub(super) fn remember_marker(&mut self) {
-        let frame = Frame::<Portable>::new(self.polyhedra(), self.poses());
+        let frame = Frame::<Portable>::new(&self.pair());
         frame.mark(&mut self.cache.marker);
     }
 
     /// Answer and cache from a decision.
     fn fill(&mut self, decision: &Decision, statistics: Statistics, decided_by: DecidedBy) -> Result<()> {
-        let (polyhedra, poses) = (self.polyhedra(), self.poses());
+        let pair = &self.pair();
         // A pair that intersected the last time may rest. All that may fail comes first.
         let pyramids = if self.is_simple() && self.holds_enclosure() { Pyramids::Always } else { Pyramids::Unused };
         let is_contact = self.query == Query::Contact && matches!(decision, Decision::Intersecting { .. });
-        let depth = if is_contact { Some(deepest(polyhedra, poses, pyramids)?) } else { None };
+        let depth = if is_contact { Some(deepest(pair, pyramids)?) } else { None };
         (self.answer.statistics, self.answer.decided_by) = (statistics, decided_by);
         if let Decision::Separated { interval, .. } = decision {
             self.set_interval(interval, 0.5 * interval.lower + 0.5 * interval.upper);
@@ -165,11 +164,10 @@ impl PairQuery<'_> {
                     // The points need not be nearest, so no feature need hold them, and to search all takes long.
                     cache.remember_features(vertices);
                 } else {
-                    let features =
-                        contact::features_of_pairs(polyhedra, poses, pairs.as_slice(), points, direction, 0.0);
+                    let features = contact::features_of_pairs(pair, pairs.as_slice(), points, direction, 0.0);
                     cache.remember_features(State::of_features(features).unwrap_or(vertices));
                     if answer.outcome == Outcome::Separated {
-                        contact::fill_placed(answer, polyhedra, poses, points, features);
+                        contact::fill_placed(answer, pair, points, features);
                         answer.normal = contact::normalised(direction);
                         return Ok(());
                     }
@@ -183,14 +181,14 @@ impl PairQuery<'_> {
                 answer.distance = 0.0;
                 answer.lower = 0.0;
                 answer.upper = 0.0;
-                contact::fill_proof(answer, polyhedra, pairs.as_slice());
+                contact::fill_proof(answer, pair.polyhedra, pairs.as_slice());
                 if let Some((least, raised)) = depth {
-                    let weights = contact::refined_weights(polyhedra, poses, pairs.as_slice(), *weights);
-                    let points = decide::combinations(polyhedra, pairs.as_slice(), &weights);
+                    let weights = contact::refined_weights(pair, pairs.as_slice(), *weights);
+                    let points = decide::combinations(pair.polyhedra, pairs.as_slice(), &weights);
                     if let Some((pyramid, triangle)) = raised {
                         cache.remember_pyramid(&pyramid, triangle);
                     }
-                    let contact::PlacedPoints { local, world } = contact::placed_points(polyhedra, poses, &points);
+                    let contact::PlacedPoints { local, world } = contact::placed_points(pair, &points);
                     [answer.local1, answer.local2] = local;
                     [answer.world1, answer.world2] = world;
                     answer.normal = least.normal;
@@ -215,9 +213,9 @@ impl Kernel for LastEnclosure<'_, '_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Attempt {
-        let polyhedra = self.pair.polyhedra();
-        let Some(pairs) = self.pair.cache.enclosure(polyhedra) else { return Attempt::Untried };
-        let frame = Frame::<L>::of_rigid(polyhedra, self.pair.poses());
+        let bodies = self.pair.pair();
+        let Some(pairs) = self.pair.cache.enclosure(bodies.polyhedra) else { return Attempt::Untried };
+        let frame = Frame::<L>::of_rigid(&bodies);
         if !frame.in_range {
             return Attempt::Untried;
         }
@@ -242,8 +240,8 @@ impl Kernel for LastPyramid<'_, '_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Attempt {
         let LastPyramid { pair, pyramid } = self;
-        let (polyhedra, poses) = (pair.polyhedra(), pair.poses());
-        let frame = Frame::<L>::of_rigid(polyhedra, poses);
+        let bodies = &pair.pair();
+        let frame = Frame::<L>::of_rigid(bodies);
         if !frame.in_range {
             return Attempt::Untried;
         }
@@ -252,15 +250,15 @@ impl Kernel for LastPyramid<'_, '_> {
         let [a, b, c] = rest.pairs;
         let pairs = [a, b, c, pyramid.apex()];
         let Some(weights) = encloses_origin(&frame, &pairs) else { return Attempt::Untried };
-        let mut points = decide::combinations(polyhedra, &pairs, &weights);
+        let mut points = decide::combinations(bodies.polyhedra, &pairs, &weights);
         // If the tetrahedron is thin, the two points do not coincide yet.
         if frame.difference(&points[0], &points[1]).to_vector().norm() > rounding.difference {
-            let weights = contact::refined_weights(polyhedra, poses, &pairs, weights);
-            points = decide::combinations(polyhedra, &pairs, &weights);
+            let weights = contact::refined_weights(bodies, &pairs, weights);
+            points = decide::combinations(bodies.polyhedra, &pairs, &weights);
         }
         let (normal, within) = (rest.direction.negate(), rest.upper - rest.lower);
         let deepest = [rest.points[0].to_vector(), rest.points[1].to_vector()];
-        let features = contact::features_of_pairs(polyhedra, poses, &rest.pairs, &deepest, &normal.to_vector(), within);
+        let features = contact::features_of_pairs(bodies, &rest.pairs, &deepest, &normal.to_vector(), within);
         pair.cache.remember_pyramid(pyramid, rest.triangle);
         frame.mark(&mut pair.cache.marker);
         let answer = &mut *pair.answer;
@@ -268,12 +266,13 @@ impl Kernel for LastPyramid<'_, '_> {
         answer.decided_by = DecidedBy::Coherence;
         answer.outcome = Outcome::Intersecting;
         (answer.distance, answer.lower, answer.upper) = (0.0, 0.0, 0.0);
-        contact::fill_proof(answer, polyhedra, &pairs);
-        let contact::PlacedPoints { local, world } = contact::placed_points(polyhedra, poses, &points);
+        contact::fill_proof(answer, bodies.polyhedra, &pairs);
+        let contact::PlacedPoints { local, world } = contact::placed_points(bodies, &points);
         [answer.local1, answer.local2] = local;
         [answer.world1, answer.world2] = world;
         normal.store_vector(&mut answer.normal);
-        [answer.feature1, answer.feature2] = [0, 1].map(|i| contact::label(polyhedra[i], features[i], &deepest[i]));
+        [answer.feature1, answer.feature2] =
+            [0, 1].map(|i| contact::label(bodies.polyhedra[i], features[i], &deepest[i]));
         Attempt::Answered
     }
 }

@@ -4,9 +4,8 @@ use super::query::PairQuery;
 use super::support_glance;
 use crate::answer::{Accuracy, Levels, Query};
 use crate::base::error::Result;
-use crate::base::math::Pose;
-use crate::body::polyhedron::Polyhedron;
 use crate::pair::levels::{Descent, LevelBounds, LevelState, Leveled, TRIAL_STEPS};
+use crate::placed::Pair;
 use crate::shape::Shape;
 use crate::shape::levels::hierarchy::HierarchyKind;
 
@@ -44,7 +43,8 @@ fn least_vertices(query: Query) -> Option<usize> {
 }
 
 /// How far the bounding spheres are apart, about; 0 where they overlap. It only guides where to look.
-fn gap_of_spheres(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> f64 {
+fn gap_of_spheres(pair: &Pair) -> f64 {
+    let Pair { polyhedra, poses } = *pair;
     let [centre1, centre2] = [0, 1].map(|i| poses[i].transform(&polyhedra[i].centre));
     let gap = (centre1 - centre2).norm() - (polyhedra[0].radius + polyhedra[1].radius);
     if gap > 0.0 { gap } else { 0.0 }
@@ -130,7 +130,7 @@ impl<'a> PairQuery<'a> {
     }
 
     fn gap_of_spheres(&self) -> f64 {
-        gap_of_spheres(self.polyhedra(), self.poses())
+        gap_of_spheres(&self.pair())
     }
 
     /// The error that the query may make about bodies at least `gap` apart.

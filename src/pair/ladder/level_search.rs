@@ -5,7 +5,6 @@ use super::marching::Leg;
 use super::query::{Attempt, Open, PairQuery};
 use crate::answer::{DecidedBy, Outcome, Query, Statistics, contact};
 use crate::base::error::Result;
-use crate::base::math::Pose;
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::Polyhedron;
 use crate::distance::certificate::Interval;
@@ -14,6 +13,7 @@ use crate::distance::marching::step_limit;
 use crate::pair::levels::{Descended, Descent, LevelBounds, LevelState, Leveled};
 use crate::pair::start::policy::StartFrom;
 use crate::pair::start::start_pair;
+use crate::placed::Pair;
 use crate::placed::frame::Frame;
 use crate::placed::state::State;
 use crate::placed::voronoi::climb;
@@ -126,7 +126,7 @@ impl<'a> LevelSearch<'a> {
             bodies.coarsest()
         };
         let from = if pair.asks_tables() { StartFrom::Centres } else { StartFrom::Farthest };
-        let vertices = start_pair(bodies.polyhedra(levels), pair.poses(), from).vertices();
+        let vertices = start_pair(&bodies.pair(levels), from).vertices();
         LevelState { levels, state: State::vertex_vertex(vertices) }
     }
 
@@ -168,10 +168,10 @@ impl<'a> LevelSearch<'a> {
     /// The answer when the steps are spent: the bounds of the levels, or of a look along the line of two vertices.
     #[cold]
     fn spend(&self, pair: &mut PairQuery, found: Option<LevelBounds>, at: LevelState, steps: u32) -> Searched<'a> {
-        let (polyhedra, poses) = (pair.polyhedra(), pair.poses());
+        let bodies = pair.pair();
         let finest = self.bodies.descended(at, [0, 0]);
-        let vertices = finest.state.vertices(polyhedra);
-        let glance = simd::dispatch(&mut Glance { polyhedra, poses, vertices });
+        let vertices = finest.state.vertices(bodies.polyhedra);
+        let glance = simd::dispatch(&mut Glance { pair: bodies, vertices });
         let mut known = LevelBounds { at: finest, lower: 0.0, upper: f64::INFINITY, normal: glance.direction };
         if glance.interval.lower > 0.0 {
             known.lower = glance.interval.lower;
@@ -203,8 +203,7 @@ fn has_tables([first, second]: [&Polyhedron; 2]) -> bool {
 
 /// The bounds on the distance from the line through two vertices: their distance from above, supports along it from below.
 struct Glance<'a> {
-    polyhedra: [&'a Polyhedron; 2],
-    poses: [&'a Pose; 2],
+    pair: Pair<'a>,
     vertices: [u32; 2],
 }
 
@@ -213,13 +212,13 @@ impl Kernel for Glance<'_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Nearest {
-        let frame = Frame::<L>::new(self.polyhedra, self.poses);
+        let frame = Frame::<L>::new(&self.pair);
         let direction = gjk::difference(&frame, self.vertices);
         let simplex =
             Simplex { count: 1, pairs: [self.vertices; 4], differences: [direction; 4], weights: [1.0, 0.0, 0.0, 0.0] };
         let [g1, g2] = gjk::towards(&frame, &direction);
         let [v, w] = self.vertices;
-        let supports = [climb(self.polyhedra[0], g1, v), climb(self.polyhedra[1], g2, w)];
+        let supports = [climb(self.pair.polyhedra[0], g1, v), climb(self.pair.polyhedra[1], g2, w)];
         gjk::certify(&frame, simplex, &direction, supports)
     }
 }

@@ -109,7 +109,7 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
 
     #[inline(always)]
     fn run(&mut self) -> Attempt {
-        let (polyhedra, poses) = (self.pair.polyhedra(), self.pair.poses());
+        let pair = &self.pair.pair();
         let may_start_anew = self.pair.may_start_anew();
         let mut acceptance = Acceptance { pair: &mut *self.pair, accepted: false };
         let (mut state, mut steps, mut leg) = (self.start, self.steps, self.leg);
@@ -117,7 +117,7 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
         if (leg == Leg::Trial) & may_start_anew
             && let Some(from) = policy::choose(&frame, &acceptance.pair.cache.marker, state)
         {
-            let start = start_pair(polyhedra, poses, from);
+            let start = start_pair(pair, from);
             state = State::vertex_vertex(start.vertices());
             leg = Leg::Whole;
             if start.guess == Guess::Overlapping {
@@ -125,14 +125,14 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
             }
         }
         let (at, is_minimum) = loop {
-            let (march, more) = marching::march(&frame, state, leg.limit(polyhedra), &mut acceptance);
+            let (march, more) = marching::march(&frame, state, leg.limit(pair.polyhedra), &mut acceptance);
             steps += more;
             state = match march {
                 March::Minimum(at) => break (at, true),
                 March::Open(at) => break (at, false),
                 March::Limit(at) if leg != Leg::Trial => break (at, false),
                 March::Limit(at) if !may_start_anew => at,
-                March::Limit(_) => State::vertex_vertex(start_pair(polyhedra, poses, StartFrom::Centres).vertices()),
+                March::Limit(_) => State::vertex_vertex(start_pair(pair, StartFrom::Centres).vertices()),
             };
             leg = Leg::Whole;
         };
@@ -158,16 +158,16 @@ impl Kernel for General<'_, '_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Attempt {
-        let (polyhedra, poses) = (self.pair.polyhedra(), self.pair.poses());
+        let pair = &self.pair.pair();
         let frame = self.pair.frame::<L>();
         if !frame.in_range {
             return Attempt::Untried;
         }
-        let (state, leg) = match self.pair.cache.features_of(polyhedra) {
+        let (state, leg) = match self.pair.cache.features_of(pair.polyhedra) {
             Some(state) => (state, Leg::Trial),
             None => {
                 let from = if self.pair.asks_tables() { StartFrom::Centres } else { StartFrom::Farthest };
-                let start = self.start.unwrap_or_else(|| start_pair(polyhedra, poses, from));
+                let start = self.start.unwrap_or_else(|| start_pair(pair, from));
                 let state = State::vertex_vertex(start.vertices());
                 if start.guess == Guess::Overlapping {
                     return Attempt::Open(Open { at: state, is_minimum: false, steps: 0 });

@@ -39,21 +39,29 @@ pub(super) fn ask(
     config: &PairConfig,
     found: &mut PairAnswer,
 ) -> Result<()> {
+    // Before there is a query in memory (R6), and before a number is refused, which comparing and printing may trap.
+    if !environment::is_default() {
+        return ask_in_default(query, glances, bodies, cache, config, found);
+    }
     // Not by `?`, which looks again whether the error in memory is one, and keeps what it needs if not in registers (R3).
     if !config.is_in_range(query) {
         return Err(config.first_fault());
     }
-    // Before there is a query in memory (R6).
-    let is_default = environment::is_default();
-    let mut pair = PairQuery { query, bodies, cache, config, answer: found };
-    if is_default { answer(query, &mut pair, glances) } else { answer_in_default(&mut pair, glances) }
+    answer(query, &mut PairQuery { query, bodies, cache, config, answer: found }, glances)
 }
 
 /// In the default environment of floating point, as the program has set another.
 #[cold]
 #[inline(never)]
-fn answer_in_default(pair: &mut PairQuery, glances: Glances) -> Result<()> {
-    with_default(|| answer(pair.query, pair, glances))
+fn ask_in_default(
+    query: Query,
+    glances: Glances,
+    bodies: &[Placed; 2],
+    cache: &mut PairCache,
+    config: &PairConfig,
+    found: &mut PairAnswer,
+) -> Result<()> {
+    with_default(|| ask(query, glances, bodies, cache, config, found))
 }
 
 /// From the first rung. The query is also handed on by value (R6).
@@ -156,7 +164,7 @@ fn answer_on(pair: &mut PairQuery, mut attempt: Attempt) -> Result<()> {
         return Ok(());
     }
     if pair.may_have_come_apart(&frame) {
-        let start = start_pair(pair.polyhedra(), pair.poses(), StartFrom::Centres);
+        let start = start_pair(&pair.pair(), StartFrom::Centres);
         if pair.has_turned_away(&frame) {
             hint.pairs = Pairs::new(&[start.vertices()]);
         }

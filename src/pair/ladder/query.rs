@@ -8,6 +8,7 @@ use crate::body::polyhedron::Polyhedron;
 use crate::distance::certificate::Interval;
 use crate::distance::decide::Wanted;
 use crate::pair::cache::PairCache;
+use crate::placed::Pair;
 use crate::placed::frame::{Frame, Marker};
 use crate::placed::state::State;
 use crate::shape::Placed;
@@ -41,6 +42,11 @@ impl<'a> PairQuery<'a> {
         [self.bodies[0].pose, self.bodies[1].pose]
     }
 
+    #[inline(always)]
+    pub fn pair(&self) -> Pair<'a> {
+        Pair::of(self.bodies)
+    }
+
     /// Whether the quick rungs may look at it: bodies whose centres are their origins and whose sizes are in range.
     #[inline(always)]
     pub fn is_simple(&self) -> bool {
@@ -66,13 +72,13 @@ impl<'a> PairQuery<'a> {
     /// Made in place by the caller: it is large.
     #[inline(always)]
     pub fn frame<L: Lanes>(&self) -> Frame<'a, L> {
-        Frame::new(self.polyhedra(), self.poses())
+        Frame::new(&self.pair())
     }
 
     /// The frame of bodies that are [simple](PairQuery::is_simple).
     #[inline(always)]
     pub fn frame_of_simple<L: Lanes>(&self) -> Frame<'a, L> {
-        Frame::of_rigid(self.polyhedra(), self.poses())
+        Frame::of_rigid(&self.pair())
     }
 
     pub fn check_poses(&self) -> Result<()> {

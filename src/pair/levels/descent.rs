@@ -12,6 +12,7 @@ use crate::base::simd::{Kernel, Lanes};
 use crate::distance::certificate::{Certify, CloserLook, Minimum};
 use crate::distance::marching::{self, March, Step, Transition, step_limit};
 use crate::pair::start::policy;
+use crate::placed::Pair;
 use crate::placed::frame::{Frame, Marker};
 use crate::placed::state::State;
 
@@ -75,7 +76,7 @@ impl Kernel for Descent<'_> {
         while self.at.levels != [0, 0] {
             let LevelState { levels, state } = self.at;
             let polyhedra = self.bodies.polyhedra(levels);
-            let frame = Frame::<L>::new(polyhedra, self.bodies.poses);
+            let frame = Frame::<L>::new(&Pair { polyhedra, poses: self.bodies.poses });
             if frame.in_range {
                 if self.is_trial && levels_have_jumped(&frame, &self.bodies, self.marker.as_ref()) {
                     return Descended::Lost;
@@ -121,7 +122,7 @@ pub fn try_first<'a, L: Lanes>(
     at: LevelState,
     marker: Option<&Marker>,
 ) -> Option<(LevelBounds, u32, Frame<'a, L>)> {
-    let frame = Frame::<L>::of_rigid(bodies.polyhedra(at.levels), bodies.poses);
+    let frame = Frame::<L>::of_rigid(&bodies.pair(at.levels));
     if !frame.in_range || levels_have_jumped(&frame, bodies, marker) {
         return None;
     }

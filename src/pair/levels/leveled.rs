@@ -3,6 +3,7 @@
 use crate::answer::Refinement;
 use crate::base::math::Pose;
 use crate::body::polyhedron::Polyhedron;
+use crate::placed::Pair;
 use crate::placed::state::{FeatureId, State};
 use crate::shape::Placed;
 use crate::shape::levels::hierarchy::Level;
@@ -48,6 +49,12 @@ impl<'a> Leveled<'a> {
     #[inline(always)]
     pub fn polyhedra(&self, levels: [u16; 2]) -> [&'a Polyhedron; 2] {
         [self.polyhedron(0, levels[0]), self.polyhedron(1, levels[1])]
+    }
+
+    /// A pair of levels where the bodies are.
+    #[inline(always)]
+    pub fn pair(&self, levels: [u16; 2]) -> Pair<'a> {
+        Pair { polyhedra: self.polyhedra(levels), poses: self.poses }
     }
 
     /// ρ₁ + ρ₂ of the bodies themselves.
@@ -278,7 +285,7 @@ mod tests {
             let bodies = leveled([&large, &small], [&poses[0], &poses[1]]);
             let solve = |levels: [u16; 2]| {
                 let [first, second] = bodies.polyhedra(levels);
-                exact::solve(first, &poses[0], second, &poses[1], &[])
+                exact::solve(&Pair { polyhedra: [first, second], poses: [&poses[0], &poses[1]] }, &[])
             };
             let gap = solve([0, 0]).lower;
             if gap > 0.0 {

@@ -3,8 +3,8 @@
 use super::start_pair::{Guess, StartPair};
 use crate::base::math::{Pose, Vector};
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::body::polyhedron::Polyhedron;
 use crate::body::tables::nearest_vertex::NearestVertex;
+use crate::placed::Pair;
 
 /// Projects on both bodies the other's centre of mass or last vertex, then the vertices that were found there, and so on, by the
 /// tables. Both at once: two chains of look-ups take the time of one, and three rounds lead to as good a start as one chain of four
@@ -18,8 +18,7 @@ struct Alternate<'a, F, S> {
 
 /// A pair, and from where its look-ups begin.
 pub(super) struct LookUps<'a> {
-    pub(super) polyhedra: [&'a Polyhedron; 2],
-    pub(super) poses: [&'a Pose; 2],
+    pub(super) pair: Pair<'a>,
     /// Vertices to begin from, if rounds from there are fewer than from the centres of mass.
     pub(super) last: [u32; 2],
     pub(super) most_rounds: u32,
@@ -70,7 +69,7 @@ impl<F: NearestVertex, S: NearestVertex> Kernel for Alternate<'_, F, S> {
 impl<'a, F: NearestVertex, S: NearestVertex> Alternate<'a, F, S> {
     #[inline(always)]
     fn prefetch<L: Lanes>(&self, vertices: [u32; 2]) {
-        for (polyhedron, vertex) in self.from.polyhedra.iter().zip(vertices) {
+        for (polyhedron, vertex) in self.from.pair.polyhedra.iter().zip(vertices) {
             L::prefetch(&polyhedron.vertices, vertex);
         }
     }
@@ -78,8 +77,8 @@ impl<'a, F: NearestVertex, S: NearestVertex> Alternate<'a, F, S> {
     /// From body 1's frame and unit to body 2's, and back.
     #[inline(always)]
     fn maps<L: Lanes>(&self) -> [Map; 2] {
-        let placed = [LanePose::<L>::new(self.from.poses[0]), LanePose::<L>::new(self.from.poses[1])];
-        let [mass1, mass2] = self.from.polyhedra.map(|polyhedron| &polyhedron.mass);
+        let placed = [LanePose::<L>::new(self.from.pair.poses[0]), LanePose::<L>::new(self.from.pair.poses[1])];
+        let [mass1, mass2] = self.from.pair.polyhedra.map(|polyhedron| &polyhedron.mass);
         let between = placed[0].transform(&mass1.centre_of_mass).sub(placed[1].transform(&mass2.centre_of_mass));
         [
             Map::new([&placed[0], &placed[1]], between, [mass1.radius, mass2.radius]),

@@ -1,16 +1,18 @@
 //! The vertices farthest along the line between two bodies.
 
 use super::start_pair::{Guess, StartPair};
-use crate::base::math::{Pose, Vector};
+use crate::base::math::Vector;
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::Polyhedron;
 use crate::body::polyhedron::lookup::{Plan, Table};
 use crate::body::tables::table;
+use crate::placed::Pair;
 use crate::placed::voronoi::climb;
 
 /// The support vertices along the line of the bodies' origins, and whether the bodies are apart along it.
 #[inline(never)]
-pub(super) fn farthest(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> StartPair {
+pub(super) fn farthest(pair: &Pair) -> StartPair {
+    let Pair { polyhedra, poses } = *pair;
     let origin = |i: usize| poses[i].transform(&polyhedra[i].centre);
     let between = origin(1) - origin(0);
     let towards = [poses[0].rotate_back(&between), poses[1].rotate_back(&-between)];

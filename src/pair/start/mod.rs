@@ -5,11 +5,10 @@ pub mod policy;
 mod alternate;
 mod farthest;
 
-use crate::base::math::Pose;
-use crate::body::polyhedron::Polyhedron;
 use crate::body::polyhedron::lookup::{Plan, Table};
 use crate::body::tables::nearest_vertex::AllVertices;
 use crate::body::tables::table;
+use crate::placed::Pair;
 use alternate::LookUps;
 use farthest::farthest;
 use policy::{StartFrom, centre_of_mass};
@@ -18,19 +17,20 @@ pub use start_pair::{Guess, StartPair};
 /// The start that `from` prescribes, as far as both bodies have tables for it, or one of them has and the other needs none.
 /// Otherwise it is at the vertices farthest along the line of the bodies' origins.
 #[inline(always)]
-pub fn start_pair(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], from: StartFrom) -> StartPair {
+pub fn start_pair(pair: &Pair, from: StartFrom) -> StartPair {
     match from {
-        StartFrom::Farthest => farthest(polyhedra, poses),
-        StartFrom::Centres => look_up(polyhedra, poses, [0; 2], u32::MAX),
-        StartFrom::LastVertices { vertices, rounds } => look_up(polyhedra, poses, vertices, rounds),
+        StartFrom::Farthest => farthest(pair),
+        StartFrom::Centres => look_up(pair, [0; 2], u32::MAX),
+        StartFrom::LastVertices { vertices, rounds } => look_up(pair, vertices, rounds),
     }
 }
 
 /// At most `rounds` rounds of look-ups from the vertices `last`; where the centres of mass take no more, from these.
 #[inline(never)]
-fn look_up(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], last: [u32; 2], rounds: u32) -> StartPair {
+fn look_up(pair: &Pair, last: [u32; 2], rounds: u32) -> StartPair {
+    let Pair { polyhedra, poses } = *pair;
     let [body1, body2] = polyhedra;
-    let from = LookUps { polyhedra, poses, last, most_rounds: rounds };
+    let from = LookUps { pair: *pair, last, most_rounds: rounds };
     // Returned from where it is found (R1).
     match [body1.lookup.plan, body2.lookup.plan] {
         [Plan::Shells { .. }, Plan::Shells { .. }] => {
@@ -60,13 +60,13 @@ fn look_up(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], last: [u32; 2], round
         }
         _ => {}
     }
-    farthest(polyhedra, poses)
+    farthest(pair)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::base::math::Vector;
+    use crate::base::math::{Pose, Vector};
     use crate::body::build::assembly::build;
     use crate::body::tables::{LookupOptions, plan_lookup};
     use swiftprox::random::Random;
@@ -85,7 +85,8 @@ mod tests {
                 let [pose1, pose2] = [(); 2].map(|()| Pose::new(&random.rotation(), &(3.0 * size * random.vector())));
                 let origin = |pose: &Pose| pose.transform(&polyhedron.centre);
                 let between = origin(&pose2) - origin(&pose1);
-                let start = start_pair([&polyhedron; 2], [&pose1, &pose2], StartFrom::Farthest);
+                let start =
+                    start_pair(&Pair { polyhedra: [&polyhedron; 2], poses: [&pose1, &pose2] }, StartFrom::Farthest);
                 for (vertex, towards) in
                     start.vertices().into_iter().zip([pose1.rotate_back(&between), pose2.rotate_back(&-between)])
                 {

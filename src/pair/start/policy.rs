@@ -7,6 +7,7 @@ use crate::body::polyhedron::Polyhedron;
 use crate::body::polyhedron::lookup::{Plan, Table};
 use crate::body::tables::tables;
 use crate::body::tables::tuning::{COME_APART, FAR, ONE_ROUND, TWO_ROUNDS};
+use crate::placed::Pair;
 use crate::placed::frame::{Frame, Marker};
 use crate::placed::state::State;
 
@@ -55,7 +56,8 @@ pub fn has_jumped<L: Lanes>(frame: &Frame<L>, marker: &Marker) -> bool {
 /// spheres inside the bodies may overlap, and the jump is not far, the last enclosure is the better hint.
 pub fn may_have_come_apart<L: Lanes>(frame: &Frame<L>, marker: &Marker, poses: [&Pose; 2]) -> bool {
     frame.has_moved(marker, FAR)
-        || (frame.has_moved(marker, COME_APART * square_jump(frame)) && !may_cores_overlap(frame.polyhedra(), poses))
+        || (frame.has_moved(marker, COME_APART * square_jump(frame))
+            && !may_cores_overlap(&Pair { polyhedra: frame.polyhedra(), poses }))
 }
 
 #[inline(always)]
@@ -65,7 +67,8 @@ fn square_jump<L: Lanes>(frame: &Frame<L>) -> f64 {
 }
 
 /// Whether spheres inside two bodies overlap, as far as their tables know any; beside a body that needs no table they may.
-fn may_cores_overlap(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> bool {
+fn may_cores_overlap(pair: &Pair) -> bool {
+    let Pair { polyhedra, poses } = *pair;
     let Some([Table::Shells(first), Table::Shells(second)]) = tables(polyhedra) else {
         return polyhedra.iter().any(|polyhedron| matches!(polyhedron.lookup.plan, Plan::AllVertices { .. }));
     };

@@ -10,9 +10,9 @@ use super::answer::ExactAnswer;
 use super::dyadic::{IntVector, bounds_of_quotient_by_root, cross, dot, leading_bits};
 use super::minkowski::MinkowskiDifference;
 use super::simplex::{DifferenceVertex, Simplex, VertexPair};
-use crate::base::math::{Pose, Vector};
+use crate::base::math::Vector;
 use crate::base::memory::listed;
-use crate::body::polyhedron::Polyhedron;
+use crate::placed::Pair;
 use dashu_int::IBig;
 
 /// The relative position of two bodies.
@@ -41,8 +41,8 @@ pub enum Supports {
 }
 
 /// The relative position of two bodies, exactly, for any finite poses. `start` is the same as for [`super::solve`].
-pub fn locate(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], start: &[VertexPair], supports: Supports) -> Position {
-    let difference = MinkowskiDifference::new(polyhedra, poses);
+pub fn locate(pair: &Pair, start: &[VertexPair], supports: Supports) -> Position {
+    let difference = MinkowskiDifference::new(pair);
     let (mut simplex, mut iterations) = difference.descend(start);
     if supports == Supports::OfAll {
         while !simplex.holds_origin() && simplex.improve(&difference.support_of_all(&simplex)) {}
@@ -60,8 +60,8 @@ pub fn locate(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2], start: &[VertexPai
 
 /// An upper bound of the least overlap, for any magnitudes: the least of those along the world's axes. And the unit vector from
 /// body 2 to body 1 along which that is.
-pub fn overlap_along_axes(polyhedra: [&Polyhedron; 2], poses: [&Pose; 2]) -> (f64, Vector) {
-    let difference = MinkowskiDifference::new(polyhedra, poses);
+pub fn overlap_along_axes(pair: &Pair) -> (f64, Vector) {
+    let difference = MinkowskiDifference::new(pair);
     let mut least = (f64::INFINITY, Vector::x());
     for axis in 0..3 {
         for sign in [IBig::ONE, IBig::NEG_ONE] {

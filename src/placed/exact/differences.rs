@@ -7,8 +7,8 @@ use super::boundary::Supports;
 use super::dyadic::{DyadicVector, IntVector, cross, dot};
 use super::minkowski::MinkowskiDifference;
 use super::simplex::{VertexPair, nearest_of_hull};
-use crate::base::math::{Pose, Vector};
-use crate::body::polyhedron::Polyhedron;
+use crate::base::math::Vector;
+use crate::placed::Pair;
 use dashu_int::IBig;
 
 /// The differences of the vertices of two placed bodies.
@@ -16,8 +16,8 @@ pub struct Differences<'a>(MinkowskiDifference<'a>);
 
 impl<'a> Differences<'a> {
     /// For any finite poses.
-    pub fn new(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2]) -> Differences<'a> {
-        Differences(MinkowskiDifference::new(polyhedra, poses))
+    pub fn new(pair: &Pair<'a>) -> Differences<'a> {
+        Differences(MinkowskiDifference::new(pair))
     }
 
     fn components(&self, pair: VertexPair) -> IntVector {

@@ -2,9 +2,8 @@
 
 use super::body::Body;
 use super::simplex::{DifferenceVertex, Simplex, VertexPair, nearest_of_hull};
-use crate::base::math::Pose;
 use crate::base::memory::listed;
-use crate::body::polyhedron::Polyhedron;
+use crate::placed::Pair;
 
 /// The Minkowski difference: all differences (point of A) − (point of B). It holds the origin exactly when A and B have a common
 /// point, and its point nearest to the origin is the shortest vector from B to A.
@@ -15,7 +14,8 @@ pub(super) struct MinkowskiDifference<'a> {
 
 impl<'a> MinkowskiDifference<'a> {
     /// The difference of two placed bodies, for any finite poses.
-    pub(super) fn new(polyhedra: [&'a Polyhedron; 2], poses: [&Pose; 2]) -> MinkowskiDifference<'a> {
+    pub(super) fn new(pair: &Pair<'a>) -> MinkowskiDifference<'a> {
+        let Pair { polyhedra, poses } = *pair;
         MinkowskiDifference { a: Body::new(polyhedra[0], poses[0]), b: Body::new(polyhedra[1], poses[1]) }
     }
 

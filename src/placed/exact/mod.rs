@@ -20,8 +20,7 @@ mod half_space;
 mod beside_line;
 mod point_depth;
 
-use crate::base::math::Pose;
-use crate::body::polyhedron::Polyhedron;
+use crate::placed::Pair;
 pub use answer::{ExactAnswer, ExactDistance};
 pub(crate) use beside_line::{BesideLine, Place};
 pub use boundary::{Position, Supports, locate, overlap_along_axes};
@@ -34,16 +33,16 @@ use simplex::nearest_of_hull;
 
 /// Decides the pair exactly, for any finite poses. `start` is a hint: any pairs, best those of the last answer; it may be
 /// empty, and pairs with an index out of range are passed over.
-pub fn solve(a: &Polyhedron, pose_a: &Pose, b: &Polyhedron, pose_b: &Pose, start: &[VertexPair]) -> ExactAnswer {
-    let difference = MinkowskiDifference::new([a, b], [pose_a, pose_b]);
+pub fn solve(pair: &Pair, start: &[VertexPair]) -> ExactAnswer {
+    let difference = MinkowskiDifference::new(pair);
     let (simplex, iterations) = difference.descend(start);
     ExactAnswer::new(&simplex, iterations)
 }
 
 /// The distance of a pair, proved over all vertices: which of them are neighbours only guides the search. Arguments same as for
 /// [`solve`]. Time in proportion to the vertices, once the descent has reached the nearest point.
-pub fn distance(a: &Polyhedron, pose_a: &Pose, b: &Polyhedron, pose_b: &Pose, start: &[VertexPair]) -> ExactDistance {
-    let difference = MinkowskiDifference::new([a, b], [pose_a, pose_b]);
+pub fn distance(pair: &Pair, start: &[VertexPair]) -> ExactDistance {
+    let difference = MinkowskiDifference::new(pair);
     let (mut simplex, _) = difference.descend(start);
     while !simplex.holds_origin() && simplex.improve(&difference.support_of_all(&simplex)) {}
     ExactDistance::of_nearest(simplex)
@@ -51,8 +50,8 @@ pub fn distance(a: &Polyhedron, pose_a: &Pose, b: &Polyhedron, pose_b: &Pose, st
 
 /// Whether the differences of the given pairs hold the origin in their convex hull, exactly. Pairs with an index out of range
 /// are passed over.
-pub fn encloses_origin(a: &Polyhedron, pose_a: &Pose, b: &Polyhedron, pose_b: &Pose, pairs: &[VertexPair]) -> bool {
-    let difference = MinkowskiDifference::new([a, b], [pose_a, pose_b]);
+pub fn encloses_origin(pair: &Pair, pairs: &[VertexPair]) -> bool {
+    let difference = MinkowskiDifference::new(pair);
     let corners = difference.corners(pairs);
     corners.first().is_some_and(|first| nearest_of_hull(first.clone(), &corners).holds_origin())
 }
@@ -60,9 +59,9 @@ pub fn encloses_origin(a: &Polyhedron, pose_a: &Pose, b: &Polyhedron, pose_b: &P
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::base::math::{Vector, power_of_two};
+    use crate::base::math::{Pose, Vector, power_of_two};
     use crate::body::build::assembly::build;
-    use crate::body::polyhedron::{NONE, NeighbourBlock, Vertex};
+    use crate::body::polyhedron::{NONE, NeighbourBlock, Polyhedron, Vertex};
     use std::cmp::Ordering;
 
     fn hull(points: &[[f64; 3]]) -> Polyhedron {
@@ -105,10 +104,12 @@ mod tests {
     fn a_climb_leaves_a_flat_vertex_that_ties_with_all_neighbours() {
         let (cube, point) = (cube_with_flat_vertex(), hull(&[[0.0; 3]]));
         // Below the cube, begun at the flat vertex on its top: the first direction is perpendicular to the top.
-        let below = solve(&cube, &Pose::IDENTITY, &point, &at(0.0, 0.0, -3.0), &[[8, 0]]);
+        let below =
+            solve(&Pair { polyhedra: [&cube, &point], poses: [&Pose::IDENTITY, &at(0.0, 0.0, -3.0)] }, &[[8, 0]]);
         assert_eq!((below.lower, below.upper), (2.0, 2.0));
         assert_eq!(below.direction, Vector::z());
-        let above = solve(&cube, &Pose::IDENTITY, &point, &at(0.0, 0.0, 3.0), &[[8, 0]]);
+        let above =
+            solve(&Pair { polyhedra: [&cube, &point], poses: [&Pose::IDENTITY, &at(0.0, 0.0, 3.0)] }, &[[8, 0]]);
         assert_eq!((above.lower, above.upper, above.iterations), (2.0, 2.0, 2));
     }
 
@@ -116,10 +117,13 @@ mod tests {
     fn touching_is_intersecting_and_the_next_double_is_not() {
         let (cube, point) = (cube_with_flat_vertex(), hull(&[[0.0; 3]]));
         for (x, y) in [(0.0, 0.0), (0.3, -0.7), (1.0, 0.1), (1.0, -1.0)] {
-            let touching = solve(&cube, &Pose::IDENTITY, &point, &at(x, y, 1.0), &[]);
+            let touching = solve(&Pair { polyhedra: [&cube, &point], poses: [&Pose::IDENTITY, &at(x, y, 1.0)] }, &[]);
             assert!(touching.intersecting);
             assert_eq!((touching.lower, touching.upper), (0.0, 0.0));
-            let apart = solve(&cube, &Pose::IDENTITY, &point, &at(x, y, 1.0_f64.next_up()), &touching.pairs);
+            let apart = solve(
+                &Pair { polyhedra: [&cube, &point], poses: [&Pose::IDENTITY, &at(x, y, 1.0_f64.next_up())] },
+                &touching.pairs,
+            );
             assert!(!apart.intersecting);
             assert_eq!((apart.lower, apart.upper), (f64::EPSILON, f64::EPSILON));
         }
@@ -131,19 +135,24 @@ mod tests {
         let tiny = hull(&[[0.0, power_of_two(-500), 0.0]]);
         let mut skewed = Pose::IDENTITY;
         skewed.rows[0][1] = power_of_two(-1000);
-        let close = solve(&tiny, &skewed, &tiny, &Pose::IDENTITY, &[]);
+        let close = solve(&Pair { polyhedra: [&tiny, &tiny], poses: [&skewed, &Pose::IDENTITY] }, &[]);
         assert!(!close.intersecting);
         assert_eq!((close.lower, close.upper, close.direction), (0.0, 5e-324, Vector::x()));
 
         let origin = hull(&[[0.0; 3]]);
-        let far = solve(&origin, &at(f64::MAX, 0.0, 0.0), &origin, &at(-f64::MAX, 0.0, 0.0), &[]);
+        let far = solve(
+            &Pair { polyhedra: [&origin, &origin], poses: [&at(f64::MAX, 0.0, 0.0), &at(-f64::MAX, 0.0, 0.0)] },
+            &[],
+        );
         assert_eq!((far.lower, far.upper, far.direction), (f64::MAX, f64::INFINITY, Vector::x()));
     }
 
     #[test]
     fn distances_compare_with_doubles_exactly() {
         let origin = hull(&[[0.0; 3]]);
-        let to = |x: f64, y: f64| distance(&origin, &Pose::IDENTITY, &origin, &at(x, y, 0.0), &[]);
+        let to = |x: f64, y: f64| {
+            distance(&Pair { polyhedra: [&origin, &origin], poses: [&Pose::IDENTITY, &at(x, y, 0.0)] }, &[])
+        };
         for scale in [5e-324, 1e-200, 1.0, power_of_two(1000)] {
             let five = to(3.0 * scale, 4.0 * scale);
             assert_eq!(five.bounds(), (5.0 * scale, 5.0 * scale));
@@ -177,8 +186,8 @@ mod tests {
         let point = hull(&[[0.0; 3]]);
         let start = [[(tip + 1) % 4, 0]];
         let above = at(0.0, 0.0, 10.0);
-        assert_eq!(solve(&needle, &Pose::IDENTITY, &point, &above, &start).lower, 10.0);
-        let proved = distance(&needle, &Pose::IDENTITY, &point, &above, &start);
+        assert_eq!(solve(&Pair { polyhedra: [&needle, &point], poses: [&Pose::IDENTITY, &above] }, &start).lower, 10.0);
+        let proved = distance(&Pair { polyhedra: [&needle, &point], poses: [&Pose::IDENTITY, &above] }, &start);
         assert_eq!(proved.bounds(), (1.0, 1.0));
     }
 
@@ -197,8 +206,12 @@ mod tests {
             |p: [f64; 3]| octahedron.vertices.iter().position(|v| v.position == Vector::from(p)).unwrap() as u32;
         let [x, y, z] = [[1.0, 0.0, 0.0], [0.0, 1.0, 0.0], [0.0, 0.0, 1.0]].map(|p| [index(p), 0]);
         let [minus_x, minus_y] = [[-1.0, 0.0, 0.0], [0.0, -1.0, 0.0]].map(|p| [index(p), 0]);
-        let encloses =
-            |pairs: &[VertexPair]| encloses_origin(&octahedron, &Pose::IDENTITY, &origin, &Pose::IDENTITY, pairs);
+        let encloses = |pairs: &[VertexPair]| {
+            encloses_origin(
+                &Pair { polyhedra: [&octahedron, &origin], poses: [&Pose::IDENTITY, &Pose::IDENTITY] },
+                pairs,
+            )
+        };
         assert!(encloses(&[x, minus_x]));
         assert!(encloses(&[y, x, minus_x]));
         assert!(encloses(&[x, y, minus_x, minus_y]));

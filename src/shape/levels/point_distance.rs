@@ -10,6 +10,7 @@ use crate::body::build::assembly::build;
 use crate::body::polyhedron::surface_walk::{Candidate, Surface, SurfaceFeature, nearest_of, on_segment};
 use crate::body::polyhedron::{LARGEST, NONE, Polyhedron, SMALLEST};
 use crate::distance::decide::{self, Decision, Wanted};
+use crate::placed::Pair;
 
 /// A polyhedron for which distances of points are queried. All values are in its centred coordinates.
 #[derive(Debug, Clone)]
@@ -97,13 +98,12 @@ impl<'a> PointDistance<'a> {
         // Beyond these magnitudes the decision is left to integers.
         let in_range = (SMALLEST..=LARGEST).contains(&self.polyhedron.radius) && point.amax() <= LARGEST;
         let hint = corners.map(|v| [0, v]);
-        let poses = [&pose, &Pose::IDENTITY];
+        let pair = Pair { polyhedra: [&self.probe, self.polyhedron], poses: [&pose, &Pose::IDENTITY] };
         let wanted = Wanted { tight: true, max_distance: f64::INFINITY };
-        let (pairs, found, upper) =
-            match decide::decide([&self.probe, self.polyhedron], poses, in_range, &hint, wanted).0 {
-                Decision::Intersecting { pairs, .. } => (pairs, *point, 0.0),
-                Decision::Separated { points, interval, pairs, .. } => (pairs, points[1], interval.upper),
-            };
+        let (pairs, found, upper) = match decide::decide(&pair, in_range, &hint, wanted).0 {
+            Decision::Intersecting { pairs, .. } => (pairs, *point, 0.0),
+            Decision::Separated { points, interval, pairs, .. } => (pairs, points[1], interval.upper),
+        };
         let corners = listed(pairs.as_slice().iter().map(|pair| pair[1]));
         NearestPoint { point: found, upper, vertex: nearest_of(self.polyhedron, point, &corners) }
     }

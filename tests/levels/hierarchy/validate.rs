@@ -5,6 +5,7 @@ use swiftprox::body::build::assembly::build;
 use swiftprox::body::polyhedron::Polyhedron;
 use swiftprox::hierarchy::{Hierarchy, HierarchyKind, Level, Links};
 use swiftprox::math::{Pose, Vector};
+use swiftprox::placed::Pair;
 use swiftprox::placed::exact;
 use swiftprox::placed::state::FeatureId;
 
@@ -57,7 +58,7 @@ fn check_deviation(name: &str, base: &Polyhedron, level: &Level) {
     let chosen = order.iter().take(24).chain(order.iter().step_by(spread));
     for (_, v) in chosen {
         let point = build(&[above.local_position(*v)], None).unwrap();
-        let answer = exact::solve(&point, &Pose::IDENTITY, base, &Pose::IDENTITY, &[]);
+        let answer = exact::solve(&Pair { polyhedra: [&point, base], poses: [&Pose::IDENTITY; 2] }, &[]);
         // Where the body is far from its origin the vertices of levels are no doubles in its frame.
         let rounding = if base.centre == Vector::zeros() { 0.0 } else { 2e-16 * base.centre.amax() };
         assert!(answer.lower <= level.deviation + rounding, "{name}: {:e} above {:e}", answer.lower, level.deviation);

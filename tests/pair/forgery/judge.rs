@@ -4,6 +4,7 @@ use dashu_ratio::RBig;
 use swiftprox::body::polyhedron::Polyhedron;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{DecidedBy, Feature, FeatureKind, Outcome, PairAnswer};
+use swiftprox::placed::Pair;
 use swiftprox::placed::exact;
 
 use super::scenes::Scene;
@@ -32,7 +33,7 @@ impl<'a> Judge<'a> {
     pub fn new(scene: &'a Scene, poses: [Pose; 2]) -> Judge<'a> {
         let [pose_a, pose_b] = [row_major(&poses[0]), row_major(&poses[1])];
         let [a, b] = [scene.shapes[0].polyhedron(), scene.shapes[1].polyhedron()];
-        let solved = exact::solve(a, &poses[0], b, &poses[1], &[]);
+        let solved = exact::solve(&Pair { polyhedra: [a, b], poses: [&poses[0], &poses[1]] }, &[]);
         let truth = match &scene.polytopes {
             Some([a, b]) => truth(a, &pose_a, b, &pose_b),
             None => {
