@@ -5,10 +5,15 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use swiftprox::base::simd::environment::{Environment, is_invalid};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
+use swiftprox::manifold::{ManifoldConfig, ManifoldPoint, half_space_manifold, manifold};
 use swiftprox::math::{Pose, Vector};
-use swiftprox::pair::{self, Levels, PairAnswer, PairCache, PairConfig, Placed};
+use swiftprox::motion::{CastAnswer, CastConfig, Motion, Moving, cast};
+use swiftprox::pair::{self, HalfSpace, Levels, PairAnswer, PairCache, PairConfig, Placed};
+use swiftprox::placed::Pair;
 use swiftprox::placed::exact;
+use swiftprox::point::locate_point;
 use swiftprox::progress::Progress;
+use swiftprox::ray::{Ray, cast_ray};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use swiftprox::shape_file;
 use swiftprox::verify::verify;
@@ -49,7 +54,10 @@ fn integers_decide_alike_in_every_environment() {
         for gap in [-0.5, 0.0, 1e-300, 0.3, 0.9999, 1.0, 1.5, 1.7] {
             let pose = at(gap * scale, 0.25 * gap * scale, if gap == 0.0 { -scale } else { 0.0 });
             let solve = || {
-                let answer = exact::solve(body.polyhedron(), &pose, body.polyhedron(), &Pose::IDENTITY, &[[0, 1]]);
+                let answer = exact::solve(
+                    &Pair { polyhedra: [body.polyhedron(), body.polyhedron()], poses: [&pose, &Pose::IDENTITY] },
+                    &[[0, 1]],
+                );
                 (answer.intersecting, answer.lower.to_bits(), answer.upper.to_bits(), answer.pairs, answer.iterations)
             };
             let expected = solve();
@@ -90,6 +98,55 @@ fn round_bodies_answer_alike_in_every_environment() {
                 let told = environment.run(ask);
                 assert_eq!(format!("{told:?}"), expected, "{environment:?} {radii:?} {x}");
             }
+        }
+    }
+}
+
+/// Refusals read alike in every environment: a NaN is compared and printed there. Refused half-spaces, and tolerances of pairs,
+/// ended programs that trap invalid operations.
+#[test]
+fn what_is_refused_is_told_in_every_environment() {
+    let tetrahedron = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.0], [0.9, 1.0, 0.2], [0.2, 0.3, 1.0]].map(Vector::from);
+    let body = Shape::from_points(&tetrahedron, &ShapeOptions::default()).unwrap();
+    let [here, there] = [Pose::IDENTITY, at(3.0, 0.0, 0.0)];
+    let bodies = [body.at(&here), body.at(&there)];
+    let mut skewed = here;
+    skewed.rows[0][1] = f64::NAN;
+    for number in [f64::NAN, f64::NEG_INFINITY, -5e-324] {
+        let pair_config = PairConfig { max_distance: number, ..PairConfig::default() };
+        let points = || vec![ManifoldPoint::default(); 8];
+        let manifold_config = ManifoldConfig { max_distance: number, ..ManifoldConfig::default() };
+        let floor = HalfSpace { normal: [0.0, 0.0, number], offset: number };
+        let ask = || {
+            let mut told = Vec::new();
+            for query in QUERIES {
+                let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+                told.push(query(bodies, &mut cache, &pair_config, &mut answer).err());
+                let unplaced = [body.at(&skewed), body.at(&there)];
+                told.push(query(unplaced, &mut cache, &PairConfig::default(), &mut answer).err());
+            }
+            let mut signed = pair::SignedDistance::default();
+            told.push(pair::signed_distance(bodies, &mut Default::default(), &pair_config, &mut signed).err());
+            let deep = pair::DepthConfig { absolute_error: number, ..Default::default() };
+            told.push(pair::depth(bodies, &mut Default::default(), &deep, &mut Default::default()).err());
+            told.push(manifold(bodies, &mut Default::default(), &manifold_config, &mut points()).err());
+            told.push(pair::half_space_distance(bodies[0], &floor).err().filter(|_| !number.is_finite()));
+            told.push(half_space_manifold(bodies[0], &floor, &manifold_config, &mut points()).err());
+            told.push(locate_point(bodies[0], [number; 3]).err().filter(|_| !number.is_finite()));
+            told.push(body.scaled(number, &mut Progress::new(&mut |_| true)).err());
+            let ray = Ray { origin: [0.0; 3], direction: [1.0; 3], t_max: number };
+            told.push(cast_ray(bodies[0], &ray).err());
+            told.push(
+                Shape::from_points(&tetrahedron, &ShapeOptions { swept_radius: number, ..Default::default() }).err(),
+            );
+            let (fixed, time) = (Motion::Fixed(here), CastConfig { time_tolerance: number, ..Default::default() });
+            let moving = [Moving { shape: &body, motion: &fixed }; 2];
+            told.push(cast(moving, &mut PairCache::default(), &time, &mut CastAnswer::default()).err());
+            format!("{told:?}")
+        };
+        let expected = ask();
+        for environment in Environment::all() {
+            assert_eq!(environment.run(ask), expected, "{environment:?} {number:e}");
         }
     }
 }

@@ -6,6 +6,7 @@ use swiftprox::body::polyhedron::Vertex;
 use swiftprox::depth::polytope::{Pyramid, Rounding};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{DepthAnswer, DepthCache, Outcome};
+use swiftprox::placed::Pair;
 use swiftprox::placed::frame::Frame;
 use swiftprox::shape::{Shape, ShapeOptions};
 use swiftprox::verify::verify_depth;
@@ -36,6 +37,28 @@ fn intervals_are_as_narrow_at_any_magnitude() {
             verify_depth([shapes[0].at(&poses[0]), shapes[1].at(&poses[1])], &cache, &answer)
                 .unwrap_or_else(|error| panic!("{scale:e}: {error}: {answer:?}"));
         }
+    }
+}
+
+/// Where only integers tell that bodies overlap, the upper end is the way to the face ahead. No face at the vertex where its search
+/// began looked there, so a side face was named: a pose that stretches has it farther off than that end.
+#[test]
+fn the_face_ahead_is_named_where_the_interval_ends_at_it() {
+    for half in [3.367982276076923e201, 1e201, 7e230] {
+        let cube = |half: f64| {
+            let side = |k: usize, bit: usize| if k >> bit & 1 == 0 { -half } else { half };
+            hull(&(0..8).map(|k| Vector::new(side(k, 0), side(k, 1), side(k, 2))).collect::<Vec<_>>())
+        };
+        let shapes = [cube(half), cube(5e-324)];
+        let placed = |x: f64, y: f64, z: f64| Pose {
+            rows: [[1.0, 0.0, 0.0, x], [0.0, 1.0000000037252903, 0.0, y], [0.0, 0.0, 1.0, z]],
+        };
+        let poses = [placed(-24.0, -24.0, -24.0), placed(5e-324, 25.0, 5e-324)];
+        let mut cache = DepthCache::default();
+        let answer = query([&shapes[0], &shapes[1]], [&poses[0], &poses[1]], &mut cache);
+        assert_eq!(answer.outcome, Outcome::Intersecting);
+        verify_depth([shapes[0].at(&poses[0]), shapes[1].at(&poses[1])], &cache, &answer)
+            .unwrap_or_else(|error| panic!("{half:e}: {error}: {answer:?}"));
     }
 }
 
@@ -83,7 +106,8 @@ fn pyramids_prove_nothing_out_of_scale() {
         let prove = |place: [f64; 3]| {
             let mut pose = Pose::IDENTITY;
             (0..3).for_each(|i| pose.rows[i][3] = place[i] * scale);
-            let frame = Frame::<Portable>::new([&bodies[0], &bodies[1]], [&pose, &Pose::IDENTITY]);
+            let frame =
+                Frame::<Portable>::new(&Pair { polyhedra: [&bodies[0], &bodies[1]], poses: [&pose, &Pose::IDENTITY] });
             assert!(frame.in_range);
             let base = [pair([-1., -1., 1.]), pair([1., -1., 1.]), pair([1., 1., 1.]), pair([-1., 1., 1.])];
             Pyramid::new(&base, pair([1., 1., -1.])).prove(&frame, &Rounding::of(&frame)).is_ok()

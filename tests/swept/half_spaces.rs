@@ -8,7 +8,7 @@ use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::ObjectOptions;
 use swiftprox::pair::{HalfSpace, Outcome, half_space_distance};
 use swiftprox::scene::{GroupFilter, Scene, SetScratch};
-use swiftprox::shape::Shape;
+use swiftprox::shape::{Shape, ShapeOptions};
 use testkit::random::Random;
 use testkit::shapes::at;
 use testkit::swept::Length;
@@ -123,6 +123,22 @@ fn manifolds_are_the_corners_below() {
     let [a, b, c, d] = [0, 1, 2, 3].map(|i| Vector::from(points[i].world1));
     let area = 0.5 * (b - a).cross(&(d - c)).norm();
     assert!(area > 1.9, "{area}: the largest square has 2");
+}
+
+/// Faces flat up to a noise are one contact face, and the lowest vertex need not be a corner of it. It was a fifth point.
+#[test]
+fn a_reduced_manifold_has_at_most_four_points() {
+    let square =
+        |height: f64| [[-1.0, -1.0], [1.0, -1.0], [1.0, 1.0], [-1.0, 1.0]].map(|[x, y]| Vector::new(x, y, height));
+    let points: Vec<Vector> =
+        [square(0.0), square(1.0)].concat().into_iter().chain([Vector::new(0.1, 0.0, -1e-4)]).collect();
+    let options = ShapeOptions { face_noise: Some(1e-3), ..ShapeOptions::default() };
+    let body = Shape::from_points(&points, &options).unwrap();
+    let ask = |reduces| manifold(&body, &Pose::IDENTITY, &GROUND, 1e-3, reduces);
+    let [(all, every), (four, points)] = [false, true].map(ask);
+    assert_eq!((all.point_count, all.found_count), (5, 5), "{every:?}");
+    assert_eq!((four.point_count, four.found_count), (4, 5), "{points:?}");
+    assert_eq!(points.iter().filter(|point| point.gap_upper < -0.9e-4).count(), 1, "{points:?}");
 }
 
 #[test]
