@@ -11,6 +11,7 @@
 #include <string.h>
 
 #include "check.h"
+#include "swiftprox/compound.h"
 #include "swiftprox/geometry.h"
 #include "swiftprox/process.h"
 #include "swiftprox/scene.h"
@@ -362,6 +363,133 @@ static void refuse_every_block(const char *what, swiftprox_status (*ask)(uint64_
     CHECK(refusals > 0);
 }
 
+/* What is said of the two cubes, and its proofs. */
+static const double lower_pose[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
+static swiftprox_pair_answer contact;
+static swiftprox_depth_answer depth;
+static swiftprox_depth_cache depth_cache;
+static swiftprox_manifold manifold;
+static swiftprox_manifold_cache manifold_cache;
+static swiftprox_manifold_point manifold_points[16];
+static swiftprox_cast_answer hit;
+
+static swiftprox_status check_answer(uint64_t *told)
+{
+    *told = 0;
+    return swiftprox_pair_verify((swiftprox_placed){cube, lower_pose}, (swiftprox_placed){cube, upper_pose}, &contact);
+}
+
+static swiftprox_status check_depth(uint64_t *told)
+{
+    *told = 0;
+    return swiftprox_pair_depth_verify((swiftprox_placed){cube, lower_pose}, (swiftprox_placed){cube, upper_pose}, &depth_cache,
+                                       &depth);
+}
+
+static swiftprox_status check_manifold(uint64_t *told)
+{
+    *told = 0;
+    return swiftprox_pair_manifold_verify((swiftprox_placed){cube, lower_pose}, (swiftprox_placed){cube, upper_pose},
+                                          &manifold_cache, NULL, manifold_points, &manifold);
+}
+
+/* The upper cube falls on the lower one; or what was said of that is checked. */
+static swiftprox_status cast_or_check(int is_check)
+{
+    swiftprox_pair_cache cache = {{0}};
+    swiftprox_motion fixed = {0}, down = {0};
+    fixed.kind = SWIFTPROX_MOTION_KIND_FIXED;
+    down.kind = SWIFTPROX_MOTION_KIND_SCREW;
+    memcpy(fixed.start, lower_pose, sizeof lower_pose);
+    memcpy(down.start, upper_pose, sizeof upper_pose);
+    down.start[11] += 1;
+    down.velocity[2] = -2;
+    return is_check ? swiftprox_pair_cast_verify((swiftprox_moving){cube, &fixed}, (swiftprox_moving){cube, &down}, NULL, &hit)
+                    : swiftprox_pair_cast((swiftprox_moving){cube, &fixed}, (swiftprox_moving){cube, &down}, &cache, NULL, &hit);
+}
+
+static swiftprox_status check_cast(uint64_t *told)
+{
+    *told = 0;
+    return cast_or_check(1);
+}
+
+/*
+ * Checks of answers: the names of members that a message may need were put together for every check, in blocks of 8 to 64 bytes,
+ * and where one was refused the program ended. Cut-off: the first block of each check.
+ */
+static void test_checks(void)
+{
+    swiftprox_pair_cache cache = {{0}};
+    const swiftprox_placed lower = {cube, lower_pose}, upper = {cube, upper_pose};
+    CHECK_OK(swiftprox_pair_contact(lower, upper, &cache, NULL, &contact));
+    CHECK_OK(swiftprox_pair_depth(lower, upper, &depth_cache, NULL, &depth));
+    CHECK_OK(swiftprox_pair_manifold(lower, upper, &manifold_cache, NULL, (swiftprox_manifold_room){manifold_points, 16, NULL},
+                                     &manifold));
+    CHECK(manifold.point_count == 8);
+    CHECK_OK(cast_or_check(0));
+    CHECK(hit.outcome == SWIFTPROX_CAST_OUTCOME_HIT);
+    refuse_every_block("check of a contact", check_answer);
+    refuse_every_block("check of a depth", check_depth);
+    refuse_every_block("check of a manifold", check_manifold);
+    refuse_every_block("check of a cast", check_cast);
+}
+
+/* The cube as a compound, and its fall. */
+static const swiftprox_compound *compound;
+static swiftprox_compound_cast_answer compound_hit;
+
+static swiftprox_status cast_or_check_compound(int is_check)
+{
+    static swiftprox_compound_cache cache;
+    swiftprox_motion fixed = {0}, down = {0};
+    const swiftprox_moving_compound lower = {compound, &fixed}, upper = {compound, &down};
+    fixed.kind = SWIFTPROX_MOTION_KIND_FIXED;
+    down.kind = SWIFTPROX_MOTION_KIND_SCREW;
+    memcpy(fixed.start, lower_pose, sizeof lower_pose);
+    memcpy(down.start, upper_pose, sizeof upper_pose);
+    down.start[11] += 1;
+    down.velocity[2] = -2;
+    memset(&cache, 0, sizeof cache);
+    return is_check ? swiftprox_compound_cast_verify(lower, upper, NULL, &compound_hit)
+                    : swiftprox_compound_cast(lower, upper, &cache, NULL, &compound_hit);
+}
+
+static swiftprox_status cast_compound(uint64_t *told)
+{
+    const swiftprox_status status = cast_or_check_compound(0);
+    *told = compound_hit.answer.outcome;
+    return status;
+}
+
+static swiftprox_status check_compound_cast(uint64_t *told)
+{
+    *told = 0;
+    return cast_or_check_compound(1);
+}
+
+static swiftprox_status ask_compound(uint64_t *told)
+{
+    static swiftprox_compound_cache cache;
+    swiftprox_compound_signed_distance_answer answer;
+    const swiftprox_placed_compound lower = {compound, lower_pose}, upper = {compound, upper_pose};
+    const swiftprox_status status = swiftprox_compound_signed_distance(lower, upper, &cache, NULL, &answer);
+    memset(&cache, 0, sizeof cache);
+    *told = answer.distance.outcome;
+    return status;
+}
+
+/* A cast of compounds ended the program where the first 8 bytes that it asks for were refused, however small the compounds. */
+static void test_compounds(void)
+{
+    CHECK_OK(swiftprox_compound_create(&cube, lower_pose, 1, &compound));
+    refuse_every_block("compound", ask_compound);
+    refuse_every_block("cast of a compound", cast_compound);
+    CHECK(compound_hit.answer.outcome == SWIFTPROX_CAST_OUTCOME_HIT);
+    refuse_every_block("check of a compound's cast", check_compound_cast);
+    swiftprox_compound_release(compound);
+}
+
 static void test_every_block(void)
 {
     double box[24];
@@ -374,6 +502,8 @@ static void test_every_block(void)
     CHECK_OK(swiftprox_shape_create_from_points(box, 8, NULL, &cube));
     scene = NULL;
     refuse_every_block("scene", ask_scene);
+    test_checks();
+    test_compounds();
     CHECK_OK(swiftprox_scene_destroy(scene));
     scene = NULL;
     swiftprox_shape_release(cube);

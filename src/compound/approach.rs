@@ -11,7 +11,7 @@ use super::between::{Between, Reaches, opened};
 use super::{MovingCompound, PlacedCompound};
 use crate::base::error::Result;
 use crate::base::math::UNIT_ROUNDOFF as U;
-use crate::base::memory::{lacking, push};
+use crate::base::memory::{filled, lacking, push};
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::motion::{MovingFrame, Stop};
 
@@ -45,7 +45,7 @@ pub(super) fn approach(
         until,
         passed: f64::INFINITY,
         asked: HashSet::new(),
-        open: vec![[0; 2]],
+        open: filled([0; 2], 1)?,
         work: Vec::new(),
         ask,
     };

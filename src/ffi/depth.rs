@@ -376,11 +376,8 @@ unsafe fn read_points<'a>(points: *const ManifoldPoint, count: usize) -> Checked
             [&raw const (*point).feature1.kind, &raw const (*point).feature2.kind].map(|kind| kind.cast::<i32>().read())
         };
         for (object, kind) in (1..).zip(kinds) {
-            read_enumerator::<FeatureKind>(
-                kind,
-                &format!("points[{k}].feature{object}.kind"),
-                "swiftprox_feature_kind",
-            )?;
+            let member = format_args!("points[{k}].feature{object}.kind");
+            read_enumerator::<FeatureKind>(kind, member, "swiftprox_feature_kind")?;
         }
     }
     // SAFETY: valid, as has been checked.

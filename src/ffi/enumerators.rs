@@ -8,15 +8,16 @@ use crate::point::PointLocation;
 use crate::ray::RayOutcome;
 use crate::scene::{ContactDetail, PoseOrder, RayHits};
 use crate::shape::InputPolicy;
+use std::fmt::Display;
 
-/// An enumerator, as C passes it in `member`, one of the C type `kind`.
+/// An enumerator, as C passes it in `member`, one of the C type `kind`. The member's name is put together for a refusal only.
 #[inline(always)]
-pub(super) fn read_enumerator<T: Enumerator>(number: i32, member: &str, kind: &str) -> Checked<T> {
+pub(super) fn read_enumerator<T: Enumerator>(number: i32, member: impl Display, kind: &str) -> Checked<T> {
     T::from_number(number).ok_or_else(|| unknown(number, member, kind))
 }
 
 #[cold]
-pub(super) fn unknown(number: i32, member: &str, kind: &str) -> Failure {
+pub(super) fn unknown(number: i32, member: impl Display, kind: &str) -> Failure {
     Failure::new(StatusCode::ErrorInvalidArgument, format!("{member} is {number}, which is no {kind}"))
 }
 

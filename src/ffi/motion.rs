@@ -396,7 +396,7 @@ pub(super) fn read_motion<'a>(
 ) -> Checked<Motion<'a>> {
     let start = Pose::from_row_major(&motion.start);
     let Some(kind) = MotionKind::from_number(motion.kind) else {
-        return Err(unknown(motion.kind, &format!("{name}->kind"), "swiftprox_motion_kind"));
+        return Err(unknown(motion.kind, format_args!("{name}->kind"), "swiftprox_motion_kind"));
     };
     Ok(match kind {
         MotionKind::Fixed => Motion::Fixed(start),
@@ -453,10 +453,10 @@ pub(super) unsafe fn check_cast_enumerators(answer: *const CastAnswer, name: &st
             (&raw const (*contact).feature2.kind).cast::<i32>().read(),
         ]
     };
-    read_enumerator::<CastOutcome>(outcome, &format!("{name}->outcome"), "swiftprox_cast_outcome")?;
-    read_enumerator::<Outcome>(of_contact, &format!("{name}->contact.outcome"), "swiftprox_outcome")?;
-    read_enumerator::<DecidedBy>(decided_by, &format!("{name}->contact.decided_by"), "swiftprox_decided_by")?;
-    read_enumerator::<FeatureKind>(kind1, &format!("{name}->contact.feature1.kind"), "swiftprox_feature_kind")?;
-    read_enumerator::<FeatureKind>(kind2, &format!("{name}->contact.feature2.kind"), "swiftprox_feature_kind")?;
+    read_enumerator::<CastOutcome>(outcome, format_args!("{name}->outcome"), "swiftprox_cast_outcome")?;
+    read_enumerator::<Outcome>(of_contact, format_args!("{name}->contact.outcome"), "swiftprox_outcome")?;
+    read_enumerator::<DecidedBy>(decided_by, format_args!("{name}->contact.decided_by"), "swiftprox_decided_by")?;
+    read_enumerator::<FeatureKind>(kind1, format_args!("{name}->contact.feature1.kind"), "swiftprox_feature_kind")?;
+    read_enumerator::<FeatureKind>(kind2, format_args!("{name}->contact.feature2.kind"), "swiftprox_feature_kind")?;
     Ok(())
 }

@@ -311,10 +311,10 @@ pub(super) unsafe fn check_enumerators(answer: *const PairAnswer, name: &str) ->
             (&raw const (*answer).feature2.kind).cast::<i32>().read(),
         ]
     };
-    read_enumerator::<Outcome>(outcome, &format!("{name}->outcome"), "swiftprox_outcome")?;
-    read_enumerator::<DecidedBy>(decided_by, &format!("{name}->decided_by"), "swiftprox_decided_by")?;
-    read_enumerator::<FeatureKind>(kind1, &format!("{name}->feature1.kind"), "swiftprox_feature_kind")?;
-    read_enumerator::<FeatureKind>(kind2, &format!("{name}->feature2.kind"), "swiftprox_feature_kind")?;
+    read_enumerator::<Outcome>(outcome, format_args!("{name}->outcome"), "swiftprox_outcome")?;
+    read_enumerator::<DecidedBy>(decided_by, format_args!("{name}->decided_by"), "swiftprox_decided_by")?;
+    read_enumerator::<FeatureKind>(kind1, format_args!("{name}->feature1.kind"), "swiftprox_feature_kind")?;
+    read_enumerator::<FeatureKind>(kind2, format_args!("{name}->feature2.kind"), "swiftprox_feature_kind")?;
     Ok(())
 }
 
