@@ -10,7 +10,7 @@ use super::walk::{Aim, PiecePair, walk};
 use crate::base::error::{Error, Result};
 use crate::base::simd::environment::with_default;
 use crate::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed};
-use crate::verify::verify as verify_pair;
+use crate::verify::{prove_apart, verify as verify_pair};
 
 /// Re-checks an answer of [`distance`](super::distance) or [`intersection`](super::intersection) for the same compounds and poses.
 ///
@@ -40,7 +40,7 @@ pub fn verify(bodies: [PlacedCompound; 2], found: &CompoundAnswer) -> Result<()>
         }
         let trees = bodies.map(|body| &body.compound.tree);
         walk(PiecePair { trees, between: &between, aim: Aim::Distance }, answer.lower, |pieces| {
-            with_pieces(&bodies, pieces, |placed| prove_apart(placed, answer.lower))
+            with_pieces(&bodies, pieces, |placed| check_apart(placed, answer.lower))
                 .map_err(|error| about(error, pieces))?;
             Ok(Some(answer.lower))
         })?;
@@ -68,19 +68,11 @@ fn check_unnamed(answer: &PairAnswer) -> Result<()> {
 }
 
 /// Proves that two pieces are disjoint, and at least so far apart. The direction is a query's; the proof trusts nothing of it.
-fn prove_apart(placed: [Placed; 2], lower: f64) -> Result<()> {
+fn check_apart(placed: [Placed; 2], lower: f64) -> Result<()> {
     let mut found = PairAnswer::default();
     pair::distance(placed, &mut PairCache::default(), &PairConfig::default(), &mut found)?;
     if found.outcome == Outcome::Intersecting {
         return Err(Error::Unverified("they intersect".into()));
     }
-    let apart = PairAnswer {
-        outcome: Outcome::Beyond,
-        distance: lower,
-        lower,
-        upper: f64::INFINITY,
-        normal: found.normal,
-        ..PairAnswer::UNSAID
-    };
-    verify_pair(placed, &apart)
+    prove_apart(placed, found.normal, lower)
 }

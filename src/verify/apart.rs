@@ -1,7 +1,7 @@
 //! The checks of polyhedra that are apart: the interval, less the swept radii of the bodies, the normal and the points.
 
 use super::bounds::{Bounds, PointInside};
-use super::checks::{allowed, between_origins, check_normal, check_unit, too_large, unverified};
+use super::checks::{allowed, between_origins, check_normal, check_unit, in_default, too_large, unverified};
 use super::witness::{Witness, difference_of};
 use crate::answer::{Outcome, PairAnswer, Radii, sum_above, sum_below};
 use crate::base::error::{Error, Result};
@@ -9,6 +9,7 @@ use crate::base::math::{Vector, length};
 use crate::base::memory::listed;
 use crate::placed::Pair;
 use crate::placed::exact::{self, VertexPair};
+use crate::shape::Placed;
 
 /// Proves verdict and interval, and checks the normal; returns the rounding allowance for a length.
 pub(super) fn verify_disjoint(pair: &Pair, radii: &Radii, answer: &PairAnswer) -> Result<f64> {
@@ -24,6 +25,22 @@ pub(super) fn verify_disjoint(pair: &Pair, radii: &Radii, answer: &PairAnswer) -
         check_normal(pair, &normal, &between, answer.lower + radii.lower - allowed)?;
     }
     Ok(allowed)
+}
+
+/// Proves that bodies are apart, by at least `lower`. The direction is a hint, of about unit length: where it proves nothing,
+/// integers do.
+///
+/// # Errors
+/// [`Error::Unverified`] where they are not, [`Error::Memory`].
+pub(crate) fn prove_apart(bodies: [Placed; 2], direction: [f64; 3], lower: f64) -> Result<()> {
+    let outcome = Outcome::Beyond;
+    let apart =
+        PairAnswer { outcome, distance: lower, lower, upper: f64::INFINITY, normal: direction, ..PairAnswer::UNSAID };
+    in_default(|| {
+        let (pair, radii) = (Pair::of(&bodies), Radii::of(&bodies).unwrap_or(Radii::NONE));
+        let proof = prove_interval(&pair, &radii, &apart);
+        if proof.lower { Ok(()) } else { prove_interval_exactly(&pair, &radii, &apart, &proof.near) }
+    })
 }
 
 /// The proved part of an interval, and vertex pairs near where the objects are nearest.

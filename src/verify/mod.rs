@@ -19,6 +19,7 @@ use crate::base::memory::listed;
 use crate::placed::Pair;
 use crate::placed::exact::{self, VertexPair};
 use crate::shape::Placed;
+pub(crate) use apart::prove_apart;
 use apart::{check_points, not_in_interval, verify_disjoint};
 pub(crate) use bounds::Bounds;
 #[doc(hidden)]

@@ -201,6 +201,38 @@ fn any_size_is_answered() {
     }
 }
 
+/// Boxes tell how far a body is from a triangle 10¹⁴ long, where a query's normal, which nobody asked for, is off by more than the
+/// check allows: integers prove the distance.
+#[test]
+fn what_boxes_tell_of_a_long_body_is_proved() {
+    let compound = |points: &[[f64; 3]]| {
+        let points: Vec<Vector> = points.iter().map(|point| Vector::from(*point)).collect();
+        let shape = std::sync::Arc::new(testkit::shapes::hull(&points));
+        Compound::new(&[Piece { shape, pose: Pose::IDENTITY }]).unwrap()
+    };
+    let small = compound(&[
+        [0.6, 0.0, 0.8],
+        [-0.6758097397797128, 0.6190970809322855, 0.4],
+        [0.08742572471695988, -0.9961710408648278, 0.0],
+        [0.5576434272376702, 0.7273471028736042, -0.4],
+        [-0.590828091189257, -0.10450917022758696, -0.8],
+    ]);
+    let mut pose = Pose::new(&Matrix::identity(), &Vector::repeat(-32.0));
+    pose.rows[0][0] = 1.00390625;
+    for length in [44, 46, 47, 48, 49, 50] {
+        let depth = -f64::from(1_u32 << 16) * f64::from(1_u32 << 24) * f64::from(1_u32 << (length - 40));
+        let long = compound(&[[-31.0, -16.0, depth], [-32.0, -25.0, 0.0], [-16.0, -32.0, 0.0]]);
+        let placed = [small.at(&pose), long.at(&pose)];
+        let far = asked_distance(placed, &mut CompoundCache::default(), &PairConfig::default());
+        for part in [0.0, 0.5, 0.9, 0.99, 1.0] {
+            let found = asked_distance(placed, &mut CompoundCache::default(), &within(part * far.answer.lower));
+            assert_ne!(found.answer.outcome, Outcome::Intersecting);
+            swiftprox::compound::verify(placed, &found)
+                .unwrap_or_else(|error| panic!("{error}: {part} of {far:?}, {found:?}"));
+        }
+    }
+}
+
 fn sphere(radius: f64) -> swiftprox::shape::Shape {
     use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
     let options = ShapeOptions { input: InputPolicy::Hull, swept_radius: radius, ..ShapeOptions::default() };
