@@ -10,6 +10,7 @@ use super::contact::PlacedPoints;
 use crate::base::double_double::two_sum;
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
 use crate::base::simd::environment::with_default;
+use crate::base::simd::{self, Kernel, Lanes};
 use crate::shape::Placed;
 
 /// The swept radii of a pair.
@@ -106,26 +107,82 @@ impl Radii {
     }
 }
 
-/// Points moved by this much along a direction of the world. A pose does not stretch the ball: the local point is where the pose
-/// takes to the moved one.
+/// Points moved by this much along a direction of the world: [`move_points`].
 pub fn moved(points: &PlacedPoints, poses: [&Pose; 2], normal: &[f64; 3], by: [f64; 2]) -> PlacedPoints {
-    let normal = Vector::from(*normal);
-    let world = [0, 1].map(|i| Vector::from(points.world[i]) + normal * by[i]);
-    let local = [0, 1].map(|i| Vector::from(points.local[i]) + turned_back(poses[i], &normal) * by[i]);
-    PlacedPoints { local: local.map(Into::into), world: world.map(Into::into) }
+    let PlacedPoints { local: [mut local1, mut local2], world: [mut world1, mut world2] } = *points;
+    move_points([&mut local1, &mut local2], [&mut world1, &mut world2], poses, normal, by);
+    PlacedPoints { local: [local1, local2], world: [world1, world2] }
+}
+
+/// Moves points by this much along a direction of the world. A pose does not stretch the ball: the local point is where the pose
+/// takes to the moved one.
+pub fn move_points(
+    [local1, local2]: [&mut [f64; 3]; 2],
+    [world1, world2]: [&mut [f64; 3]; 2],
+    [pose1, pose2]: [&Pose; 2],
+    normal: &[f64; 3],
+    [by1, by2]: [f64; 2],
+) {
+    let normal = &Vector::from(*normal);
+    let one = Moving { local: local1, world: world1, pose: pose1, by: by1 };
+    let two = Moving { local: local2, world: world2, pose: pose2, by: by2 };
+    simd::dispatch(&mut Move { normal, one, two });
+}
+
+/// A point of a body, and how far it moves.
+struct Moving<'a> {
+    local: &'a mut [f64; 3],
+    world: &'a mut [f64; 3],
+    pose: &'a Pose,
+    by: f64,
+}
+
+struct Move<'a> {
+    normal: &'a Vector,
+    one: Moving<'a>,
+    two: Moving<'a>,
+}
+
+impl Kernel for Move<'_> {
+    type Output = ();
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) {
+        self.one.go::<L>(self.normal);
+        self.two.go::<L>(self.normal);
+    }
+}
+
+impl Moving<'_> {
+    /// Products are rounded before they are summed: all machines move points alike.
+    #[inline(always)]
+    fn go<L: Lanes>(&mut self, normal: &Vector) {
+        let (along, by) = (L::from_vector(normal), L::splat(self.by));
+        let local = L::from_vector(&Vector::from(*self.local));
+        let world = L::from_vector(&Vector::from(*self.world));
+        world.add(along.mul(by)).store_vector(self.world);
+        local.add(turned_back::<L>(self.pose, normal).mul(by)).store_vector(self.local);
+    }
 }
 
 /// R⁻¹·n: Rᵀ·n, put right by what R makes of it; where that is more than rounding, by the inverse.
 #[inline(always)]
-pub fn turned_back(pose: &Pose, normal: &Vector) -> Vector {
-    let turned = pose.rotate_back(normal);
-    let rest = normal - pose.rotate(&turned);
+pub fn turned_back<L: Lanes>(pose: &Pose, normal: &Vector) -> L {
+    let rows = [L::load(&pose.rows[0]), L::load(&pose.rows[1]), L::load(&pose.rows[2])];
+    let [x, y, z, _] = L::transpose(&rows);
+    let along = L::from_vector(normal);
+    let turned = combined(rows, along);
+    let rest = along.sub(combined([x, y, z], turned));
+    let limit = L::splat(64.0 * UNIT_ROUNDOFF * normal.amax());
     // False for a NaN.
-    if rest.amax() <= 64.0 * UNIT_ROUNDOFF * normal.amax() {
-        turned + pose.rotate_back(&rest)
-    } else {
-        inverted(pose, normal)
-    }
+    let is_right = rest.at_most(limit) & rest.negate().at_most(limit) & 0b111 == 0b111;
+    if is_right { turned.add(combined(rows, rest)) } else { L::from_vector(&inverted(pose, normal)) }
+}
+
+/// The sum of three vectors, each times its lane of `by`.
+#[inline(always)]
+fn combined<L: Lanes>([x, y, z]: [L; 3], by: L) -> L {
+    x.mul(by.splat_x()).add(y.mul(by.splat_y())).add(z.mul(by.splat_z()))
 }
 
 #[cold]
@@ -159,4 +216,35 @@ pub fn sum_above(a: f64, b: f64) -> f64 {
 fn beyond(terms: [f64; 2], sum: f64, last: f64) -> f64 {
     let has_overflowed = terms.iter().all(|term| term.is_finite()) && sum * last > 0.0;
     if has_overflowed { last } else { sum }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::math::Matrix;
+    use swiftprox::random::Random;
+
+    /// The pose takes the moved local point to the point moved in the world, be it rigid or skewed, whatever lanes compute it.
+    #[test]
+    fn local_points_go_where_the_pose_takes_them_to_the_surface() {
+        let mut random = Random::new(0x3ad1);
+        for round in 0..if cfg!(miri) { 5 } else { 2_000 } {
+            let skew = [0.0, 1e-15, 1e-9, 3e-3][round % 4];
+            let skewed = Matrix::from_fn(|i, k| f64::from(u8::from(i == k)) + random.uniform(-skew, skew));
+            let pose = Pose::new(&(random.rotation() * skewed), &random.vector());
+            let (normal, by) = (random.direction(), random.uniform(-2.0, 2.0));
+            let local = random.vector();
+            let points = PlacedPoints { local: [local.into(); 2], world: [pose.transform(&local).into(); 2] };
+            let moved = moved(&points, [&pose; 2], &normal.into(), [by, -by]);
+            for (i, by) in [by, -by].into_iter().enumerate() {
+                let (found, expected) = (Vector::from(moved.world[i]), pose.transform(&local) + normal * by);
+                assert_eq!(found, expected, "{round}");
+                let seen = pose.transform(&Vector::from(moved.local[i]));
+                assert!((seen - expected).amax() < 8e-15, "{round}: {seen} {expected}");
+            }
+            let portable: simd::Portable = turned_back(&pose, &normal);
+            let expected = Vector::from(moved.local[0]) - local;
+            assert!((portable.to_vector() * by - expected).amax() <= 4e-15, "{round}");
+        }
+    }
 }

@@ -16,23 +16,14 @@ use crate::placed::frame::{Frame, are_acceptable};
 use crate::placed::state::FeatureId;
 use crate::shape::Placed;
 
-/// The destination of an answer's surfaces.
-struct Surface<'a> {
-    local: [&'a mut [f64; 3]; 2],
-    world: [&'a mut [f64; 3]; 2],
-    normal: &'a mut [f64; 3],
-    features: [&'a mut Feature; 2],
-}
-
-/// That of an answer of either kind.
-macro_rules! surface_of {
-    ($answer:ident) => {
-        Surface {
-            local: [&mut $answer.local1, &mut $answer.local2],
-            world: [&mut $answer.world1, &mut $answer.world2],
-            normal: &mut $answer.normal,
-            features: [&mut $answer.feature1, &mut $answer.feature2],
-        }
+/// Fills normal, points and features of an answer of either kind: no references to its members go through memory (R2).
+macro_rules! fill_surfaces {
+    ($round:ident, $frame:ident, $nearest:ident, $answer:ident) => {
+        $nearest.normal.store_vector(&mut $answer.normal);
+        let (local, world) = (&mut $answer.local1, &mut $answer.world1);
+        $answer.feature1 = $round.fill($frame, &$nearest, 0, -$round.radii.each[0], local, world);
+        let (local, world) = (&mut $answer.local2, &mut $answer.world2);
+        $answer.feature2 = $round.fill($frame, &$nearest, 1, $round.radii.each[1], local, world);
     };
 }
 
@@ -130,7 +121,7 @@ impl Round<'_> {
                     }
                     return true;
                 }
-                self.fill(frame, &nearest, surface_of!(answer));
+                fill_surfaces!(self, frame, nearest, answer);
             }
             Place::Signed(answer) => {
                 if outcome == Outcome::Beyond {
@@ -142,30 +133,33 @@ impl Round<'_> {
                 }
                 answer.outcome = outcome;
                 (answer.distance, answer.lower, answer.upper) = (distance, lower, upper);
-                self.fill(frame, &nearest, surface_of!(answer));
+                fill_surfaces!(self, frame, nearest, answer);
             }
         }
         true
     }
 
-    /// Points on the surfaces, which are the radii from those of the polyhedra along the normal.
+    /// Points on a body's surface, its radius from those of the polyhedron: `out` along the normal. Gives the feature.
     #[inline(always)]
-    fn fill<L: Lanes>(&self, frame: &Frame<L>, nearest: &Nearest<L>, surface: Surface) {
-        let Surface { local, world, normal, features } = surface;
-        nearest.normal.store_vector(normal);
-        let out = self.radii.outwards();
-        for ((i, local), (world, feature)) in local.into_iter().enumerate().zip(world.into_iter().zip(features)) {
-            let (body, by) = (&frame.bodies[i], L::splat(out[i]));
-            let turned = if frame.rigid {
-                body.rotate_back(nearest.normal)
-            } else {
-                L::from_vector(&turned_back(self.bodies[i].pose, &nearest.normal.to_vector()))
-            };
-            let point = nearest.points[i].add(L::from_vector(&body.polyhedron.centre));
-            turned.mul_add(by, point).store_vector(local);
-            nearest.normal.mul_add(by, nearest.rotated[i].add(body.translation)).store_vector(world);
-            *feature = label(body.polyhedron, nearest.features[i], &Vector::zeros());
-        }
+    fn fill<L: Lanes>(
+        &self,
+        frame: &Frame<L>,
+        nearest: &Nearest<L>,
+        i: usize,
+        out: f64,
+        local: &mut [f64; 3],
+        world: &mut [f64; 3],
+    ) -> Feature {
+        let (body, by) = (&frame.bodies[i], L::splat(out));
+        let turned = if frame.rigid {
+            body.rotate_back(nearest.normal)
+        } else {
+            turned_back::<L>(self.bodies[i].pose, &nearest.normal.to_vector())
+        };
+        let point = nearest.points[i].add(L::from_vector(&body.polyhedron.centre));
+        turned.mul_add(by, point).store_vector(local);
+        nearest.normal.mul_add(by, nearest.rotated[i].add(body.translation)).store_vector(world);
+        label(body.polyhedron, nearest.features[i], &Vector::zeros())
     }
 }
 

@@ -6,7 +6,8 @@ use super::ladder::{self, Glances};
 use super::round::{Place, Round, are_round};
 use super::signed_distance::{SignedDistance, SignedDistanceCache, of_polyhedra};
 use crate::answer::{
-    DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, PairConfig, PlacedPoints, Query, Radii, fill_nothing, moved,
+    DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, PairConfig, PlacedPoints, Query, Radii, fill_nothing,
+    move_points, moved,
 };
 use crate::base::error::Result;
 use crate::base::math::{Vector, clamp};
@@ -46,24 +47,27 @@ pub(super) fn query(
             return Ok(());
         }
     }
+    if query == Query::Intersection && ladder::swept_balls_overlap(bodies, radii.lower, cache, config, answer) {
+        return Ok(());
+    }
     let of_polyhedra = PairConfig { max_distance: radii.with(tolerance), ..*config };
     // With the radii as a tolerance a verdict tells whether polyhedra are nearer, but not with more than that: integers, which tell
     // how near, are not asked of curved bodies.
     let needs_distance = !is_verdict || radii.deviation > 0.0;
     let asked = if query == Query::Intersection && needs_distance { Query::Distance } else { query };
-    let before = *answer;
-    let asked = ladder::ask(asked, Glances::Asked, bodies, cache, &of_polyhedra, answer).and_then(|()| {
-        if query == Query::Approximate && is_too_wide(answer, radii, config) {
-            ladder::ask(Query::Distance, Glances::Asked, bodies, cache, &of_polyhedra, answer)?;
-        }
-        take_off(query, bodies, radii, tolerance, answer)
-    });
-    if asked.is_err() {
-        *answer = before;
-    } else if is_verdict && answer.outcome == Outcome::Beyond {
+    // Who is refused finds the answer as it was.
+    ladder::ask(asked, Glances::Asked, bodies, cache, &of_polyhedra, answer)?;
+    if query == Query::Approximate && is_too_wide(answer, radii, config) {
+        ladder::ask(Query::Distance, Glances::Asked, bodies, cache, &of_polyhedra, answer)?;
+    }
+    if let Err(error) = take_off(query, bodies, radii, tolerance, answer) {
+        *answer = PairAnswer::UNSAID;
+        return Err(error);
+    }
+    if is_verdict && answer.outcome == Outcome::Beyond {
         answer.outcome = Outcome::Separated;
     }
-    asked
+    Ok(())
 }
 
 /// Whether an interval was narrow enough for the polyhedra, and is not for the remaining distance, whose `lower` is less.
@@ -120,10 +124,9 @@ fn take_off(query: Query, bodies: &[Placed; 2], radii: &Radii, tolerance: f64, a
             answer.distance = clamp(found - radii.each[0] - radii.each[1], lower, upper);
             // A verdict has none.
             if answer.feature1.kind != FeatureKind::None {
-                let points =
-                    PlacedPoints { local: [answer.local1, answer.local2], world: [answer.world1, answer.world2] };
-                let points = moved(&points, bodies.map(|body| body.pose), &answer.normal, radii.outwards());
-                ([answer.local1, answer.local2], [answer.world1, answer.world2]) = (points.local, points.world);
+                let PairAnswer { local1, local2, world1, world2, normal, .. } = answer;
+                let poses = [bodies[0].pose, bodies[1].pose];
+                move_points([local1, local2], [world1, world2], poses, normal, radii.outwards());
             }
         }
         Side::Within => {

@@ -20,7 +20,8 @@ const SMALLEST: f64 = f64::from_bits((1023 - 80) << 52);
 /// Radii about the centred origin, and the data that boxes are computed from.
 #[derive(Debug, Clone)]
 pub(crate) struct Extent {
-    /// A ball of this radius about the centred origin is in the body; −∞ where no ball is or rounding hides it.
+    /// A ball of this radius about the centred origin is in the body; −∞ where no ball is or rounding hides it. For a point or
+    /// segment it is 0 or less: if that and a swept radius are more than 0, such a ball is in the swept body.
     pub(crate) inner_radius: f64,
     /// No point of the body is farther from the *local* origin: |centre| + ρ, rounded up.
     pub(crate) lever: f64,
@@ -133,7 +134,14 @@ impl Kernel for Turned<'_> {
 ///
 /// The sides p and q of a triangle are differences of exact coordinates, off by u in each component; det(a, p, q) of three columns
 /// is then off by less than 16u·|a||p||q|, and |p × q| by less than 8u·|p||q|.
+///
+/// Of a point or segment it is minus the distance of the origin from the middle, half of |p + q|₁ at most: a tenth of that covers
+/// rounding, and what poses stretch.
 fn inner_radius(polyhedron: &Polyhedron) -> f64 {
+    let ends = &polyhedron.vertices;
+    if polyhedron.dimension < 2 && polyhedron.simple {
+        return -0.55 * (ends[0].position + ends[ends.len() - 1].position).abs().sum();
+    }
     if polyhedron.dimension < 3 || !polyhedron.simple {
         return f64::NEG_INFINITY;
     }
@@ -196,6 +204,10 @@ mod tests {
             (0..8).map(|i| Vector::from_fn(|k, _| if i >> k & 1 == 0 { -0.5 } else { 0.5 })).collect();
         let radius = hull(&cube).extent().inner_radius;
         assert!(radius <= 0.5 && radius > 0.5 - 1e-14, "{radius}");
+        // A point, its own centre, and a segment about its middle.
+        for points in [vec![Vector::zeros()], vec![Vector::x() * 0.7, Vector::x() * -0.7]] {
+            assert_eq!(hull(&points).extent().inner_radius, 0.0);
+        }
         // Origin on a corner, outside, and no interior.
         let corner: Vec<Vector> = cube.iter().map(|p| p + Vector::repeat(0.5)).collect();
         let outside: Vec<Vector> = cube.iter().map(|p| p + Vector::new(0.9, 0.0, 0.0)).collect();

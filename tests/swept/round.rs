@@ -134,3 +134,30 @@ fn tiny_balls_are_told_apart() {
         }
     }
 }
+
+/// A ball deep in a hull, or the ball about a capsule's middle, decides the verdict at a glance where it and the ball in the hull
+/// overlap: a cube of half side 1, so that they do where the centres are nearer than 1 and the radius.
+#[test]
+fn balls_in_bodies_that_are_deep_decide_the_verdict() {
+    let mut random = Random::new(0x0b12);
+    let cube = testkit::shapes::cuboid([1.0; 3]);
+    let radius = 0.25;
+    for (round, body) in [sphere(radius), capsule(0.7, radius)].iter().cycle().take(400).enumerate() {
+        let skew = if round % 3 == 0 { 1.0 - 4e-3 } else { 1.0 };
+        let reach = 1.25 * [0.3, 0.9, 1.0 - 1e-10, 1.0 + 1e-10, 1.2][round % 5];
+        let place = random.vector() * 10.0;
+        let poses = [place, place + random.direction() * reach].map(|at| Pose::new(&(random.rotation() * skew), &at));
+        let bodies = [cube.at(&poses[0]), body.at(&poses[1])];
+        let mut answer = PairAnswer::default();
+        intersection(bodies, &mut PairCache::default(), &PairConfig::default(), &mut answer).unwrap();
+        // The pose stretches the cube, and no ball.
+        let overlap = reach < skew + radius;
+        let is_decided = answer.decided_by == DecidedBy::InscribedSpheres;
+        assert!(overlap || !is_decided, "{round}: {answer:?}");
+        assert!(is_decided || !overlap || skew < 1.0 && reach > 1.2, "{round}: {answer:?}");
+        if overlap {
+            assert_eq!(answer.outcome, Outcome::Intersecting, "{round}");
+        }
+        verify(bodies, &answer).unwrap();
+    }
+}

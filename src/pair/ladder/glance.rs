@@ -29,15 +29,20 @@ impl PairQuery<'_> {
     /// Whether balls inside the bodies overlap, for a verdict; the cache stays as it is.
     #[inline(always)]
     pub(super) fn inner_balls_overlap(&mut self, query: Query) -> bool {
-        if query != Query::Intersection {
-            return false;
-        }
+        query == Query::Intersection && self.balls_overlap(0.0)
+    }
+
+    /// The same of bodies over which balls are swept whose radii have this sum, rounded down. Sums of radii lose 6u of their
+    /// square at most.
+    #[inline(always)]
+    pub(super) fn balls_overlap(&mut self, swept: f64) -> bool {
+        debug_assert!(swept >= 0.0);
         let [body1, body2] = self.bodies;
-        let inner = body1.shape.extent().inner_radius + body2.shape.extent().inner_radius;
+        let inner = body1.shape.extent().inner_radius + body2.shape.extent().inner_radius + swept;
         (inner >= SMALLEST)
             && self.square_between_origins() < inner * inner * (1.0 - 256.0 * U)
             && self.is_simple()
-            && (simd::dispatch(&mut InnerBalls { pair: self }) || self.placed_balls_overlap())
+            && (simd::dispatch(&mut InnerBalls { pair: self }) || self.placed_balls_overlap(swept))
     }
 
     /// Of the difference of the translations, right to 5u of itself; it may underflow.
@@ -52,13 +57,13 @@ impl PairQuery<'_> {
     /// no vector by more than 2d of its length.
     #[cold]
     #[inline(never)]
-    fn placed_balls_overlap(&mut self) -> bool {
+    fn placed_balls_overlap(&mut self, swept: f64) -> bool {
         if !are_acceptable(self.poses()) {
             return false;
         }
         let inner =
             |body: &Placed| body.shape.extent().inner_radius * (1.0 - 2.0 * (body.pose.rotation_defect() + 8.0 * U));
-        let inner = inner(&self.bodies[0]) + inner(&self.bodies[1]);
+        let inner = inner(&self.bodies[0]) + inner(&self.bodies[1]) + swept;
         let overlap = inner >= SMALLEST && self.square_between_origins() < inner * inner * (1.0 - 32.0 * U);
         if overlap {
             self.fill_overlap();

@@ -50,6 +50,19 @@ pub(super) fn ask(
     answer(query, &mut PairQuery { query, bodies, cache, config, answer: found }, glances)
 }
 
+/// Whether balls inside two bodies overlap; the answer then says so. Over the bodies balls are swept whose radii have this sum,
+/// rounded down. In the default environment of floating point.
+#[inline(always)]
+pub(super) fn swept_balls_overlap(
+    bodies: &[Placed; 2],
+    swept: f64,
+    cache: &mut PairCache,
+    config: &PairConfig,
+    answer: &mut PairAnswer,
+) -> bool {
+    PairQuery { query: Query::Intersection, bodies, cache, config, answer }.balls_overlap(swept)
+}
+
 /// In the default environment of floating point, as the program has set another.
 #[cold]
 #[inline(never)]
