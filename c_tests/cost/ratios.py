@@ -9,7 +9,7 @@ from instructions import count, has_avx2
 
 # Case, what it is held against, and how many times as much it may cost.
 RATIOS = (
-    ("scene", "pair", 3.0),
+    ("scene", "pair", 2.4),
     ("scene, tolerance", "scene", 1.1),
     ("all pairs, kept", "all pairs", 0.9),
     # Levels do not answer for these bodies: nothing may be lost by asking. tests/scene/scenes.rs has large ones.

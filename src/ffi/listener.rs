@@ -7,6 +7,7 @@ use super::object_query::{default_max_distance, read_kind};
 use super::pointers::{exclusive, output};
 use super::query::{CSceneAnswer, CSceneQuery, ask};
 use super::scene::SceneHandle;
+use crate::base::simd::environment::with_default;
 use crate::scene::{Listener, ListenerEvents, PairEvent, PointEvent};
 
 /// The events of a listener.
@@ -88,7 +89,8 @@ pub unsafe extern "C" fn swiftprox_scene_listen(
     unsafe {
         ask(
             |scene, query| {
-                let (answer, heard) = scene.listen(exclusive(listener, "listener")?, read_kind(kind)?, query)?;
+                let (listener, kind) = (exclusive(listener, "listener")?, read_kind(kind)?);
+                let (answer, heard) = with_default(|| scene.listen(listener, kind, query))?;
                 events.write(CListenerEvents::new(&heard));
                 Ok(answer)
             },

@@ -4,7 +4,7 @@ use super::failure::{Checked, Failure, StatusCode};
 use super::guard::guard;
 use super::object::check_piece;
 use super::pointers::{array, input, output};
-use super::scene::{SceneHandle, change, look};
+use super::scene::{SceneHandle, change, change_in_any, look};
 use crate::base::math::{Matrix, Pose, Vector};
 use crate::base::memory::collected;
 use crate::scene::Scene;
@@ -71,7 +71,7 @@ pub unsafe extern "C" fn swiftprox_scene_set_pose(
     pose: *const f64,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
-    unsafe { change(scene, |scene| Ok(scene.set_pose(id, input(pose.cast::<Pose>(), "pose")?)?)) }
+    unsafe { change_in_any(scene, |scene| Ok(scene.set_pose(id, input(pose.cast::<Pose>(), "pose")?)?)) }
 }
 
 /// Like swiftprox_scene_set_pose, with a row-major 3x3 `rotation` and a `translation`.
@@ -84,7 +84,7 @@ pub unsafe extern "C" fn swiftprox_scene_set_transform(
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
     unsafe {
-        change(scene, |scene| {
+        change_in_any(scene, |scene| {
             let rotation = input(rotation.cast::<[f64; 9]>(), "rotation")?;
             let translation = input(translation.cast::<[f64; 3]>(), "translation")?;
             Ok(scene.set_pose(id, &pose(rotation, translation))?)

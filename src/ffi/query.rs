@@ -2,7 +2,7 @@
 
 use super::enumerators::{ContactDetailNumber, read_enumerator};
 use super::failure::{Checked, StatusCode};
-use super::guard::guard;
+use super::guard::{caught, guard};
 use super::pointers::output;
 use super::scene::{SceneHandle, change, change_guarded, look};
 use super::structs::{Versioned, view_struct};
@@ -261,7 +261,7 @@ pub(super) unsafe fn ask(
 }
 
 /// Runs a query and shows its results where the scene has them. `by_default` is the query's own default.
-/// The groups of the query are handed over beside it.
+/// The groups of the query are handed over beside it. `run` sees to the environment of floating point itself, as scenes do.
 ///
 /// # Safety
 /// The pointers meet the header's pointer rules.
@@ -273,14 +273,15 @@ pub(super) unsafe fn ask_masked(
     answer: *mut CSceneAnswer,
 ) -> StatusCode {
     // SAFETY: by the caller.
-    guard(|| unsafe {
+    caught(|| unsafe {
         // Before the scene does anything.
         output(answer, "answer", CSceneAnswer::EMPTY)?;
         change_guarded(scene, |scene| {
             let (mut older, defaults) = (MaybeUninit::uninit(), CSceneQuery::DEFAULT);
             let query = if query.is_null() { &defaults } else { view_struct(query, &defaults, &mut older)? };
             let PairTuning { start, levels, refinement } = read_pair_tuning(query.tuning)?;
-            let is_default = query.max_distance == DEFAULT_MAX_DISTANCE;
+            // By its bits: a signalling NaN may trap here.
+            let is_default = query.max_distance.to_bits() == DEFAULT_MAX_DISTANCE.to_bits();
             let mask = if query.mask == 0 { u32::MAX } else { query.mask };
             let query = SceneQuery {
                 early_exit: query.early_exit != 0,

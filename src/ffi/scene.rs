@@ -5,7 +5,7 @@ use std::ffi::c_void;
 use std::sync::atomic::{AtomicU32, Ordering};
 
 use super::failure::{Checked, Failure, StatusCode};
-use super::guard::{guard, keep_panics_quiet};
+use super::guard::{caught, guard, keep_panics_quiet};
 use super::log::log;
 use super::pointers::{Handle, handle, output};
 use super::structs::{Versioned, read_struct};
@@ -315,6 +315,19 @@ pub(super) unsafe fn look<T>(scene: *const SceneHandle, body: impl FnOnce(&Scene
 pub(super) unsafe fn change(scene: *mut SceneHandle, body: impl FnOnce(&mut Scene) -> Checked<()>) -> StatusCode {
     // SAFETY: by the caller.
     guard(|| unsafe { change_guarded(scene, body) })
+}
+
+/// The same in whatever environment the program has set, for a body that calls what sees to it itself.
+///
+/// # Safety
+/// As of [`change`].
+#[inline(always)]
+pub(super) unsafe fn change_in_any(
+    scene: *mut SceneHandle,
+    body: impl FnOnce(&mut Scene) -> Checked<()>,
+) -> StatusCode {
+    // SAFETY: by the caller.
+    caught(|| unsafe { change_guarded(scene, body) })
 }
 
 /// The same, inside the guard.

@@ -8,7 +8,7 @@
 use crate::base::double_double::{DoubleDouble, two_product, two_sum};
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
 use crate::base::scalar::{Ring, Scalar, constant};
-use crate::base::simd::Lanes;
+use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::{LARGEST, Polyhedron, SMALLEST};
 use crate::placed::Pair;
 
@@ -336,11 +336,43 @@ impl<L: Lanes> PoseInLanes<L> {
         within & 0b111 == 0b111
     }
 
+    /// The same of one pose.
+    #[inline(always)]
+    fn is_rigid(&self) -> bool {
+        let defect = self.products.mul_add(self.products, self.squares.mul(self.squares));
+        let far = self.columns[3];
+        let limits = [L::splat(RIGID_TOGETHER * RIGID_TOGETHER), L::splat(0.25), L::splat(LARGEST * LARGEST)];
+        let within = defect.at_most(limits[0])
+            & self.reflection.mul(self.reflection).at_most(limits[1])
+            & far.mul(far).at_most(limits[2]);
+        within & 0b111 == 0b111
+    }
+
     #[inline(always)]
     fn body<'a>(&self, polyhedron: &'a Polyhedron, translation: L, offset: L, skewed: bool) -> Body<'a, L> {
         let [x, y, z, _] = self.columns;
         Body { polyhedron, rows: self.rows, columns: [x, y, z], translation, offset, skewed }
     }
+}
+
+/// A look at one pose.
+struct Look<'a>(&'a Pose);
+
+impl Kernel for Look<'_> {
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> bool {
+        PoseInLanes::<L>::new(self.0).is_rigid()
+    }
+}
+
+/// Whether a pose is rigid up to rounding and within range, so that [`Pose::check`] accepts it; quicker than that.
+#[inline(always)]
+pub fn is_rigid_in_range(pose: &Pose) -> bool {
+    let is_rigid = simd::dispatch(&mut Look(pose));
+    debug_assert!(!is_rigid || pose.check().is_ok());
+    is_rigid
 }
 
 /// The positions of the bodies' centred origins.
@@ -414,4 +446,35 @@ pub fn between_centres(pair: &Pair) -> ([f64; 3], f64) {
 #[inline]
 pub fn sum_of<D: Ring>(first: D, terms: [D; 6]) -> D {
     terms.into_iter().fold(first, |sum, term| sum + term)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::math::Matrix;
+    use swiftprox::random::Random;
+
+    /// A quick look takes nothing that is refused, and nearly all rotations.
+    #[test]
+    fn a_look_at_one_pose_takes_rotations_and_nothing_that_is_refused() {
+        let mut random = Random::new(0x0f4a);
+        let mut taken = 0;
+        for round in 0..if cfg!(miri) { 10 } else { 5_000 } {
+            let pose = Pose::new(&random.rotation(), &(random.vector() * 1e3));
+            taken += usize::from(is_rigid_in_range(&pose));
+            let mut spoilt = pose;
+            let entry = &mut spoilt.rows[random.below(3)][random.below(4)];
+            *entry = [f64::NAN, f64::INFINITY, -f64::INFINITY, 2e300, *entry + 1e3 * LARGEST][round % 5];
+            assert!(!is_rigid_in_range(&spoilt), "{spoilt:?}");
+            let skewed = pose.rotation() * (1.0 + random.power(-48, -8));
+            let skewed = Pose::new(&skewed, &pose.translation());
+            assert!(!is_rigid_in_range(&skewed) || skewed.rotation_defect() <= 2.0 * RIGID_TOGETHER, "{skewed:?}");
+            let mirrored = Pose::new(
+                &(pose.rotation() * Matrix::from_diagonal(&Vector::new(1.0, 1.0, -1.0))),
+                &pose.translation(),
+            );
+            assert!(!is_rigid_in_range(&mirrored), "{mirrored:?}");
+        }
+        assert!(taken > 4_000 || cfg!(miri), "{taken}");
+    }
 }

@@ -5,6 +5,7 @@ use std::sync::Arc;
 #[cfg(doc)]
 use crate::base::error::Error;
 use crate::base::error::Result;
+use crate::base::simd::environment::with_default;
 use crate::base::workers::Workers;
 use crate::pair::Query;
 use crate::scene::change::{Change, Themselves};
@@ -147,21 +148,35 @@ impl Scene {
     ///
     /// # Errors
     /// See [`Scene::query_intersection`]; nothing is listed then, and nothing is counted.
+    #[inline(always)]
     pub(super) fn ask(
         &mut self,
         subject: &Subject<ObjectId, Arc<Shape>>,
         kind: Query,
         query: &SceneQuery,
     ) -> Result<SceneAnswer<'_>> {
-        let Scene { world, near, search, recording, workers } = self;
-        if !recording.is_on() {
-            return search.ask(&mut Searched { world, near, workers }, subject, kind, query);
+        if self.recording.is_on() {
+            return self.ask_and_note(subject, kind, query);
         }
+        let Scene { world, near, search, workers, .. } = self;
+        search.ask(&mut Searched { world, near, workers }, subject, kind, query)?;
+        Ok(search.answer())
+    }
+
+    #[inline(never)]
+    fn ask_and_note(
+        &mut self,
+        subject: &Subject<ObjectId, Arc<Shape>>,
+        kind: Query,
+        query: &SceneQuery,
+    ) -> Result<SceneAnswer<'_>> {
+        let Scene { world, near, search, recording, workers } = self;
         recording.question(subject, kind, query, &world.objects);
         world.watch_filter(recording.is_on());
-        let answer = search.ask(&mut Searched { world, near, workers }, subject, kind, query);
+        let asked = search.ask(&mut Searched { world, near, workers }, subject, kind, query);
+        let answer = asked.map(|()| search.answer());
         recording.decisions(world.decided(), &world.objects);
-        recording.answer(answer.as_ref().ok(), &world.objects);
+        with_default(|| recording.answer(answer.as_ref().ok(), &world.objects));
         answer
     }
 }

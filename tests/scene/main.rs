@@ -5,6 +5,7 @@ mod casts;
 mod contacts;
 mod counts;
 mod events;
+mod few;
 mod grounds;
 mod listener;
 mod motions;

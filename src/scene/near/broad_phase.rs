@@ -194,12 +194,20 @@ impl BroadPhase {
     /// [`Error::Memory`](crate::base::error::Error::Memory); the next call tries again.
     #[inline]
     pub fn update(&mut self, world: &mut World, tolerance: f64, workers: &Workers) -> Result<()> {
+        world.proxies.settle();
         // A first look at each of few pairs takes less than boxes that follow their pieces.
         let tolerance = if world.has_few_pairs() { f64::INFINITY } else { tolerance };
         if self.is_up_to_date(world, tolerance) { Ok(()) } else { self.catch_up(world, tolerance, workers) }
     }
 
+    /// Whether the list holds all pairs there are, which are few.
+    #[inline(always)]
+    pub fn lists_all(&self, world: &World) -> bool {
+        world.has_few_pairs() && self.is_up_to_date(world, f64::INFINITY)
+    }
+
     /// Whether boxes overlap as they did before.
+    #[inline(always)]
     fn is_up_to_date(&self, world: &World, tolerance: f64) -> bool {
         let proxies = &world.proxies;
         (self.news == News::None)

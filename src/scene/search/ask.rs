@@ -36,11 +36,11 @@ pub(crate) struct Searched<'a> {
 /// The findings of queries, separately for each kind: its answers stay good while queries of other kinds are made.
 #[derive(Debug, Default)]
 pub(crate) struct Search {
-    kept: [Kept; KINDS],
+    pub(super) kept: [Kept; KINDS],
     /// The kind of the last query.
-    latest: usize,
+    pub(super) latest: usize,
     /// It stopped at its last result.
-    stopped: bool,
+    pub(super) stopped: bool,
     /// The results that a pass gives again, or what is left of them.
     before: Before,
     /// The findings of each part of a pass.
@@ -53,12 +53,12 @@ pub(crate) struct Search {
 
 /// The findings of the last query of a kind.
 #[derive(Debug, Default)]
-struct Kept {
-    findings: Findings,
+pub(super) struct Kept {
+    pub findings: Findings,
     /// The number of its pass over all near pairs, if that came to its end, …
-    pass: Option<u64>,
+    pub pass: Option<u64>,
     /// … and its request.
-    asked: Option<Request>,
+    pub asked: Option<Request>,
 }
 
 /// The kinds over all pairs, whose numbers are those of their marks in the list, and one for what is asked of one body.
@@ -84,19 +84,36 @@ impl Search {
         subject: &Subject<ObjectId, Arc<Shape>>,
         kind: Query,
         query: &SceneQuery,
-    ) -> Result<SceneAnswer<'_>> {
+    ) -> Result<()> {
         if !is_default() {
             return with_default(move || self.ask(searched, subject, kind, query));
         }
         self.latest = number_of(subject, kind);
+        if matches!(subject, Subject::AllPairs) {
+            match self.ask_straight(searched, query) {
+                Ok(true) => return Ok(()),
+                Ok(false) => {}
+                Err(error) => return Err(self.fail(error)),
+            }
+        }
+        self.ask_in_full(searched, subject, kind, query)
+    }
+
+    #[inline(never)]
+    fn ask_in_full(
+        &mut self,
+        searched: &mut Searched,
+        subject: &Subject<ObjectId, Arc<Shape>>,
+        kind: Query,
+        query: &SceneQuery,
+    ) -> Result<()> {
+        searched.world.proxies.settle();
         let found = self.find(searched, subject, kind, query);
         self.stopped = matches!(found, Ok(true));
-        let Kept { findings, pass, .. } = &mut self.kept[self.latest];
         if let Err(error) = found {
-            findings.clear();
-            *pass = None;
-            return Err(error);
+            return Err(self.fail(error));
         }
+        let findings = &mut self.kept[self.latest].findings;
         if self.stopped {
             findings.contacts.keep_last();
         }
@@ -105,7 +122,16 @@ impl Search {
         if kind != Query::Intersection {
             self.statistics.error_spent += findings.error_spent();
         }
-        Ok(self.answer())
+        Ok(())
+    }
+
+    /// Nothing is found.
+    #[cold]
+    fn fail(&mut self, error: Error) -> Error {
+        let Kept { findings, pass, .. } = &mut self.kept[self.latest];
+        findings.clear();
+        (*pass, self.stopped) = (None, false);
+        error
     }
 
     /// Fills the findings of the query's kind; true if it stopped at an intersecting pair, the last result.
@@ -129,6 +155,7 @@ impl Search {
     }
 
     /// The answer of the last query.
+    #[inline(always)]
     pub fn answer(&self) -> SceneAnswer<'_> {
         let Findings { intersecting, contacts, .. } = self.findings();
         let results = self.findings().results();

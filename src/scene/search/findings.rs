@@ -11,6 +11,7 @@ use crate::scene::search::query::PairResult;
 use crate::scene::search::slots::{Run, Slots, Source};
 use crate::scene::search::statistics::SceneStatistics;
 use crate::scene::world::proxies::Proxies;
+use crate::scene::world::rows::Motion;
 use crate::scene::world::testing::Testing;
 
 /// Above this part of all pieces, one in this many, all pairs are answered anew: new results are then written where they belong,
@@ -26,6 +27,16 @@ const LOOKS_A_CONTACT: usize = 8;
 /// This many looks of a pass that repeats answers are worth sharing as much as one of a pass that gives none: to put new results
 /// between those of before, and to find out what has moved, is left to the caller's thread.
 const LOOKS_OF_AGAIN: usize = 4;
+
+/// Whether so many pieces have moved since a pass that all pairs are answered anew.
+#[inline(always)]
+pub(crate) fn are_many_moved(motions: &[Motion], pass: u64) -> bool {
+    is_many(motions.iter().map(|motion| usize::from(motion.moved >= pass)).sum(), motions.len())
+}
+
+fn is_many(moved: usize, count: usize) -> bool {
+    moved * MANY_MOVED >= count
+}
 
 /// The findings of a pass, when another has begun.
 #[derive(Debug, Default)]
@@ -48,7 +59,7 @@ impl Before {
         self.has_moved.clear();
         extend(&mut self.has_moved, proxies.motions.iter().map(|motion| motion.moved >= pass))?;
         self.moved = self.has_moved.iter().filter(|&&has_moved| has_moved).count();
-        Ok(self.moved * MANY_MOVED < self.has_moved.len())
+        Ok(!is_many(self.moved, self.has_moved.len()))
     }
 
     /// To share a pass over `pairs` that gives answers again is worth as much as to share one that looks at so many.
@@ -89,6 +100,24 @@ impl Findings {
             std::mem::swap(&mut self.contacts, &mut before.contacts);
         }
         self.clear();
+    }
+
+    /// For another pass that answers so many pairs anew, as the last one did, and finds no contacts: a row for each.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    #[inline(always)]
+    pub fn begin_rows(&mut self, count: usize) -> Result<&mut [PairResult]> {
+        debug_assert!(self.contacts.view().contacts.is_empty());
+        self.slots.clear();
+        self.slots.rows(count)
+    }
+
+    /// The first of the rows are the results.
+    #[inline(always)]
+    pub fn end_rows(&mut self, listed: usize, intersecting: bool) {
+        self.slots.take(listed);
+        (self.listed, self.intersecting) = (listed, intersecting);
     }
 
     /// Nothing is found.

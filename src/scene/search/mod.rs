@@ -2,7 +2,7 @@
 //!
 //! | verb | what | where |
 //! |---|---|---|
-//! | ask | the question is checked, and the list of near pairs brought up to date | `request.rs`, `ask.rs` |
+//! | ask | the question is checked, and the list of near pairs brought up to date | `request.rs`, `ask.rs`, `straight.rs` |
 //! | share | an error budget is dealt out to pairs that levels may answer | `shares.rs` |
 //! | look | what rows of numbers settle of each pair | `narrow_phase.rs` |
 //! | decide | the pair layer answers for what is left | `narrow_phase.rs`, `contacts.rs` |
@@ -19,6 +19,7 @@ mod parts;
 mod shares;
 mod gathering;
 mod all_pairs;
+mod straight;
 pub(crate) mod events;
 pub(crate) mod listener;
 pub(crate) mod ask;

@@ -270,7 +270,7 @@ impl<'a> Pass<'a> {
         if self.tolerance == f64::INFINITY {
             return Look::Test;
         }
-        let [spheres1, spheres2] = [&self.proxies.spheres[a], &self.proxies.spheres[b]];
+        let [spheres1, spheres2] = [self.proxies.known_spheres(a), self.proxies.known_spheres(b)];
         if are_far_apart(spheres1, spheres2, self.tolerance) {
             statistics.count_settled(Settled::BoundingSpheres);
             return Look::Settled;
@@ -290,7 +290,7 @@ impl<'a> Pass<'a> {
     #[inline(always)]
     fn prefetch_rows(&self, pair: &NearPair) {
         for proxy in pair.proxies.map(|proxy| proxy as usize) {
-            prefetch(&self.proxies.spheres[proxy]);
+            prefetch(self.proxies.known_spheres(proxy));
             prefetch(&self.proxies.motions[proxy]);
         }
     }
@@ -342,12 +342,7 @@ impl<'a> Pass<'a> {
             caches.change(pair.cache, |cache| self.test(pair, mark, cache, answer))?;
         }
         findings.statistics.count(answer);
-        let is_listed = match answer.outcome {
-            // A verdict leaves only curved bodies undecided, and these may intersect.
-            Outcome::Intersecting | Outcome::Undecided => true,
-            Outcome::Separated => !self.is_verdict,
-            Outcome::Beyond | Outcome::None => false,
-        };
+        let is_listed = is_listed(answer.outcome, self.is_verdict);
         if !is_listed {
             mark.result = UNLISTED;
         }
@@ -368,7 +363,7 @@ impl<'a> Pass<'a> {
         if let Some(details) = &self.request.details {
             self.find_details(details, pair, mark, caches, findings)?;
         }
-        self.sign(pair, findings.slots.next());
+        sign(self.proxies, pair, findings.slots.next());
         mark.result = findings.listed as u32;
         findings.list_new()?;
         findings.intersecting |= mark.intersects;
@@ -418,14 +413,6 @@ impl<'a> Pass<'a> {
         Ok(())
     }
 
-    /// Writes the objects, user data and pieces of the pair into its result.
-    #[inline(always)]
-    fn sign(&self, pair: &NearPair, result: &mut PairResult) {
-        let [label1, label2] = pair.proxies.map(|proxy| &self.proxies.labels[proxy as usize]);
-        (result.object1, result.user_data1, result.piece1) = (label1.object, label1.user_data, label1.piece);
-        (result.object2, result.user_data2, result.piece2) = (label2.object, label2.user_data, label2.piece);
-    }
-
     /// See [`NearPair::apart_until`] and [`Pass::look`].
     #[inline(always)]
     fn apart_until(&self, answer: &PairAnswer, a: usize, b: usize) -> f64 {
@@ -435,4 +422,23 @@ impl<'a> Pass<'a> {
         let travelled = self.proxies.motions[a].odometer + self.proxies.motions[b].odometer;
         (travelled * (1.0 - 8.0 * U) + answer.lower) * (1.0 - 8.0 * U)
     }
+}
+
+/// Whether a pair with this outcome is listed.
+#[inline(always)]
+pub(crate) fn is_listed(outcome: Outcome, is_verdict: bool) -> bool {
+    match outcome {
+        // A verdict leaves only curved bodies undecided, and these may intersect.
+        Outcome::Intersecting | Outcome::Undecided => true,
+        Outcome::Separated => !is_verdict,
+        Outcome::Beyond | Outcome::None => false,
+    }
+}
+
+/// Writes the objects, user data and pieces of a pair into its result.
+#[inline(always)]
+pub(crate) fn sign(proxies: &Proxies, pair: &NearPair, result: &mut PairResult) {
+    let [label1, label2] = pair.proxies.map(|proxy| &proxies.labels[proxy as usize]);
+    (result.object1, result.user_data1, result.piece1) = (label1.object, label1.user_data, label1.piece);
+    (result.object2, result.user_data2, result.piece2) = (label2.object, label2.user_data, label2.piece);
 }

@@ -5,7 +5,7 @@ use crate::pair::{self, PairAnswer, PairCache, PairConfig, Placed, Query};
 #[cfg(doc)]
 use crate::scene::near::near_pairs::NearPair;
 use crate::scene::search::contacts::Details;
-use crate::scene::search::query::SceneQuery;
+use crate::scene::search::query::{ContactDetail, SceneQuery};
 
 /// One of the pair queries of [`pair`](crate::pair).
 pub(crate) type Solver = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
@@ -34,6 +34,8 @@ pub(crate) struct Request {
     pub share: Option<f64>,
     /// The details asked of listed pairs beside their answers.
     pub details: Option<Details>,
+    /// Neither verdicts nor details nor shares of a budget are asked for.
+    is_of_distances: bool,
 }
 
 impl Request {
@@ -65,14 +67,16 @@ impl Request {
             start: query.start,
         };
         let is_shared = kind == Query::Approximate && query.error_budget < f64::INFINITY;
+        let details = Details::new(kind, query)?;
         Ok(Request {
+            is_of_distances: kind != Query::Intersection && details.is_none() && !is_shared,
             kind,
             config,
             tolerance,
             early_exit: query.early_exit,
             error_budget: is_shared.then_some(query.error_budget),
             share: None,
-            details: Details::new(kind, query)?,
+            details,
         })
     }
 
@@ -91,6 +95,25 @@ impl Request {
         (self.kind, self.share) == (other.kind, other.share)
             && self.config == other.config
             && self.details == other.details
+    }
+
+    /// Whether it asks what a query asks, and that for nothing but distances, exact or approximate. By their bits, which sound
+    /// requests have no NaNs among.
+    #[inline(always)]
+    pub fn is_plain(&self, query: &SceneQuery) -> bool {
+        let config = &self.config;
+        let numbers = (self.tolerance.to_bits() ^ query.max_distance.to_bits())
+            | (config.absolute_error.to_bits() ^ query.absolute_error.to_bits())
+            | (config.relative_error.to_bits() ^ query.relative_error.to_bits())
+            | (f64::INFINITY.to_bits() ^ query.error_budget.to_bits());
+        let is_same = (numbers == 0)
+            & (config.step_budget == query.step_budget)
+            & (self.early_exit == query.early_exit)
+            & (config.levels as i32 == query.levels as i32)
+            & (config.refinement as i32 == query.refinement as i32)
+            & (config.start as i32 == query.start as i32)
+            & (query.detail as i32 == ContactDetail::None as i32);
+        self.is_of_distances & is_same
     }
 
     /// Whether the verdict alone is asked for, and only intersecting pairs are listed.

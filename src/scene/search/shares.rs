@@ -46,7 +46,7 @@ pub(crate) fn deal(
         let needs_none = mark.is_answered & (mark.result != UNLISTED) & mark.intersects;
         if (pair.testing != Testing::Active)
             || needs_none
-            || are_far_apart(&proxies.spheres[a], &proxies.spheres[b], request.tolerance)
+            || are_far_apart(proxies.known_spheres(a), proxies.known_spheres(b), request.tolerance)
         {
             continue;
         }

@@ -81,6 +81,23 @@ impl<T: Copy + Default> Slots<T> {
         Ok(())
     }
 
+    /// The next slots, for so many rows.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    #[inline(always)]
+    pub fn rows(&mut self, count: usize) -> Result<&mut [T]> {
+        self.make_room(count)?;
+        Ok(&mut self.rows[self.count..self.count + count])
+    }
+
+    /// The next slots have been written.
+    #[inline(always)]
+    pub fn take(&mut self, count: usize) {
+        debug_assert!(self.count + count <= self.rows.len());
+        self.count += count;
+    }
+
     /// The slot in which the next row is written, for which there is room.
     #[inline(always)]
     pub fn next(&mut self) -> &mut T {

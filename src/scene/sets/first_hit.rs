@@ -116,7 +116,7 @@ fn hit(others: &Others, room: &mut Room, max_distance: f64) -> Result<Option<Pai
         for &other in &**found {
             let at = other as usize;
             let bodies = [member.placed(world), others.placed(at)];
-            if let Some(pair) = look([member.proxy, other], [&member.spheres, &proxies.spheres[at]], bodies)? {
+            if let Some(pair) = look([member.proxy, other], [&member.spheres, &proxies.spheres(at)], bodies)? {
                 return Ok(Some(pair));
             }
         }

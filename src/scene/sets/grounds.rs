@@ -99,7 +99,7 @@ pub(crate) fn find(question: Question, room: &mut Room) -> Result<()> {
         for row in rows.iter().map(|row| *row as usize) {
             let label = &proxies.labels[row];
             if is_tested(label) && !label.fixed {
-                asking.ask(label, &proxies.spheres[row], others.placed(row))?;
+                asking.ask(label, &proxies.spheres(row), others.placed(row))?;
             }
         }
         return Ok(());

@@ -35,7 +35,7 @@ impl Member {
         let shape = &world.proxies.shapes[proxy];
         let (pose, spheres) = match pose {
             Some(pose) => (pose, placed(shape, &pose, pose.rotation_defect()).0),
-            None => (world.proxies.poses[proxy], world.proxies.spheres[proxy]),
+            None => (world.proxies.poses[proxy], world.proxies.spheres(proxy)),
         };
         let bounds = match boxes {
             Boxes::Made => grown_box(shape, &pose, &spheres, 0.0),

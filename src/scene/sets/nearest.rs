@@ -150,16 +150,16 @@ impl<'a> Search<'a> {
         for (k, member) in (0..).zip(members) {
             if among {
                 let rest = (0..).zip(members).skip(k as usize + 1);
-                self.add_row(k, rest.map(|(other, piece)| (Target::First(other), piece.proxy, &piece.spheres)))?;
+                self.add_row(k, rest.map(|(other, piece)| (Target::First(other), piece.proxy, piece.spheres)))?;
             }
             match against {
                 Against::Set(second) => {
                     let all = (0..).zip(second);
-                    self.add_row(k, all.map(|(other, piece)| (Target::Second(other), piece.proxy, &piece.spheres)))?;
+                    self.add_row(k, all.map(|(other, piece)| (Target::Second(other), piece.proxy, piece.spheres)))?;
                 }
                 Against::Others(others) => {
-                    let spheres = &world.proxies.spheres;
-                    let all = loose.iter().map(|&other| (Target::Piece(other), other, &spheres[other as usize]));
+                    let spheres = |other: u32| world.proxies.spheres(other as usize);
+                    let all = loose.iter().map(|&other| (Target::Piece(other), other, spheres(other)));
                     self.add_row(k, all)?;
                     for (tree, fitted) in others.trees.into_iter().flatten().enumerate() {
                         if let Some(root) = fitted.root() {
@@ -175,12 +175,12 @@ impl<'a> Search<'a> {
     }
 
     /// Pairs of a piece with many: the nearest by its bound is asked at once, so that few others are worth keeping.
-    fn add_row<'b>(&mut self, member: u32, others: impl Iterator<Item = (Target, u32, &'b Spheres)>) -> Result<()> {
+    fn add_row(&mut self, member: u32, others: impl Iterator<Item = (Target, u32, Spheres)>) -> Result<()> {
         let Member { proxy, spheres, .. } = self.question.members[member as usize];
         let mut row = std::mem::take(&mut self.candidates.row);
         row.clear();
         for (target, other, of_other) in others {
-            let bound = of_spheres(&spheres, of_other);
+            let bound = of_spheres(&spheres, &of_other);
             if bound <= self.enough && self.may_meet(proxy, other) {
                 push(&mut row, Candidate { bound, member, target })?;
             }
@@ -239,7 +239,7 @@ impl<'a> Search<'a> {
                     return Ok(());
                 }
                 let by_boxes = of_boxes(bounds, &world.proxies.boxes[other as usize]);
-                let bound = by_boxes.max(of_spheres(spheres, &world.proxies.spheres[other as usize]));
+                let bound = by_boxes.max(of_spheres(spheres, &world.proxies.spheres(other as usize)));
                 self.add(Candidate { bound, member, target: Target::Piece(other) })
             }
         }

@@ -136,6 +136,12 @@ impl Entry {
         first..first + self.piece_count.get() as usize
     }
 
+    /// Its only row, where the object's pose is that of its one piece.
+    #[inline(always)]
+    pub fn only_proxy(&self) -> Option<usize> {
+        (self.piece_count == NonZeroU32::MIN && self.arrangement.is_none()).then_some(self.first_proxy as usize)
+    }
+
     /// Sets the pose from now on, if its pieces have poses of their own; else the poses of the pieces give it.
     pub fn stand_at(&mut self, pose: &Pose) {
         if let Some(arrangement) = &mut self.arrangement {

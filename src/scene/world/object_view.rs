@@ -89,8 +89,8 @@ impl<'a> Object<'a> {
     /// wider than the object by less than 10⁻⁵ of the radius and the place of each piece; around a piece of more than 512 vertices
     /// it is the box of its own turned box.
     pub fn world_box(&self) -> [[f64; 3]; 2] {
-        let Proxies { shapes, poses, spheres, .. } = self.proxies;
-        let of_piece = |row: usize| grown_box(&shapes[row], &poses[row], &spheres[row], 0.0);
+        let Proxies { shapes, poses, .. } = self.proxies;
+        let of_piece = |row: usize| grown_box(&shapes[row], &poses[row], &self.proxies.spheres(row), 0.0);
         let all = self.proxies().map(of_piece).fold(Aabb::NOWHERE, |all, piece| all.union(&piece));
         [all.lower, all.upper].map(|corner| corner.map(f64::from))
     }

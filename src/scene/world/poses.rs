@@ -7,6 +7,7 @@ use crate::base::math::Pose;
 use crate::base::memory::{filled, with_capacity};
 use crate::base::simd::environment::{is_default, with_default};
 use crate::base::workers::Workers;
+use crate::placed::frame::is_rigid_in_range;
 use crate::scene::world::content::World;
 use crate::scene::world::object::{Arrangement, Entry, ObjectId, ObjectTable};
 use crate::scene::world::proxies::Proxies;
@@ -22,6 +23,13 @@ impl World {
             return with_default(move || self.set_pose(id, pose));
         }
         let object = self.objects.get_mut(id)?;
+        if let Some(proxy) = object.only_proxy()
+            && self.proxies.may_stay_behind(proxy)
+            && is_rigid_in_range(pose)
+        {
+            self.proxies.put(proxy, pose, self.passes);
+            return Ok(());
+        }
         let defect = check(object, pose)?;
         put(object, pose, defect, &mut self.proxies, self.passes);
         Ok(())
@@ -92,6 +100,7 @@ impl World {
     /// Moves all objects of a batch, checked and in parts.
     fn put_in_parts(&mut self, batch: &Batch, parts: &[Part], workers: &Workers) -> Result<()> {
         let (objects, passes) = (&self.objects, self.passes);
+        self.proxies.settle();
         // Said first, as a panic of the program's threads may end the call.
         self.proxies.misses_escaped = true;
         let rows = self.proxies.rows();

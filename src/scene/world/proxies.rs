@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::base::error::Result;
 use crate::base::math::Pose;
 use crate::base::memory::{reserve_sparingly, with_capacity};
+use crate::base::simd::environment::with_default;
 use crate::scene::world::boxes::Aabb;
 use crate::scene::world::object::ObjectId;
 use crate::scene::world::rows::{Label, Motion, Rows, Spheres, placed};
@@ -18,12 +19,24 @@ pub(crate) struct NewProxy {
     pub label: Label,
 }
 
+/// Of so few pieces spheres and ways follow when somebody asks for them: a query of few pairs does not.
+const FEW_ROWS: usize = 6;
+
+/// A row whose spheres and whose way do not know its last moves yet.
+#[derive(Debug)]
+struct Behind {
+    proxy: u32,
+    /// The pose that they know.
+    pose: Pose,
+}
+
 /// The pieces, those of earlier created objects first.
 #[derive(Debug, Default)]
 pub(crate) struct Proxies {
     pub shapes: Vec<Arc<Shape>>,
     pub poses: Vec<Pose>,
-    pub spheres: Vec<Spheres>,
+    spheres: Vec<Spheres>,
+    behind: Vec<Behind>,
     pub motions: Vec<Motion>,
     pub boxes: Vec<Aabb>,
     pub labels: Vec<Label>,
@@ -53,6 +66,9 @@ impl Proxies {
         reserve_sparingly(&mut self.boxes, count)?;
         reserve_sparingly(&mut self.labels, count)?;
         reserve_sparingly(&mut self.firsts, count)?;
+        if self.behind.capacity() == 0 {
+            reserve_sparingly(&mut self.behind, FEW_ROWS)?;
+        }
         // Each stands there at most once.
         let room = self.labels.len() + count - self.escaped.len();
         reserve_sparingly(&mut self.escaped, room)
@@ -83,7 +99,7 @@ impl Proxies {
 
     /// Ends the rows of [`Proxies::push_unseen`], from the first of them on.
     pub fn end_unseen(&mut self, first: usize) {
-        debug_assert!(first <= self.len());
+        debug_assert!(first <= self.len() && self.behind.is_empty());
         self.shapes.truncate(first);
         self.poses.truncate(first);
         self.spheres.truncate(first);
@@ -137,10 +153,79 @@ impl Proxies {
         Rows { first: 0, shapes, labels, poses, spheres, motions, boxes }
     }
 
+    /// Whether a piece that is put elsewhere may [stay behind](Proxies::put).
+    #[inline(always)]
+    pub fn may_stay_behind(&self, proxy: usize) -> bool {
+        self.labels.len() <= FEW_ROWS && self.motions[proxy].is_everywhere()
+    }
+
+    /// Puts a piece elsewhere that [may stay behind](Proxies::may_stay_behind): its spheres and its way follow when they are
+    /// [asked for](Proxies::settle).
+    #[inline(always)]
+    pub fn put(&mut self, proxy: usize, pose: &Pose, passes: u64) {
+        debug_assert!(self.may_stay_behind(proxy));
+        let old = &mut self.poses[proxy];
+        if *old == *pose {
+            return;
+        }
+        self.motions[proxy].moved = passes;
+        if !self.spheres[proxy].are_behind() {
+            debug_assert!(self.behind.len() < self.behind.capacity());
+            self.behind.push(Behind { proxy: proxy as u32, pose: *old });
+            self.spheres[proxy].outer = f32::NAN;
+        }
+        *old = *pose;
+    }
+
+    /// Spheres and ways of all rows are up to date from now on. The way from the last known pose to this one is a bound of any
+    /// way between, as far as anybody has looked.
+    #[inline(always)]
+    pub fn settle(&mut self) {
+        if !self.behind.is_empty() {
+            self.settle_all();
+        }
+    }
+
+    #[inline(never)]
+    fn settle_all(&mut self) {
+        let mut behind = std::mem::take(&mut self.behind);
+        for Behind { proxy, pose } in behind.drain(..) {
+            let proxy = proxy as usize;
+            let defect = self.poses[proxy].rotation_defect();
+            let has_escaped = self.rows().follow(proxy, &pose, defect);
+            debug_assert!(!has_escaped, "a box without end is not left");
+        }
+        // With its room.
+        self.behind = behind;
+    }
+
+    /// Balls around and in a piece, also where a row is behind.
+    #[inline(always)]
+    pub fn spheres(&self, proxy: usize) -> Spheres {
+        let known = self.spheres[proxy];
+        if known.are_behind() { self.spheres_now(proxy) } else { known }
+    }
+
+    #[cold]
+    #[inline(never)]
+    fn spheres_now(&self, proxy: usize) -> Spheres {
+        let pose = &self.poses[proxy];
+        with_default(|| placed(&self.shapes[proxy], pose, pose.rotation_defect()).0)
+    }
+
+    /// The same where none is behind.
+    #[inline(always)]
+    pub fn known_spheres(&self, proxy: usize) -> &Spheres {
+        debug_assert!(!self.spheres[proxy].are_behind());
+        &self.spheres[proxy]
+    }
+
     /// Puts a piece elsewhere: [`Rows::place`].
     #[inline(always)]
     pub fn place(&mut self, proxy: usize, pose: &Pose, defect: f64, passes: u64) {
-        if self.rows().place(proxy, pose, defect, passes) {
+        if self.may_stay_behind(proxy) {
+            self.put(proxy, pose, passes);
+        } else if self.rows().place(proxy, pose, defect, passes) {
             self.escaped.push(proxy as u32);
         }
     }
@@ -193,6 +278,7 @@ impl Proxies {
 
     /// Drops the rows of pieces that are gone.
     pub fn compact(&mut self) {
+        debug_assert!(self.behind.is_empty());
         let labels = std::mem::take(&mut self.labels);
         let stays = |k: usize| labels[k].object != ObjectId::NULL;
         fn keep<T>(rows: &mut Vec<T>, stays: impl Fn(usize) -> bool) {

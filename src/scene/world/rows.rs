@@ -6,6 +6,8 @@ use std::sync::Arc;
 use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF, Vector};
 use crate::scene::world::boxes::{Aabb, above, below};
 use crate::scene::world::object::ObjectId;
+#[cfg(doc)]
+use crate::scene::world::proxies::Proxies;
 use crate::shape::Shape;
 
 const U: f64 = UNIT_ROUNDOFF;
@@ -30,7 +32,7 @@ pub(crate) const TINY: f64 = 1e-150;
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Spheres {
     pub centre: [f64; 3],
-    /// Radius, rounded up.
+    /// Radius, rounded up; of a row that is [behind](Proxies::settle) a NaN.
     pub outer: f32,
     /// Radius, rounded down; −∞ where there is none.
     pub inner: f32,
@@ -60,6 +62,11 @@ impl Motion {
         Motion { odometer: 0.0, limit: NO_BOX, moved: 0, rate: 0.0, rigid, has_escaped: false }
     }
 
+    /// Whether the box has no end: however the piece moves, it does not leave it.
+    pub fn is_everywhere(&self) -> bool {
+        self.limit == f64::INFINITY
+    }
+
     /// It may be out of its box; false if that was known.
     pub fn escape(&mut self) -> bool {
         !std::mem::replace(&mut self.has_escaped, true)
@@ -78,6 +85,13 @@ pub(crate) struct Label {
     /// See [`ObjectOptions`](crate::scene::world::object::ObjectOptions).
     pub groups: u32,
     pub mask: u32,
+}
+
+impl Spheres {
+    /// Whether they are those of an earlier pose.
+    pub fn are_behind(&self) -> bool {
+        self.outer.is_nan()
+    }
 }
 
 impl Label {
@@ -144,13 +158,21 @@ impl<'a> Rows<'a> {
             return false;
         }
         self.poses[at] = *pose;
-        let shape = &self.shapes[at];
+        self.motions[at].moved = passes;
+        self.follow(proxy, &old, defect)
+    }
+
+    /// Spheres and motion of a piece that has come from another pose. `defect`: that of the rotation. True if it has just left its
+    /// box.
+    #[inline(always)]
+    pub fn follow(&mut self, proxy: usize, old: &Pose, defect: f64) -> bool {
+        let at = proxy - self.first;
+        let (shape, pose) = (&self.shapes[at], &self.poses[at]);
         let lever = shape.extent().lever;
         let motion = &mut self.motions[at];
         let (spheres, rigid) = placed(shape, pose, defect);
-        let way = way_bound(&old, pose, lever, motion.rigid & rigid);
+        let way = way_bound(old, pose, lever, motion.rigid & rigid);
         motion.rigid = rigid;
-        motion.moved = passes;
         // Never below the exact sum; infinite sums mean that nothing is known.
         motion.odometer = (motion.odometer + way).next_up();
         motion.rate = match (motion.rate, way as f32) {
