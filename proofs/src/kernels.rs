@@ -686,32 +686,17 @@ fn edges() -> Found {
     found
 }
 
-/// Axis, speed and matrix of a turn.
+/// Axis, speed and angle of a turn, and an entry of a turned pose.
 fn turned_pose() -> Found {
     let mut random = Random::new(0x74);
     let (axis, speed) = axis_and_speed(symbols("v", &mut random), symbol("scale", 0.9));
-    let half = half_angle(symbol("time", 0.4), symbol("w", 0.7));
+    let turned_by = angle(symbol("time", 0.4), symbol("w", 0.7));
     let mut found = Found::default();
-    found.counted("axis", axis[0].0, &[]).counted("speed", speed.0, &[]).counted("half", half.0, &[]);
-    let rows = rotation_of(symbols("a", &mut random), symbol("sine", 0.6), symbol("cosine", 0.8));
-    let [_, twice] = operands(rows[0][0].0);
-    let [_, sum] = operands(twice);
-    let parts: Vec<Node> = finished()
-        .below(&[rows[0][0].0, rows[0][1].0], &BTreeMap::new())
-        .into_iter()
-        .filter(|node| finished().operands(*node).get(1).is_some_and(|node| finished().name(*node) == "sine"))
-        .collect();
-    let cuts: Vec<(Node, &str)> = parts.iter().copied().zip(["x", "y", "z"]).collect();
-    found.counted("part", parts[0], &[]).counted("sum", sum, &cuts).counted("diagonal", rows[0][0].0, &[(sum, "s")]);
-    for (i, row) in rows.iter().enumerate() {
-        for (k, entry) in row.iter().enumerate() {
-            let name = format!("R{i}{k}");
-            if i == k {
-                found.root(&name, entry.0);
-            } else {
-                found.counted(&name, entry.0, &cuts);
-            }
-        }
-    }
+    found.counted("axis", axis[0].0, &[]).counted("speed", speed.0, &[]).counted("angle", turned_by.0, &[]);
+    let crossed = crossed(symbols("a", &mut random), symbols("r", &mut random));
+    found.counted("crossed", crossed[0].0, &[]).counted("versine", versine(symbol("cosine", 0.8)).0, &[]);
+    let parts = [symbol("p", 0.3), symbol("q", -0.4)];
+    let weights = [symbol("by_sine", 0.6), symbol("by_versine", 0.2)];
+    found.counted("entry", entry(symbol("start", 0.5), parts, weights).0, &[]);
     found
 }

@@ -23,7 +23,7 @@ pub use swiftprox::distance::marching::{
     between_feet, correction, error_along, from_foot, misfit_across_edge, misfit_between_edges, projected,
 };
 pub use swiftprox::motion::bound::{LEAST_BETWEEN, OF_ANGLE, OF_TURN, least_within};
-pub use swiftprox::motion::turn::{axis_and_speed, cosine, half_angle, reduced, rotation_of, sine};
+pub use swiftprox::motion::turn::{angle, axis_and_speed, cosine, crossed, entry, reduced, sine, versine};
 pub use swiftprox::placed::Pair;
 pub use swiftprox::placed::frame::{
     Frame, RIGID, RIGID_DEFECT, RIGID_TOGETHER, difference_error, separation, sum_of, tolerance,

@@ -111,11 +111,12 @@ pub fn rows(kernels: &[Kernel]) -> Vec<Row> {
     let foot = (most("edges", &["projected"]) + most("edges", &["square"]) * 1.0303 + 1.0 + of_product) * 1.0303;
     let slopes = back * FROBENIUS + most("plane_values", &["slope"]) * STRETCH;
     let (axis, speed) = (most("turned", &["axis"]), most("turned", &["speed"]));
-    // I + 2w[a] + 2[a]² for w and a off by 4u and `part`, w² + |a|² = 1; and entries as rounded.
-    let part = axis + most("turned", &["part"]) + 4.0;
-    let diagonal = 2.0 * most("turned", &["sum"]) + most("turned", &["diagonal"]);
-    let beside = most("turned", &["R01", "R02", "R10", "R12", "R20", "R21"]);
-    let of_turn = (8.0 + 4.0 * part).hypot(2.0 * part) + (3.0 * diagonal * diagonal + 6.0 * beside * beside).sqrt();
+    // R + sin·[a]R + (1 − cos)·[a]²R: both matrices by the axis and as rounded, both weights, and entries as rounded.
+    let crossed = most("turned", &["crossed"]) * above(2.0 / 3f64.sqrt()) * FROBENIUS;
+    let (by_sine, by_versine) = (axis * STRETCH + crossed, 2.0 * (axis * STRETCH + crossed));
+    let of_weights = (4.0 + 4.0 + 2.0 * most("turned", &["versine"])) * STRETCH;
+    let of_entries = most("turned", &["entry"]) * above(2.0 + 2f64.sqrt()) * FROBENIUS;
+    let of_turn = by_versine + by_sine.hypot(by_versine) + of_weights + of_entries;
     let of_wide = |name: &str| {
         let kernel = named(kernels, "wide");
         let (_, node) = kernel.roots.iter().find(|(own, _)| own == name).expect("a root");
@@ -222,14 +223,14 @@ pub fn rows(kernels: &[Kernel]) -> Vec<Row> {
         ),
         row("motion `Turn`", "a component of the axis", 6.5, axis, "C"),
         row("", "the speed", 5.5, speed, "C"),
-        row("`rounding_of_pose`", "a turn, of its angle", OF_ANGLE, (speed + most("turned", &["half"])) * STRETCH, "C"),
         row(
-            "",
-            "a turn, beside that",
-            OF_TURN,
-            of_turn * STRETCH + most("pose", &["turned"]) * FROBENIUS * above(3f64.sqrt()),
+            "`rounding_of_pose`",
+            "a turn, of its angle",
+            OF_ANGLE,
+            (speed + most("turned", &["angle"])) * STRETCH,
             "C",
         ),
+        row("", "a turn, beside that", OF_TURN, of_turn, "C"),
         // Of double-doubles, M the sum of the magnitudes of all terms. `separation` makes 2u of 16u·M.
         row("frame `centred`", "of M, in u²", 2.0 * cancelled, of_wide("offset"), "C, Coq"),
         row(

@@ -1,8 +1,8 @@
 //! The motion from one pose to another.
 
 use super::bound::rounding_of_pose;
-use super::kinds::{Motion, Screw, check_finite, product};
-use super::turn::Turn;
+use super::kinds::{Motion, Screw, check_finite};
+use super::path::Path;
 use crate::base::error::{Result, check_range};
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::environment::with_default;
@@ -20,24 +20,26 @@ pub fn motion_between(first: &Pose, second: &Pose, centre: &Vector, reach: f64) 
         second.check()?;
         check_finite("centre", centre)?;
         check_range("reach", reach, 0.0..=f64::MAX)?;
-        let rotation = shortest_turn(&product(&second.rotation(), &first.rotation().transpose()));
+        let rotation = shortest_turn(&(second.rotation() * first.rotation().transpose()));
         let velocity = second.translation() - first.translation() + (second.rotate(centre) - first.rotate(centre));
         let screw = Screw { start: *first, centre: *centre, velocity, rotation };
-        Ok((screw, end_error(&screw, second, reach)))
+        Ok((screw, end_error(screw, second, reach)?))
     })
 }
 
 /// How far a point within `reach` of the centre may be at time 1 from where `second` has it.
-fn end_error(screw: &Screw, second: &Pose, reach: f64) -> f64 {
-    let turn = Turn::new(&screw.rotation);
-    let end = screw.pose(&turn, 1.0);
+fn end_error(screw: Screw, second: &Pose, reach: f64) -> Result<f64> {
+    let motion = Motion::Screw(screw);
+    let path = Path::new(&motion);
+    let end = path.pose(1.0)?;
     let differences = end.rotation() - second.rotation();
     let centres =
         (end.translation() - second.translation()) + (end.rotate(&screw.centre) - second.rotate(&screw.centre));
     // Rounded a dozen times, each by u of what is there.
     let size = end.translation().norm() + second.translation().norm() + 4.0 * screw.centre.norm();
-    let rounding = rounding_of_pose(&Motion::Screw(*screw), &turn, 1.0, reach);
-    (rounding + differences.norm() * reach + centres.norm() + 16.0 * U * size) * (1.0 + 32.0 * U)
+    // Of a point p it counts |p| + |c|, and |p| is at most the reach and |c|.
+    let rounding = rounding_of_pose(&path, 1.0, reach + 2.0 * screw.centre.norm() * (1.0 + 8.0 * U));
+    Ok((rounding + differences.norm() * reach + centres.norm() + 16.0 * U * size) * (1.0 + 32.0 * U))
 }
 
 /// The vector along the axis of a rotation, as long as its angle from 0 to π. By the largest of the four components of the
@@ -81,7 +83,8 @@ mod tests {
             let centre = if round % 2 == 0 { Vector::zeros() } else { random.vector() };
             let (screw, error) = motion_between(&first, &second, &centre, 1.0).unwrap();
             assert!(screw.rotation.norm() <= std::f64::consts::PI * (1.0 + 8.0 * U));
-            let end = screw.pose(&Turn::new(&screw.rotation), 1.0);
+            let motion = Motion::Screw(screw);
+            let end = Path::new(&motion).pose(1.0).unwrap();
             let point = centre + random.direction();
             assert!((end.transform(&point) - second.transform(&point)).norm() <= error);
             let size = second.translation().norm() + 8.0;

@@ -22,7 +22,8 @@
 
 use super::carried::Carried;
 use super::kinds::{Callback, Motion, Screw};
-use super::turn::{LARGEST_ANGLE, Turn};
+use super::path::Path;
+use super::turn::LARGEST_ANGLE;
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, STRETCH, UNIT_ROUNDOFF as U, Vector};
 use crate::base::scalar::{Scalar, constant};
@@ -56,32 +57,27 @@ enum Bend {
 impl Travel {
     /// # Errors
     /// [`Error::Argument`] for values so large that doubles do not bound them.
-    pub fn new(body: &Carried, turn: &Turn, range: [f64; 2]) -> Result<Travel> {
-        let from_axis = |screw: &Screw| distance_from_axis(body, screw, turn);
-        Travel::within(body.motion, turn, range, reach(body), from_axis)
+    pub fn new(body: &Carried, path: &Path, range: [f64; 2]) -> Result<Travel> {
+        let from_axis = |screw: &Screw| distance_from_axis(body, screw, path);
+        Travel::within(path, range, reach(body), from_axis)
     }
 
     /// Of all that is no farther than `lever` from the origin of the moving frame.
     ///
     /// # Errors
     /// As of [`Travel::new`].
-    pub fn of_frame(motion: &Motion, turn: &Turn, range: [f64; 2], lever: f64) -> Result<Travel> {
+    pub fn of_frame(path: &Path, range: [f64; 2], lever: f64) -> Result<Travel> {
         debug_assert!(lever >= 0.0);
-        let reach = reach_from_centre(motion, lever);
-        Travel::within(motion, turn, range, reach, |_| STRETCH * reach * (1.0 + 8.0 * U))
+        let reach = reach_from_centre(path.motion, lever);
+        Travel::within(path, range, reach, |_| STRETCH * reach * (1.0 + 8.0 * U))
     }
 
-    fn within(
-        motion: &Motion,
-        turn: &Turn,
-        range: [f64; 2],
-        reach: f64,
-        from_axis: impl FnOnce(&Screw) -> f64,
-    ) -> Result<Travel> {
+    fn within(path: &Path, range: [f64; 2], reach: f64, from_axis: impl FnOnce(&Screw) -> f64) -> Result<Travel> {
         debug_assert!(range[0] <= range[1]);
         let longest = range[0].abs().max(range[1].abs());
-        check_sizes(motion, turn, longest, reach)?;
-        let bend = match motion {
+        check_sizes(path, longest, reach)?;
+        let turn = &path.turn;
+        let bend = match path.motion {
             Motion::Fixed(_) | Motion::Affine { .. } => Bend::None,
             Motion::Screw(screw) if turn.speed > 0.0 => {
                 // The axis is off by 6.5u, the square of the speed by 12u.
@@ -91,7 +87,7 @@ impl Travel {
             Motion::Screw(_) => Bend::None,
             Motion::Callback(Callback { bend, .. }) => Bend::Any(*bend),
         };
-        Ok(Travel { rounding: rounding_of_pose(motion, turn, longest, reach), bend })
+        Ok(Travel { rounding: rounding_of_pose(path, longest, reach), bend })
     }
 
     /// No point accelerates by more along a vector of at most unit length, right to 8u, or against it: times that length.
@@ -135,24 +131,29 @@ fn reach_from_centre(motion: &Motion, lever: f64) -> f64 {
     }
 }
 
-/// No point of the body is farther from the axis: by its box or by its bounding sphere, whichever gives less. Products and sums
-/// err by less than 64u of all lengths together.
-fn distance_from_axis(body: &Carried, screw: &Screw, turn: &Turn) -> f64 {
+/// No point of the body is farther from the axis: by its box or by its bounding sphere, whichever gives less.
+///
+/// The distance of a point p is |\[a\]R(p − c)|. Entries of \[a\]R err by 11u in the spectral norm ([`rounding_of_pose`]), their
+/// products with a vector by 5.3u more, a place's by 5.4u, and each of four sums by u: less than 32u of all lengths. These are
+/// those of the centres and the place, at most ρ to the middle of the box and at most ρ along each of its sides.
+fn distance_from_axis(body: &Carried, screw: &Screw, path: &Path) -> f64 {
     let polyhedron = body.shape.polyhedron();
     let (middle, half) = body.shape.extent().box_about_centre();
-    let from_axis = |p: Vector| {
-        let carried = body.place.map_or(p, |place| place.transform(&p));
-        turn.axis.cross(&screw.start.rotate(&(carried - screw.centre))).norm()
-    };
-    let mut farthest = 0.0_f64;
-    for corner in 0..8_u32 {
-        let side = |axis: usize| if corner >> axis & 1 == 0 { -half[axis] } else { half[axis] };
-        farthest = farthest.max(from_axis(polyhedron.centre + middle + Vector::new(side(0), side(1), side(2))));
-    }
+    let placed = |p: Vector| body.place.map_or(p, |place| place.transform(&p));
+    let of_point = |p: Vector| path.by_sine.rotate(&(placed(p) - screw.centre));
+    let [x, y, z] = [0, 1, 2].map(|axis| {
+        let mut side = Vector::zeros();
+        side[axis] = half[axis];
+        path.by_sine.rotate(&body.place.map_or(side, |place| place.rotate(&side)))
+    });
+    let middle = of_point(polyhedron.centre + middle);
+    // A corner and the one opposite.
+    let of_diagonal = |side: Vector| (middle + side).norm_squared().max((middle - side).norm_squared());
+    let farthest = [x + y + z, x + y - z, x - y + z, x - y - z].map(of_diagonal).into_iter().fold(0.0, f64::max).sqrt();
     let (stretch, place) = body.place.map_or((STRETCH, 0.0), |place| (STRETCH * STRETCH, place.translation().norm()));
-    let around_sphere = from_axis(polyhedron.centre) + stretch * polyhedron.radius;
+    let around_sphere = of_point(polyhedron.centre).norm() + stretch * polyhedron.radius;
     let size = polyhedron.radius + polyhedron.centre.norm() + screw.centre.norm() + place;
-    farthest.min(around_sphere) + 128.0 * U * size
+    farthest.min(around_sphere) + 160.0 * U * size
 }
 
 /// How far at most a point of a body is, at the body's pose as computed, from where the pose of the moving frame as computed has
@@ -174,29 +175,34 @@ pub const OF_ANGLE: f64 = 8.0;
 /// … and in u beside that, see [`rounding_of_pose`].
 pub const OF_TURN: f64 = 96.0;
 
-/// How far at most a point within `reach` of a screw's centre, or of another motion's local origin, is at a time of up to
-/// `longest` from where the computed pose has it. At time 0, and at 1 of an affine motion, poses are exact
-/// ([`is_exact`]).
+/// How far at most a point p is from where the computed pose has it, at a time of up to `longest`. Of a screw with the centre c
+/// |p| + |c| is within `reach`, of another motion |p|. At time 0, and at 1 of an affine motion, poses are exact ([`is_exact`]).
 ///
-/// *Screw.* The turn errs by (6.5·angle + 70)u in the spectral norm (see [`Turn::by`]), its product with R (norm 1.015) by 9.2u
-/// more: below (7·angle + 82)u times the distance from the centre. The translation is computed with the rotation as it is, so
-/// that only its own rounding counts: t·v and T by 3u|t·v| + 2u|T|, the two products R·c by 5.3u|c| each, the two sums behind
-/// them by 2.1u|c| and once more u of all. If nothing turns, R and the terms of c are exact.
+/// *Screw.* R(t) = R + s·P₁ + q·P₂ for P₁ = \[a\]R, P₂ = \[a\]²R, s = sin θ, q = 1 − cos θ. The angle errs by 6.5u of itself and
+/// R(t) by 1.015 times as much. The axis is off by 6.5u: P₁ by 6.6u, P₂ by 13.2u. An entry of a product with \[a\] errs by 2u of
+/// its two terms; \[|a|\] has the spectral norm 2/√3, R and P₁ have a Frobenius norm of 1.75: 4.1u for P₁, twice that for P₂.
+///
+/// With these, 10.7u and 21.4u, s·P₁ + q·P₂ errs by at most 21.4u + |(10.7, 21.4)|u, below 45.4u; by 4u of s and 6u of q
+/// ([`Turn::weights`](super::turn::Turn::weights)) 10.2u more. The two products and two sums of an entry are each of at most |R|,
+/// |s·P₁| or |q·P₂|: below 3u(1 + |s| + q)·1.75 < 18u. All is below (7·angle + 74)u.
+///
+/// The last column is T + t·v − (s·P₁ + q·P₂)c by the same products of −R·c, which is rounded by 5.3u|c|: by s and q below 13u|c|
+/// more. So a point p is off by (7·angle + 74)u(|p| + |c|) + 13u|c|, and by 2u|T| + 3u|t·v|.
 ///
 /// *Affine.* Each entry errs by 3u of its two terms, the Frobenius norm of R is at most 1.77.
-pub(super) fn rounding_of_pose(motion: &Motion, turn: &Turn, longest: f64, reach: f64) -> f64 {
+pub(super) fn rounding_of_pose(path: &Path, longest: f64, reach: f64) -> f64 {
     debug_assert!(longest >= 0.0 && reach >= 0.0);
     let length = |v: &Vector| v.norm() * (1.0 + 8.0 * U);
-    match motion {
+    match path.motion {
         Motion::Fixed(_) => 0.0,
         Motion::Screw(Screw { start, centre, velocity, rotation }) => {
             let (moves, turns) = (velocity.amax() > 0.0, rotation.amax() > 0.0);
-            let (centre, path) = (length(centre), longest * length(velocity));
+            let (centre, way) = (length(centre), longest * length(velocity));
             // A body that turns about its own origin stays there exactly.
             let keeps_translation = !moves && (!turns || centre == 0.0);
             let of_translation =
-                if keeps_translation { 0.0 } else { 4.0 * (length(&start.translation()) + path) + 16.0 * centre };
-            let of_turn = if turns { (OF_ANGLE * longest * turn.speed + OF_TURN) * reach } else { 0.0 };
+                if keeps_translation { 0.0 } else { 4.0 * (length(&start.translation()) + way) + 16.0 * centre };
+            let of_turn = if turns { (OF_ANGLE * longest * path.turn.speed + OF_TURN) * reach } else { 0.0 };
             let underflow = if moves || turns { UNDERFLOW } else { 0.0 };
             U * (of_translation + of_turn) + underflow
         }
@@ -243,19 +249,19 @@ pub fn least_within<S: Scalar>(first: S, rise: S, sag: S) -> S {
     first - excess * excess / (constant::<S>(4.0) * sag)
 }
 
-fn check_sizes(motion: &Motion, turn: &Turn, longest: f64, reach: f64) -> Result<()> {
+fn check_sizes(path: &Path, longest: f64, reach: f64) -> Result<()> {
     if !(longest <= LARGEST_TIME) {
         return Err(Error::Argument(format!(
             "a time is {longest:e}, it must be at most {LARGEST_TIME:e} in magnitude"
         )));
     }
-    let angle = longest * turn.speed;
+    let angle = longest * path.turn.speed;
     if !(angle <= LARGEST_ANGLE) {
         return Err(Error::Argument(format!(
             "a motion turns by {angle:e} radians, it may turn by {LARGEST_ANGLE:e}: ask in parts"
         )));
     }
-    let far = match motion {
+    let far = match path.motion {
         Motion::Fixed(pose) => pose.translation().amax(),
         Motion::Screw(screw) => screw.start.translation().amax().max(longest * screw.velocity.amax()),
         Motion::Affine { start, end } => (1.0 + longest) * start.translation().amax().max(end.translation().amax()),

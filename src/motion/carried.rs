@@ -1,7 +1,7 @@
 //! A shape and the motion that carries it along.
 
 use super::kinds::Motion;
-use super::turn::Turn;
+use super::path::Path;
 use crate::base::error::Result;
 use crate::base::math::Pose;
 use crate::shape::Shape;
@@ -36,8 +36,9 @@ impl Carried<'_> {
     ///
     /// # Errors
     /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted.
-    pub(super) fn pose(&self, turn: &Turn, time: f64) -> Result<Pose> {
-        let pose = self.motion.pose(turn, time)?;
+    #[inline]
+    pub(super) fn pose(&self, path: &Path, time: f64) -> Result<Pose> {
+        let pose = path.pose(time)?;
         let Some(place) = self.place else { return Ok(pose) };
         let whole = pose.after(place);
         whole.check()?;

@@ -80,15 +80,15 @@ fn run_from<'a>(
     let wanted = wanted(config);
     let mut least = f64::INFINITY;
     if here.time < config.time_end {
-        let (far, at_end) = sweep.far(&here, config.time_end, &wanted)?;
-        if let Some(step) = far {
-            return Ok(free(sweep, config, step.least - step.slack - config.max_distance));
+        let mut at_end = None;
+        if let Some(least) = sweep.far(&here, config.time_end, &wanted, &mut at_end)? {
+            return Ok(free(sweep, config, least));
         }
         // How fast a callback moves takes another call of it; and its poses are checked where steps end.
         if !pair.has_callback() && config.step_budget > MOST_LOOKS {
             match look_ahead(pair, sweep, &here, at_end, config)? {
                 Way::Free { least } => return Ok(free(sweep, config, least)),
-                Way::Hit { here, contact, there, shown } => return Ok(hit(sweep, [&here, &there], contact, shown)),
+                Way::Hit { times, contact, shown } => return Ok(hit(sweep, times, contact, shown)),
                 Way::Open { here: proved, least: left } => (here, least) = (proved, left),
             }
         }
@@ -108,19 +108,19 @@ fn run_from<'a>(
                     _ if is_here => contact,
                     _ => sweep.contact(&here)?,
                 };
-                return Ok(hit(sweep, [&here, &there], contact, shown));
+                return Ok(hit(sweep, [here.time, there.time], contact, shown));
             }
             Ahead::Open => {
                 let upper = upper_bound(&near, &here);
                 let near_miss = CastAnswer { upper, contact: near, ..CastAnswer::default() };
-                return Ok(said(CastOutcome::Near, &here, sweep, near_miss));
+                return Ok(said(CastOutcome::Near, here.time, sweep, near_miss));
             }
         }
         if here.time >= config.time_end {
             return Ok(free(sweep, config, least));
         }
         if sweep.queries >= config.step_budget {
-            return Ok(said(CastOutcome::Budget, &here, sweep, CastAnswer::default()));
+            return Ok(said(CastOutcome::Budget, here.time, sweep, CastAnswer::default()));
         }
     }
 }
@@ -140,13 +140,13 @@ fn free(sweep: &Sweep, config: &CastConfig, least: f64) -> CastAnswer {
     CastAnswer { queries: sweep.queries, ..free }
 }
 
-/// Apart up to the first moment, where the contact is told, and shown to be in contact at the second.
-fn hit(sweep: &Sweep, [here, there]: [&Moment; 2], contact: PairAnswer, shown: Shown) -> CastAnswer {
+/// Apart up to the first time, where the contact is told, and shown to be in contact at the second.
+fn hit(sweep: &Sweep, [here, there]: [f64; 2], contact: PairAnswer, shown: Shown) -> CastAnswer {
     let Shown { upper, proof, proof_count } = shown;
-    let hit = CastAnswer { time_upper: there.time, upper, contact, proof, proof_count, ..CastAnswer::default() };
+    let hit = CastAnswer { time_upper: there, upper, contact, proof, proof_count, ..CastAnswer::default() };
     said(CastOutcome::Hit, here, sweep, hit)
 }
 
-fn said(outcome: CastOutcome, here: &Moment, sweep: &Sweep, rest: CastAnswer) -> CastAnswer {
-    CastAnswer { outcome, time_lower: here.time, queries: sweep.queries, ..rest }
+fn said(outcome: CastOutcome, time_lower: f64, sweep: &Sweep, rest: CastAnswer) -> CastAnswer {
+    CastAnswer { outcome, time_lower, queries: sweep.queries, ..rest }
 }

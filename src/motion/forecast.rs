@@ -2,17 +2,17 @@
 
 use super::bound::least_between;
 
-/// A step ends so much before where the gap is forecast to close, or nearer if the forecast before was good: of what only moves
-/// straight on it is right, and its gap closes to the time tolerance in one step.
-const SHARE_OF_ROOM: f64 = 1.0 / 16.0;
-
 /// The part of the room that a forecast keeps back is this many times the error of the one before, as its error grows with the
-/// square of the time.
+/// square of the time …
 const CAUTION: f64 = 8.0;
 
-/// room + speed·h + curve·h² beyond what is needed after a time h.
+/// … and at most so much for a step: of what only moves straight on it is right, and its gap closes to the time tolerance in one.
+const SHARE_OF_ROOM: f64 = 1.0 / 16.0;
+
+/// room + speed·h + curve·h² beyond what is needed, a time h later.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Forecast {
+    time: f64,
     room: f64,
     speed: f64,
     curve: f64,
@@ -21,34 +21,19 @@ pub(super) struct Forecast {
     off: f64,
 }
 
-/// The trend that a step that was taken gives for the next.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Trend {
-    time: f64,
-    speed: f64,
-    room: f64,
-    /// The expected value at its end.
-    expected: f64,
-}
-
 impl Forecast {
-    /// From the room at a time, how fast the distance grows there and the largest acceleration.
-    pub fn new(time: f64, room: f64, speed: f64, acceleration: f64, trend: Option<&Trend>) -> Forecast {
-        let mut forecast = Forecast { room, speed, curve: 0.0, acceleration, off: f64::INFINITY };
-        if let Some(trend) = trend.filter(|_| acceleration > 0.0) {
-            let length = time - trend.time;
-            let curve = 0.5 * (speed - trend.speed) / length;
+    /// From the room at a time, how fast the distance grows there, the largest acceleration and the forecast made before.
+    pub fn new(time: f64, room: f64, speed: f64, acceleration: f64, before: Option<&Forecast>) -> Forecast {
+        let mut forecast = Forecast { time, room, speed, curve: 0.0, acceleration, off: f64::INFINITY };
+        if let Some(before) = before.filter(|_| acceleration > 0.0) {
+            let length = time - before.time;
+            let curve = 0.5 * (speed - before.speed) / length;
             if curve.is_finite() {
                 forecast.curve = curve;
             }
-            forecast.off = (room - trend.expected).abs() / (trend.room * length);
+            forecast.off = (room - before.after(length)).abs() / (before.room * length);
         }
         forecast
-    }
-
-    /// The trend that a step from a time gives for the one after it.
-    pub fn trend(&self, time: f64, length: f64) -> Trend {
-        Trend { time, speed: self.speed, room: self.room, expected: self.after(length) }
     }
 
     fn after(&self, length: f64) -> f64 {
@@ -60,8 +45,7 @@ impl Forecast {
     pub fn step(&self, limit: f64, shortest: f64) -> (f64, bool) {
         let (mut length, mut closes) = (limit, false);
         if let Some(root) = self.root() {
-            let kept_back = if self.acceleration == 0.0 { 0.0 } else { self.share(root) * root };
-            let before = root - kept_back.max(0.5 * shortest);
+            let before = root - (self.share(root, SHARE_OF_ROOM) * root).max(0.5 * shortest);
             if before < length {
                 (length, closes) = (before, true);
             }
@@ -77,13 +61,14 @@ impl Forecast {
         (shortest, closes)
     }
 
-    fn share(&self, length: f64) -> f64 {
+    /// How much of the way to a root is kept back, at most a share: nothing of a way along which no point accelerates.
+    pub fn share(&self, root: f64, most: f64) -> f64 {
         // A NaN is not the smaller.
-        (CAUTION * self.off * length).min(SHARE_OF_ROOM)
+        if self.acceleration == 0.0 { 0.0 } else { (CAUTION * self.off * root).min(most) }
     }
 
-    /// The first time at which it closes.
-    fn root(&self) -> Option<f64> {
+    /// After which time it first closes.
+    pub fn root(&self) -> Option<f64> {
         let Forecast { room, speed, curve, .. } = *self;
         let discriminant = speed * speed - 4.0 * curve * room;
         let steep = -speed + discriminant.sqrt();

@@ -3,14 +3,13 @@
 use super::bound::Travel;
 use super::config::check_times;
 use super::kinds::Motion;
-use super::turn::Turn;
+use super::path::Path;
 use crate::base::error::Result;
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
 
 /// A moving frame with all that is near its origin.
 pub(crate) struct MovingFrame<'a> {
-    motion: &'a Motion<'a>,
-    turn: Turn,
+    path: Path<'a>,
     travel: Travel,
     lever: f64,
 }
@@ -31,14 +30,14 @@ impl<'a> MovingFrame<'a> {
     pub fn new(motion: &'a Motion<'a>, lever: f64, range: [f64; 2]) -> Result<MovingFrame<'a>> {
         check_times(range)?;
         motion.check()?;
-        let turn = motion.turn();
-        Ok(MovingFrame { motion, turn, travel: Travel::of_frame(motion, &turn, range, lever)?, lever })
+        let path = Path::new(motion);
+        Ok(MovingFrame { path, travel: Travel::of_frame(&path, range, lever)?, lever })
     }
 
     /// # Errors
     /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that no query accepts.
     pub fn at(&self, time: f64) -> Result<Stop> {
-        let pose = self.motion.pose(&self.turn, time)?;
+        let pose = self.path.pose(time)?;
         pose.check()?;
         Ok(Stop { time, pose })
     }
@@ -93,8 +92,9 @@ mod tests {
                 velocity: random.vector() * scale,
                 rotation: random.vector() * [0.0, 0.1, 3.0][round % 3],
             };
-            let turn = Motion::Screw(screw).turn();
-            let called = move |time: f64| screw.pose(&turn, time);
+            let turning = Motion::Screw(screw);
+            let path = Path::new(&turning);
+            let called = move |time: f64| path.pose(time).unwrap();
             let motions = [
                 Motion::Fixed(start),
                 Motion::Screw(screw),

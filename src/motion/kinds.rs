@@ -2,10 +2,8 @@
 
 use std::fmt;
 
-use super::turn::Turn;
 use crate::base::error::{Error, Result, check_range};
-use crate::base::math::{Matrix, Pose, Vector};
-use crate::base::simd::environment::with_callers;
+use crate::base::math::{Pose, Vector};
 
 /// How an object moves. Every kind defines exactly, in real arithmetic on its doubles, where a point is at a time; answers hold
 /// for that, the rounding of poses included.
@@ -60,35 +58,6 @@ impl fmt::Debug for Callback<'_> {
 }
 
 impl Motion<'_> {
-    /// How the object turns.
-    pub(super) fn turn(&self) -> Turn {
-        match self {
-            Motion::Screw(screw) => Turn::new(&screw.rotation),
-            _ => Turn::new(&Vector::zeros()),
-        }
-    }
-
-    /// The pose of the object at a time, up to rounding; `turn` is that of a screw's rotation.
-    ///
-    /// # Errors
-    /// [`Error::Pose`] for a pose that is not accepted.
-    pub(super) fn pose(&self, turn: &Turn, time: f64) -> Result<Pose> {
-        match self {
-            Motion::Fixed(pose) => Ok(*pose),
-            Motion::Screw(screw) => Ok(screw.pose(turn, time)),
-            Motion::Affine { start, end } => {
-                let pose = between(start, end, time);
-                check_at(&pose, "the affine motion", time)?;
-                Ok(pose)
-            }
-            Motion::Callback(callback) => {
-                let pose = with_callers(|| (callback.pose)(time));
-                check_at(&pose, "the motion's callback", time)?;
-                Ok(pose)
-            }
-        }
-    }
-
     /// Refuses a motion with a number out of its range.
     ///
     /// # Errors
@@ -114,47 +83,15 @@ impl Motion<'_> {
             }
         }
     }
-
-    /// About how fast a point of the object is at a time, given in its own frame and where it is then. It only guides the search:
-    /// for a callback, a difference quotient over `moment` gives it.
-    pub(super) fn velocity(&self, turn: &Turn, time: f64, moment: f64, [point, is_at]: [&Vector; 2]) -> Result<Vector> {
-        Ok(match self {
-            Motion::Fixed(_) => Vector::zeros(),
-            Motion::Screw(Screw { start, centre, velocity, rotation }) => {
-                velocity + rotation.cross(&(is_at - (start.transform(centre) + velocity * time)))
-            }
-            Motion::Affine { start, end } => end.transform(point) - start.transform(point),
-            Motion::Callback(_) => (self.pose(turn, time + moment)?.transform(point) - is_at) / moment,
-        })
-    }
-}
-
-impl Screw {
-    /// The order of the sums is that of `rounding_of_pose`.
-    pub(super) fn pose(&self, turn: &Turn, time: f64) -> Pose {
-        let Screw { start, centre, velocity, .. } = self;
-        let moved = start.translation() + velocity * time;
-        if turn.speed == 0.0 {
-            return Pose::new(&start.rotation(), &moved);
-        }
-        let rotation = product(&turn.by(time), &start.rotation());
-        let turned = Pose::new(&rotation, &Vector::zeros());
-        Pose::new(&rotation, &(moved + (start.rotate(centre) - turned.rotate(centre))))
-    }
 }
 
 /// (1 − t)·start + t·end, entry by entry.
-fn between(start: &Pose, end: &Pose, time: f64) -> Pose {
+pub(super) fn between(start: &Pose, end: &Pose, time: f64) -> Pose {
     let rest = 1.0 - time;
     Pose { rows: [0, 1, 2].map(|i| [0, 1, 2, 3].map(|k| rest * start.rows[i][k] + time * end.rows[i][k])) }
 }
 
-/// In the order of sums that the bounds are for.
-pub(super) fn product(a: &Matrix, b: &Matrix) -> Matrix {
-    Matrix::from_fn(|i, k| a[(i, 0)] * b[(0, k)] + a[(i, 1)] * b[(1, k)] + a[(i, 2)] * b[(2, k)])
-}
-
-fn check_at(pose: &Pose, what: &str, time: f64) -> Result<()> {
+pub(super) fn check_at(pose: &Pose, what: &str, time: f64) -> Result<()> {
     pose.check().map_err(|error| Error::Pose(format!("{what} at time {time:?}: {}", error.message())))
 }
 

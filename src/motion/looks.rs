@@ -8,6 +8,7 @@
 use super::bound::least_between;
 use super::config::CastConfig;
 use super::facet::Touch;
+use super::forecast::Forecast;
 use super::moving::{Moment, MovingPair};
 use super::sweep::{BALL, Look, Sweep, after, upper_bound};
 use crate::base::error::Result;
@@ -17,15 +18,12 @@ use crate::pair::{Outcome, PairAnswer};
 /// Looks after which the steps of a sweep go on.
 pub(super) const MOST_LOOKS: u32 = 60;
 
-/// Looks that are kept as ends of steps.
+/// Looks that are kept as ends of steps, and room for one more.
 const MOST_KNOTS: usize = 24;
 
 /// A look is at most this share of the way before the forecast contact; the first one, which knows no curve, a larger one.
 const SHARE: f64 = 1.0 / 64.0;
 const FIRST_SHARE: f64 = 1.0 / 16.0;
-
-/// It is nearer where the last forecast was good: by this many times its error, which grows with the square of the time.
-const CAUTION: f64 = 8.0;
 
 /// Contact that is forecast within so many time tolerances is looked for, and a look before it keeps so many.
 const CLOSE: f64 = 0.55;
@@ -36,7 +34,7 @@ const BEHIND: f64 = 0.35;
 const LAST: f64 = 0.99;
 
 /// A look at which the objects are farther apart than `max_distance`.
-#[derive(Debug, Clone, Copy)]
+#[derive(Debug, Clone, Copy, Default)]
 struct Knot {
     moment: Moment,
     /// The normal there,
@@ -49,22 +47,13 @@ struct Knot {
     gap: Option<f64>,
 }
 
-/// A look's advice on the next.
-#[derive(Debug, Clone, Copy)]
-struct Before {
-    time: f64,
-    room: f64,
-    speed: f64,
-    curve: f64,
-}
-
 /// The outcome of the looks.
 #[allow(clippy::large_enum_variant, reason = "one for each cast")]
 pub(super) enum Way {
     /// The gap is more than `least` up to the end; 0 stands for `max_distance`.
     Free { least: f64 },
-    /// Free up to `here`, where the contact was asked for; no farther apart than `max_distance` at `there`.
-    Hit { here: Moment, contact: PairAnswer, there: Moment, shown: Shown },
+    /// Free up to the first time, where the contact was asked for; no farther apart than `max_distance` at the other.
+    Hit { times: [f64; 2], contact: PairAnswer, shown: Shown },
     /// Free up to a moment, by `least`; nothing is said of what follows.
     Open { here: Moment, least: f64 },
 }
@@ -113,8 +102,8 @@ struct Looks<'a, 'b> {
     pair: &'a MovingPair<'a>,
     sweep: &'b mut Sweep<'a>,
     config: &'b CastConfig,
-    /// In the order of times; the first `count` are there.
-    knots: [Option<Knot>; MOST_KNOTS],
+    /// In the order of times; the first `count` are there. The moment of the next is looked at where it is to stay.
+    knots: [Option<Knot>; MOST_KNOTS + 1],
     count: usize,
     /// The way up to this one is proved,
     proved: usize,
@@ -126,10 +115,10 @@ struct Looks<'a, 'b> {
     answers: [PairAnswer; 2],
     front: usize,
     front_time: f64,
-    /// The look before the last, unless contact was found between.
-    before: Option<Before>,
-    /// Those of the last forecast.
-    curve: f64,
+    /// The forecast from the last look,
+    forecast: Option<Forecast>,
+    /// and that from the one before, unless contact was found between.
+    before: Option<Forecast>,
     /// A time at which they are not farther apart, as far as a look says.
     contact_by: Option<f64>,
     at_end: Option<Moment>,
@@ -148,7 +137,7 @@ pub(super) fn look_ahead<'a>(
         pair,
         sweep,
         config,
-        knots: [None; MOST_KNOTS],
+        knots: [None; MOST_KNOTS + 1],
         count: 0,
         proved: 0,
         least: f64::INFINITY,
@@ -156,22 +145,22 @@ pub(super) fn look_ahead<'a>(
         answers: [PairAnswer::default(); 2],
         front: 0,
         front_time: f64::NAN,
+        forecast: None,
         before: None,
-        curve: 0.0,
         contact_by: None,
         at_end,
     };
-    let open = Way::Open { here: *start, least: f64::INFINITY };
-    let Some(knot) = looks.look(start)? else {
+    looks.next().moment = *start;
+    if !looks.look()? {
         looks.sweep.keep_sight(start.time, &looks.answers[1]);
-        return Ok(open);
-    };
-    looks.add_last(knot);
+        return Ok(Way::Open { here: *start, least: f64::INFINITY });
+    }
+    looks.add_last();
     looks.run()
 }
 
 impl Looks<'_, '_> {
-    fn run(mut self) -> Result<Way> {
+    fn run(&mut self) -> Result<Way> {
         loop {
             let next = self.go_on()?;
             if matches!(next, Next::Nowhere) {
@@ -185,10 +174,10 @@ impl Looks<'_, '_> {
             let Next::Contact(root) = next else {
                 return Ok(Way::Free { least: self.tail.map_or(self.least, |tail| self.least.min(tail)) });
             };
-            if let Some((there, shown)) = self.contact_at(root)? {
-                let here = self.knot(self.proved).moment;
-                let contact = self.answer_at(&here)?;
-                return Ok(Way::Hit { here, contact, there, shown });
+            if let Some((time, shown)) = self.contact_at(root)? {
+                let times = [self.knot(self.proved).moment.time, time];
+                let contact = self.answer_at(self.proved)?;
+                return Ok(Way::Hit { times, contact, shown });
             }
             if !self.pass(root)? {
                 break;
@@ -201,46 +190,47 @@ impl Looks<'_, '_> {
         self.knots[k].as_ref().expect("only those below the count are asked for")
     }
 
-    /// Whether there is room for another look.
+    /// The place of the next look.
+    fn next(&mut self) -> &mut Knot {
+        self.knots[self.count].get_or_insert_with(Knot::default)
+    }
+
+    /// Whether there is no room for another look.
     fn is_exhausted(&self) -> bool {
         self.count == MOST_KNOTS || self.sweep.queries >= MOST_LOOKS
     }
 
-    /// Asks for the distance at a moment; the answer is the one that is not at `front`. `None`: no farther than `max_distance`.
-    fn look(&mut self, moment: &Moment) -> Result<Option<Knot>> {
+    /// Asks for the distance at the next moment; the answer is the one that is not at `front`. Whether they are farther apart than
+    /// `max_distance`.
+    fn look(&mut self) -> Result<bool> {
+        let (pair, max_distance) = (self.pair, self.config.max_distance);
         let answer = &mut self.answers[1 - self.front];
-        self.sweep.ask(moment, answer)?;
-        let room = answer.distance - self.config.max_distance;
-        if answer.outcome != Outcome::Separated || !(answer.lower > self.config.max_distance && room < f64::INFINITY) {
-            return Ok(None);
+        let knot = self.knots[self.count].as_mut().expect("its moment is set");
+        self.sweep.ask(&knot.moment, answer)?;
+        knot.room = answer.distance - max_distance;
+        if answer.outcome != Outcome::Separated || !(answer.lower > max_distance && knot.room < f64::INFINITY) {
+            return Ok(false);
         }
-        let direction = Vector::from(answer.normal);
-        let speed = self.pair.speed(moment, &direction, [&answer.local1, &answer.local2])?;
-        Ok(Some(Knot { moment: *moment, direction, room, speed, gap: None }))
+        knot.direction = Vector::from(answer.normal);
+        knot.speed = pair.speed(&knot.moment, &knot.direction, answer)?;
+        knot.gap = None;
+        Ok(true)
     }
 
-    fn add_last(&mut self, knot: Knot) {
-        self.before = self.count.checked_sub(1).map(|last| {
-            let Knot { moment, room, speed, .. } = self.knot(last);
-            Before { time: moment.time, room: *room, speed: *speed, curve: self.curve }
-        });
-        (self.front, self.front_time) = (1 - self.front, knot.moment.time);
-        self.knots[self.count] = Some(knot);
+    /// Keeps the next look, which is the last then.
+    fn add_last(&mut self) {
+        self.before = self.forecast.take();
+        (self.front, self.front_time) = (1 - self.front, self.knot(self.count).moment.time);
         self.count += 1;
     }
 
     /// The distance at a look.
-    fn answer_at(&mut self, here: &Moment) -> Result<PairAnswer> {
+    fn answer_at(&mut self, k: usize) -> Result<PairAnswer> {
+        let here = &self.knots[k].as_ref().expect("only those below the count are asked for").moment;
         if self.front_time != here.time {
             self.sweep.ask(here, &mut self.answers[self.front])?;
         }
         Ok(self.answers[self.front])
-    }
-
-    /// The gap at a moment along the normal of a look.
-    fn gap_along(&mut self, k: usize, moment: &Moment) -> f64 {
-        let direction = self.knot(k).direction;
-        self.pair.gap(moment, &direction, &mut self.sweep.vertices)
     }
 
     /// The gap at one look along the normal of another.
@@ -265,14 +255,18 @@ impl Looks<'_, '_> {
         self.config.max_distance + self.pair.slack(moment)
     }
 
-    fn moment_at(&mut self, time: f64) -> Result<Moment> {
-        if time < self.config.time_end {
-            return self.pair.at(time);
+    /// Sets the moment of the next look.
+    fn move_to(&mut self, time: f64) -> Result<()> {
+        let (pair, end) = (self.pair, self.config.time_end);
+        if time < end {
+            return pair.place_at(time, &mut self.next().moment);
         }
-        match self.at_end {
-            Some(moment) => Ok(moment),
-            None => Ok(*self.at_end.insert(self.pair.at(self.config.time_end)?)),
-        }
+        let at_end = match self.at_end {
+            Some(moment) => moment,
+            None => *self.at_end.insert(pair.at(end)?),
+        };
+        self.next().moment = at_end;
+        Ok(())
     }
 
     /// Looks on to the end, or next to contact.
@@ -288,89 +282,74 @@ impl Looks<'_, '_> {
             if self.is_exhausted() {
                 return Ok(Next::Nowhere);
             }
-            let root = self.root(last);
+            let forecast = self.forecast(last);
+            // Infinite where the room does not close.
+            let root = forecast.root().unwrap_or(f64::INFINITY);
             if root <= CLOSE * tolerance {
                 return Ok(Next::Contact(time + root));
             }
-            let share = self.share(last, root);
-            let forecast = time + (root - (share * root).max(BEFORE * tolerance));
+            let share = forecast.share(root, if self.before.is_some() { SHARE } else { FIRST_SHARE });
+            let nearly = time + (root - (share * root).max(BEFORE * tolerance));
             let limit = self.contact_by.map_or(end, |contact| 0.5 * (time + contact));
-            // Without a root the forecast is infinite or a NaN.
-            let next = if forecast < limit { forecast } else { limit };
+            // Without a root that is infinite or a NaN.
+            let next = if nearly < limit { nearly } else { limit };
             if next - time < 0.05 * tolerance {
                 return Ok(Next::Contact(time + 0.5 * tolerance));
             }
-            let there = self.moment_at(next)?;
+            self.move_to(next)?;
             if next >= end {
-                self.tail = self.rest(last, &there);
+                self.tail = self.rest(last);
                 if self.tail.is_some() {
                     return Ok(Next::End);
                 }
             }
             // A forecast that was good is better than the gap along a normal that keeps still: a turning face sticks out of that.
             let is_trusted = share > 0.0 && share < SHARE;
-            let there = if is_trusted { there } else { self.where_it_closes(last, there, root)? };
-            match self.look(&there)? {
-                Some(knot) => self.add_last(knot),
-                None => (self.contact_by, self.before) = (Some(there.time), None),
+            if !is_trusted {
+                self.stop_where_it_closes(last, root)?;
+            }
+            if self.look()? {
+                self.add_last();
+            } else {
+                (self.contact_by, self.before) = (Some(self.next().moment.time), None);
             }
         }
     }
 
-    /// After which time the room is forecast to close, by speed and curve; infinite where it is not.
-    fn root(&mut self, last: usize) -> f64 {
-        let Knot { moment, room, speed, .. } = self.knot(last);
-        let curve = self.before.map_or(0.0, |before| 0.5 * (speed - before.speed) / (moment.time - before.time));
-        let discriminant = speed * speed - 4.0 * curve * room;
-        let steep = discriminant.sqrt() - speed;
-        // NaN where it does not close.
-        let root = if discriminant >= 0.0 && steep > 0.0 { 2.0 * room / steep } else { f64::INFINITY };
-        self.curve = curve;
-        root
-    }
-
-    /// How much of the way to a root is kept back: nothing of a way along which no point accelerates.
-    fn share(&self, last: usize, root: f64) -> f64 {
-        let here = self.knot(last);
-        let most = if self.before.is_some() { SHARE } else { FIRST_SHARE };
-        if self.pair.acceleration(&here.direction) == 0.0 {
-            return 0.0;
-        }
-        let Some(Before { time, room, speed, curve }) = self.before else { return most };
-        let length = here.moment.time - time;
-        let off = (here.room - (room + speed * length + curve * length * length)).abs() / (room * length);
-        let share = CAUTION * off * root;
-        if share < most { share } else { most }
+    fn forecast(&mut self, last: usize) -> Forecast {
+        let Knot { moment, direction, room, speed, .. } = self.knot(last);
+        let acceleration = self.pair.acceleration(direction);
+        let forecast = Forecast::new(moment.time, *room, *speed, acceleration, self.before.as_ref());
+        *self.forecast.insert(forecast)
     }
 
     /// One step from the last look to the end along the normal here takes no query: by how much it is free.
-    fn rest(&mut self, last: usize, end: &Moment) -> Option<f64> {
+    fn rest(&mut self, last: usize) -> Option<f64> {
         let needed = self.needed(&self.knot(last).moment);
-        let gap = self.gap_along(last, end);
+        let gap = self.gap_between(last + 1, last);
         if !(gap > needed) {
             return None;
         }
         let gaps = [self.gap_of(last), gap];
-        let here = self.knot(last);
-        let least = least_between(gaps, self.pair.sag([&here.moment, end], [&here.direction; 2]));
-        (least > needed).then_some(least - needed)
+        self.least_in_step([last, last + 1], [last; 2], gaps, needed)
     }
 
     /// Where the gap along the normal here has closed by the next look, objects may intersect there, and that look would be dear:
     /// the look is where the gap's chord closes instead.
-    fn where_it_closes(&mut self, last: usize, there: Moment, root: f64) -> Result<Moment> {
+    fn stop_where_it_closes(&mut self, last: usize, root: f64) -> Result<()> {
         let Knot { moment: Moment { time, .. }, room, .. } = *self.knot(last);
-        let length = there.time - time;
-        if length <= 4.0 * self.config.time_tolerance {
-            return Ok(there);
+        let next = self.knot(last + 1).moment.time;
+        let (length, tolerance) = (next - time, self.config.time_tolerance);
+        if length <= 4.0 * tolerance {
+            return Ok(());
         }
-        let gap = self.gap_along(last, &there) - self.config.max_distance;
+        let gap = self.gap_between(last + 1, last) - self.config.max_distance;
         let sooner = length * room / (room - gap);
         if gap > 0.0 || !(root == f64::INFINITY || sooner > 0.5 * root) {
-            return Ok(there);
+            return Ok(());
         }
-        let time = time + sooner.max(BEFORE * self.config.time_tolerance);
-        if time < there.time { self.moment_at(time) } else { Ok(there) }
+        let time = time + sooner.max(BEFORE * tolerance);
+        if time < next { self.move_to(time) } else { Ok(()) }
     }
 
     /// Proves the way from what is proved to the last look.
@@ -405,13 +384,13 @@ impl Looks<'_, '_> {
             } else {
                 0.5
             };
-            let between = self.pair.at(from.moment.time + part * length)?;
-            let Some(knot) = self.look(&between)? else {
-                (self.count, self.contact_by, self.before) = (to, Some(between.time), None);
+            let between = from.moment.time + part * length;
+            self.move_to(between)?;
+            if !self.look()? {
+                (self.count, self.contact_by, self.before) = (to, Some(between), None);
                 return Ok(Proof::Dropped);
-            };
-            self.knots.copy_within(to..self.count, to + 1);
-            self.knots[to] = Some(knot);
+            }
+            self.knots[to..=self.count].rotate_right(1);
             self.count += 1;
             ends[..open].iter_mut().for_each(|end| *end += 1);
             ends[open] = to;
@@ -449,32 +428,34 @@ impl Looks<'_, '_> {
     }
 
     /// Contact within a time tolerance of the last look, about at a time.
-    fn contact_at(&mut self, root: f64) -> Result<Option<(Moment, Shown)>> {
-        let here = *self.knot(self.count - 1);
+    fn contact_at(&mut self, root: f64) -> Result<Option<(f64, Shown)>> {
+        let last = self.count - 1;
+        let begin = self.knot(last).moment.time;
         let CastConfig { time_end, time_tolerance, max_distance, .. } = *self.config;
-        let latest = after(here.moment.time, LAST * time_tolerance).min(time_end);
+        let latest = after(begin, LAST * time_tolerance).min(time_end);
         let times = [(root + BEHIND * time_tolerance).min(latest), latest];
         let by_facet = max_distance == 0.0 && self.pair.swept() == 0.0;
         for (k, time) in times.into_iter().enumerate() {
-            if !(time > here.moment.time) || (k == 1 && time == times[0] && !by_facet) {
+            if !(time > begin) || (k == 1 && time == times[0] && !by_facet) {
                 continue;
             }
-            let there = self.moment_at(time)?;
-            let (polyhedra, direction) = (self.pair.polyhedra(), &here.direction);
-            let touch = Touch { polyhedra, here: &here.moment, direction, there: &there };
+            self.move_to(time)?;
+            let (polyhedra, here, there) = (self.pair.polyhedra(), self.knot(last), &self.knot(last + 1).moment);
+            let touch = Touch { polyhedra, here: &here.moment, direction: &here.direction, there };
             if by_facet
                 && let Some((pairs, ball)) = touch.enclosure()
                 && ball > BALL * there.rounding
             {
                 let labels = polyhedra.map(|polyhedron| &polyhedron.vertex_labels);
                 let proof = pairs.map(|[v, w]| [labels[0][v as usize], labels[1][w as usize]]);
-                return Ok(Some((there, Shown { upper: 0.0, proof, proof_count: 4 })));
+                return Ok(Some((time, Shown { upper: 0.0, proof, proof_count: 4 })));
             }
             // A verdict is dear: where a facet may show it, only of the later time.
+            let there = &self.knots[last + 1].as_ref().expect("it was set").moment;
             if (k == 1 || !by_facet)
-                && let Look::Contact(answer) = self.sweep.look(&there, max_distance)?
+                && let Look::Contact(answer) = self.sweep.look(there, max_distance)?
             {
-                return Ok(Some((there, Shown::by(&answer, &there, max_distance))));
+                return Ok(Some((time, Shown::by(&answer, there, max_distance))));
             }
         }
         Ok(None)
@@ -487,9 +468,11 @@ impl Looks<'_, '_> {
         if self.is_exhausted() || !(time > begin) || !root.is_finite() {
             return Ok(false);
         }
-        let there = self.moment_at(time)?;
-        let Some(knot) = self.look(&there)? else { return Ok(false) };
-        self.add_last(knot);
+        self.move_to(time)?;
+        if !self.look()? {
+            return Ok(false);
+        }
+        self.add_last();
         self.contact_by = None;
         let Some(least) = self.step(self.count - 1) else { return Ok(false) };
         (self.least, self.proved) = (self.least.min(least), self.count - 1);

@@ -6,6 +6,7 @@
 #[doc(hidden)]
 pub mod turn;
 mod kinds;
+mod path;
 mod carried;
 #[doc(hidden)]
 pub mod bound;

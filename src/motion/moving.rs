@@ -5,18 +5,18 @@ use super::carried::Carried;
 use super::enclosed_ball::EnclosedBall;
 use super::gap::Along;
 use super::kinds::Motion;
-use super::turn::Turn;
+use super::path::Path;
 use crate::answer::{Radii, sum_below};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, is_unit};
 use crate::body::polyhedron::Polyhedron;
-use crate::pair::{PairCache, Placed};
+use crate::pair::{PairAnswer, PairCache, Placed};
 use crate::placed::Pair;
 
 /// A pair that moves.
 pub(super) struct MovingPair<'a> {
     bodies: [Carried<'a>; 2],
-    turns: [Turn; 2],
+    paths: [Path<'a>; 2],
     travels: [Travel; 2],
     radii: Radii,
     range: [f64; 2],
@@ -31,38 +31,53 @@ pub(super) struct Moment {
     pub rounding: f64,
 }
 
+impl Default for Moment {
+    fn default() -> Moment {
+        Moment { time: f64::NAN, poses: [Pose::IDENTITY; 2], rounding: 0.0 }
+    }
+}
+
 impl<'a> MovingPair<'a> {
     /// # Errors
     /// [`Error::Pose`], [`Error::Argument`] for a motion with a number out of its range.
     pub fn new(bodies: [impl Into<Carried<'a>>; 2], range: [f64; 2]) -> Result<MovingPair<'a>> {
         let bodies = bodies.map(Into::into);
-        let prepare = |body: &Carried| {
-            body.motion.check()?;
-            let turn = body.motion.turn();
-            Ok((turn, Travel::new(body, &turn, range)?))
-        };
         let in_words = |error: Error, object: &str| match error {
             Error::Pose(message) => Error::Pose(format!("{object}: {message}")),
             other => Error::Argument(format!("{object}: {}", other.message())),
         };
-        let (turn1, travel1) = prepare(&bodies[0]).map_err(|error| in_words(error, "object 1"))?;
-        let (turn2, travel2) = prepare(&bodies[1]).map_err(|error| in_words(error, "object 2"))?;
+        let paths = [Path::new(bodies[0].motion), Path::new(bodies[1].motion)];
+        let travel = |i: usize, object: &str| {
+            let prepared = bodies[i].motion.check().and_then(|()| Travel::new(&bodies[i], &paths[i], range));
+            prepared.map_err(|error| in_words(error, object))
+        };
+        let travels = [travel(0, "object 1")?, travel(1, "object 2")?];
         // A pose is one for all that is asked of the shapes alone.
         let radii = Radii::of(&bodies.map(|body| body.shape.at(&Pose::IDENTITY))).unwrap_or(Radii::NONE);
-        Ok(MovingPair { bodies, turns: [turn1, turn2], travels: [travel1, travel2], radii, range })
+        Ok(MovingPair { bodies, paths, travels, radii, range })
     }
 
     /// # Errors
     /// [`Error::Pose`] for a pose that is not accepted.
     pub fn at(&self, time: f64) -> Result<Moment> {
-        let [body1, body2] = &self.bodies;
-        let poses = [body1.pose(&self.turns[0], time)?, body2.pose(&self.turns[1], time)?];
-        let rounding = |i: usize| match is_exact(self.bodies[i].motion, time) {
-            true => 0.0,
-            false => self.travels[i].rounding,
-        };
-        let of_motions = rounding(0) + rounding(1);
-        Ok(Moment { time, poses, rounding: (of_motions + self.rounding_of_places(&poses)) * (1.0 + 8.0 * U) })
+        let mut moment = Moment::default();
+        self.place_at(time, &mut moment)?;
+        Ok(moment)
+    }
+
+    /// The same where it is to stay: a moment is 200 bytes.
+    ///
+    /// # Errors
+    /// As of [`MovingPair::at`].
+    pub fn place_at(&self, time: f64, moment: &mut Moment) -> Result<()> {
+        let mut of_motions = 0.0;
+        for i in 0..2 {
+            moment.poses[i] = self.bodies[i].pose(&self.paths[i], time)?;
+            of_motions += if is_exact(self.bodies[i].motion, time) { 0.0 } else { self.travels[i].rounding };
+        }
+        moment.time = time;
+        moment.rounding = (of_motions + self.rounding_of_places(&moment.poses)) * (1.0 + 8.0 * U);
+        Ok(())
     }
 
     fn rounding_of_places(&self, poses: &[Pose; 2]) -> f64 {
@@ -168,20 +183,19 @@ impl<'a> MovingPair<'a> {
             .map_or(0.0, |pairs| EnclosedBall { pair: Pair { polyhedra, poses }, pairs: pairs.as_slice() }.radius())
     }
 
-    /// About how fast the gap along a direction grows, by a point of each body in its own frame.
-    pub fn speed(&self, moment: &Moment, direction: &Vector, points: [&[f64; 3]; 2]) -> Result<f64> {
+    /// About how fast the gap along a direction grows, by the witness points of an answer about the moment.
+    pub fn speed(&self, moment: &Moment, direction: &Vector, answer: &PairAnswer) -> Result<f64> {
         // A part of the range, towards its farther end.
         let [begin, end] = self.range;
         let part = 1e-6 * (end - begin);
         let part = if moment.time - begin > end - moment.time { -part } else { part };
-        let velocity = |i: usize| {
-            let Carried { motion, place, .. } = &self.bodies[i];
-            let point = Vector::from(*points[i]);
-            let carried = place.map_or(point, |place| place.transform(&point));
-            let is_at = moment.poses[i].transform(&point);
-            motion.velocity(&self.turns[i], moment.time, part, [&carried, &is_at])
+        let PairAnswer { local1, local2, world1, world2, .. } = answer;
+        let velocity = |i: usize, local: &[f64; 3], world: &[f64; 3]| {
+            let point = Vector::from(*local);
+            let carried = self.bodies[i].place.map_or(point, |place| place.transform(&point));
+            self.paths[i].velocity(moment.time, part, [&carried, &Vector::from(*world)])
         };
-        let speed = direction.dot(&(velocity(0)? - velocity(1)?));
+        let speed = direction.dot(&(velocity(0, local1, world1)? - velocity(1, local2, world2)?));
         Ok(if speed.is_finite() { speed } else { 0.0 })
     }
 

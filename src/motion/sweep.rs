@@ -1,7 +1,7 @@
 //! A sweep along a motion: proved free step by step, as far as it goes.
 
 use super::bound::least_between;
-use super::forecast::{Forecast, Trend};
+use super::forecast::Forecast;
 use super::moving::{Moment, MovingPair};
 use crate::base::error::Result;
 use crate::base::math::Vector;
@@ -81,7 +81,8 @@ pub(super) struct Sweep<'a> {
     pub vertices: Option<[u32; 2]>,
     /// The step before.
     last: Option<[Moment; 2]>,
-    trend: Option<Trend>,
+    /// The forecast that the last step came from.
+    before: Option<Forecast>,
     sight: Option<Sight>,
 }
 
@@ -95,7 +96,7 @@ struct Sight {
 
 impl<'a> Sweep<'a> {
     pub fn new(pair: &'a MovingPair<'a>, cache: &PairCache) -> Sweep<'a> {
-        Sweep { pair, cache: *cache, queries: 0, vertices: None, last: None, trend: None, sight: None }
+        Sweep { pair, cache: *cache, queries: 0, vertices: None, last: None, before: None, sight: None }
     }
 
     /// The distance at a moment.
@@ -124,18 +125,21 @@ impl<'a> Sweep<'a> {
         pair::distance(self.pair.placed(moment), &mut self.cache, &PairConfig::default(), answer)
     }
 
-    /// To the end along the line of centres, of bodies that are far apart: no query. With the moment there, if it was computed.
-    pub fn far(&mut self, here: &Moment, end: f64, wanted: &Wanted) -> Result<(Option<FreeStep>, Option<Moment>)> {
-        let Some(direction) = self.pair.between_spheres(here) else { return Ok((None, None)) };
-        let there = self.pair.at(end)?;
+    /// To the end along the line of centres, of bodies that are far apart: by how much they stay farther apart than asked, without
+    /// a query. Keeps the moment there, if it was computed.
+    pub fn far(&self, here: &Moment, end: f64, wanted: &Wanted, at_end: &mut Option<Moment>) -> Result<Option<f64>> {
+        debug_assert!(wanted.with_slack);
+        let Some(direction) = self.pair.between_spheres(here) else { return Ok(None) };
+        let there = at_end.insert(self.pair.at(end)?);
         let needed = wanted.max_distance + self.pair.slack(here);
+        let last = self.pair.gap(there, &direction, &mut None);
         // Of a pair that meets that gap is closed.
-        if !(self.pair.gap(&there, &direction, &mut None) > needed) {
-            return Ok((None, Some(there)));
+        if !(last > needed) {
+            return Ok(None);
         }
-        let trial = Trial::new(self.pair, here, direction, wanted, &mut None);
-        let step = trial.to(&there, &mut None);
-        Ok(((step.least > trial.needed).then_some(step), Some(there)))
+        let gaps = [self.pair.gap(here, &direction, &mut None), last];
+        let least = least_between(gaps, self.pair.sag([here, there], [&direction; 2]));
+        Ok((least > needed).then_some(least - needed))
     }
 
     /// On from a moment, whose distance is known, to `end` at most.
@@ -169,8 +173,8 @@ impl<'a> Sweep<'a> {
                 return self.took(step).map(Some);
             }
         }
-        let speed = self.pair.speed(here, &direction, [&near.local1, &near.local2])?;
-        let mut forecast = Forecast::new(here.time, trial.room(), speed, trial.acceleration, self.trend.as_ref());
+        let speed = self.pair.speed(here, &direction, near)?;
+        let mut forecast = Forecast::new(here.time, trial.room(), speed, trial.acceleration, self.before.as_ref());
         let mut limit = longest;
         for trials in 1.. {
             let (length, closes) = forecast.step(limit, shortest);
@@ -188,7 +192,7 @@ impl<'a> Sweep<'a> {
                 found = self.turned(&trial, &there)?;
             }
             if let Some(step) = found {
-                self.trend = Some(forecast.trend(here.time, length));
+                self.before = Some(forecast);
                 return self.took(step).map(Some);
             }
             if length <= shortest {
@@ -235,7 +239,7 @@ impl<'a> Sweep<'a> {
                     let trial = Trial::new(self.pair, here, direction.into(), wanted, &mut self.vertices);
                     let step = trial.to(&there, &mut self.vertices);
                     if step.least > trial.needed {
-                        self.trend = None;
+                        self.before = None;
                         return self.took(step).map(Ahead::Free);
                     }
                 }
@@ -285,7 +289,7 @@ impl<'a> Sweep<'a> {
         let touch = self.contact(start)?;
         let normal = Vector::from(touch.normal);
         // False for the NaN of bodies without a normal.
-        let are_parting = self.pair.speed(start, &normal, [&touch.local1, &touch.local2])? > 0.0;
+        let are_parting = self.pair.speed(start, &normal, &touch)? > 0.0;
         if !are_parting || self.pair.gap(start, &normal, &mut self.vertices) > needed {
             return Ok(None);
         }

@@ -4,7 +4,7 @@
 use super::bound::{Travel, rounding_of_place};
 use super::carried::Carried;
 use super::config::check_times;
-use super::turn::Turn;
+use super::path::Path;
 use crate::base::error::Result;
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U};
 
@@ -20,7 +20,7 @@ const MOST_PARTS: u32 = 64;
 /// An object in motion over a range of times.
 pub(crate) struct Swept<'a> {
     body: Carried<'a>,
-    turn: Turn,
+    path: Path<'a>,
     range: [f64; 2],
     parts: u32,
     /// No point of the motion is farther from the hull of where it is at both ends of a part.
@@ -42,14 +42,14 @@ impl<'a> Swept<'a> {
     pub fn new(body: Carried<'a>, range: [f64; 2]) -> Result<Swept<'a>> {
         check_times(range)?;
         body.motion.check()?;
-        let turn = body.motion.turn();
-        let travel = Travel::new(&body, &turn, range)?;
+        let path = Path::new(body.motion);
+        let travel = Travel::new(&body, &path, range)?;
         // Within a time h a point stays within a·h²/8 of its chord, with a the largest acceleration.
         let most = travel.most_acceleration();
         let whole = most * (range[1] - range[0]).powi(2) / 8.0;
         let polyhedron = body.shape.polyhedron();
         let by_sag = (whole / (MOST_SAG * polyhedron.radius)).sqrt();
-        let ends = [body.pose(&turn, range[0])?, body.pose(&turn, range[1])?];
+        let ends = [body.pose(&path, range[0])?, body.pose(&path, range[1])?];
         let way = ends[1].transform(&polyhedron.centre) - ends[0].transform(&polyhedron.centre);
         let wanted = by_sag.max(way.norm() / (MOST_TRAVEL * polyhedron.radius)).ceil();
         // False for a NaN, of a point that bends by nothing.
@@ -57,7 +57,7 @@ impl<'a> Swept<'a> {
         // Each time is off by u of itself and 2u of the range.
         let longest = (range[1] - range[0]) / f64::from(parts) + 8.0 * U * range[0].abs().max(range[1].abs());
         let sag = most * longest * longest / 8.0 * (1.0 + 32.0 * U) + travel.rounding;
-        Ok(Swept { body, turn, range, parts, sag })
+        Ok(Swept { body, path, range, parts, sag })
     }
 
     /// Its places at the ends of the parts, the beginning first.
@@ -69,7 +69,7 @@ impl<'a> Swept<'a> {
         (0..=self.parts).map(move |k| {
             let time =
                 if k == self.parts { end } else { begin + (end - begin) * (f64::from(k) / f64::from(self.parts)) };
-            let pose = self.body.pose(&self.turn, time)?;
+            let pose = self.body.pose(&self.path, time)?;
             Ok(Place { time, pose, off: (self.sag + rounding_of_place(&self.body, &pose)).next_up() })
         })
     }

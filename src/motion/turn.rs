@@ -1,9 +1,9 @@
 //! Turns about an axis, right to a bound that is derived here: no library's sine is trusted, and all machines compute the same.
 
-use crate::base::math::{Matrix, Vector};
+use crate::base::math::Vector;
 use crate::base::scalar::{Scalar, constant, dot};
 
-/// The largest angle in radians that [`Turn::by`] takes.
+/// The largest angle in radians that [`Turn::weights`] takes.
 pub(super) const LARGEST_ANGLE: f64 = 1_048_576.0;
 
 /// A constant angular velocity.
@@ -29,18 +29,12 @@ impl Turn {
         Turn { axis: axis.into(), speed }
     }
 
-    /// The rotation by `time`, exactly the identity at 0; of at most [`LARGEST_ANGLE`]. In the spectral norm it
-    /// is off by at most (6.5·|angle| + 70)u:
-    ///
-    /// - The angle errs by 6.5u of itself: 5.5u of the speed and a product. A turn by δ more differs by at most δ.
-    /// - Sine and cosine of its half err by 4u, so w does; with the axis (6.5u) and a product the vector part a errs by 11.5u. The
-    ///   matrix is I + 2w\[a\] + 2\[a\]². It errs by 2·4u·|a| + 2·11.5u·|w| + 4·11.5u·|a| < 60u, as w² + |a|² = 1.
-    /// - Its entries are rounded by 2u off the diagonal and 5u on it, in all 10u in the Frobenius norm.
-    pub fn by(&self, time: f64) -> Matrix {
-        debug_assert!((time * self.speed).abs() <= LARGEST_ANGLE * (1.0 + 1e-9));
-        let (sine, w) = sin_cos(half_angle(time, self.speed));
-        let rows = rotation_of(self.axis.into(), sine, w);
-        Matrix::from_fn(|i, k| rows[i][k])
+    /// The sine of the angle turned by after a time, and 1 less its cosine, both exactly 0 at time 0. The angle is at most
+    /// [`LARGEST_ANGLE`] and errs by 6.5u of itself, 5.5u of the speed and a product; beside that the sine is off by 4u, the other
+    /// by a rounding more, 6u.
+    pub fn weights(&self, time: f64) -> [f64; 2] {
+        let (sine, cosine) = sin_cos(angle(time, self.speed));
+        [sine, versine(cosine)]
     }
 }
 
@@ -52,23 +46,28 @@ pub fn axis_and_speed<S: Scalar>(rotation: [S; 3], scale: S) -> ([S; 3], S) {
     (scaled.map(|x| x / length), length * scale)
 }
 
-/// Half of the angle of a turn.
+/// The angle of a turn.
 #[inline(always)]
-pub fn half_angle<S: Scalar>(time: S, speed: S) -> S {
-    constant::<S>(0.5) * (time * speed)
+pub fn angle<S: Scalar>(time: S, speed: S) -> S {
+    time * speed
 }
 
-/// The rotation about a unit axis by twice the angle that has this sine and this cosine.
+/// 1 less a cosine.
 #[inline(always)]
-pub fn rotation_of<S: Scalar>(axis: [S; 3], sine: S, w: S) -> [[S; 3]; 3] {
-    let [x, y, z] = axis.map(|a| a * sine);
-    let (xx, yy, zz) = (x * x, y * y, z * z);
-    let (one, two) = (constant::<S>(1.0), constant::<S>(2.0));
-    [
-        [one - two * (yy + zz), two * (x * y - w * z), two * (x * z + w * y)],
-        [two * (x * y + w * z), one - two * (xx + zz), two * (y * z - w * x)],
-        [two * (x * z - w * y), two * (y * z + w * x), one - two * (xx + yy)],
-    ]
+pub fn versine<S: Scalar>(cosine: S) -> S {
+    constant::<S>(1.0) - cosine
+}
+
+/// a × b.
+#[inline(always)]
+pub fn crossed<S: Scalar>(a: [S; 3], b: [S; 3]) -> [S; 3] {
+    [a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]]
+}
+
+/// An entry of a pose from those of the three matrices that it is a sum of.
+#[inline(always)]
+pub fn entry<S: Scalar>(start: S, parts: [S; 2], weights: [S; 2]) -> S {
+    start + (weights[0] * parts[0] + weights[1] * parts[1])
 }
 
 /// π/2 in three parts of 33 bits, so that products with integers up to 2²⁰ are exact; all three together are off by less than 2⁻¹⁰²
@@ -111,10 +110,12 @@ const COSINE: [f64; 8] = [
 /// twice u of r²/2 < 0.31. So both are off by less than 1.7u + 2u.
 fn sin_cos(angle: f64) -> (f64, f64) {
     debug_assert!(angle.abs() <= LARGEST_ANGLE);
-    let multiple = (angle * std::f64::consts::FRAC_2_PI).round();
-    let r = reduced(angle, multiple);
+    // Beside 1.5·2⁵² doubles are integers: the sum is rounded to one, whose last bits are the multiple's.
+    const INTEGERS: f64 = f64::from_bits((1023 + 52) << 52 | 1 << 51);
+    let shifted = angle * std::f64::consts::FRAC_2_PI + INTEGERS;
+    let r = reduced(angle, shifted - INTEGERS);
     let (sine, cosine) = (sine(r), cosine(r));
-    match (multiple as i64).rem_euclid(4) {
+    match shifted.to_bits() & 3 {
         0 => (sine, cosine),
         1 => (cosine, -sine),
         2 => (-sine, -cosine),
@@ -173,8 +174,8 @@ mod tests {
     #[test]
     fn no_time_turns_nothing() {
         let turn = Turn::new(&Vector::new(3.0, -1e-3, 7e5));
-        assert_eq!(turn.by(0.0), Matrix::identity());
-        assert_eq!(Turn::new(&Vector::zeros()).by(9.0), Matrix::identity());
+        assert_eq!(turn.weights(0.0), [0.0; 2]);
+        assert_eq!(Turn::new(&Vector::zeros()).weights(9.0), [0.0; 2]);
         // Whatever the size of the vector.
         let small = Turn::new(&(Vector::new(3.0, -1.0, 0.5) * f64::MIN_POSITIVE));
         assert!((small.axis.norm() - 1.0).abs() < 1e-3 && small.speed > 0.0);
