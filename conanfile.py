@@ -18,7 +18,7 @@ class Swiftprox(ConanFile):
     default_options = {"shared": False}
     # With benches/worst_case.rs, which Cargo.toml names.
     exports_sources = (".cargo/*", "CMakeLists.txt", "Cargo.lock", "Cargo.toml", "LICENSE-*", "benches/worst_case.rs", "build.rs",
-                       "cmake/*", "docs/*", "examples/*", "include/*", "src/*", "proofs/*", "testkit/*", "tools/*")
+                       "adapters/*", "cmake/*", "docs/*", "examples/*", "include/*", "src/*", "proofs/*", "testkit/*", "tools/*")
     test_package_folder = "packaging/conan_test"
 
     def set_version(self):
