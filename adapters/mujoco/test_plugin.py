@@ -12,6 +12,7 @@ import unittest
 
 import mujoco
 import numpy
+from mujoco import rollout
 
 PLUGIN, SCENES = sys.argv.pop(1), sys.argv.pop(1)
 PATHS = sorted(glob.glob(os.path.join(SCENES, "*.xml")))
@@ -302,6 +303,20 @@ class Threads(unittest.TestCase):
             thread.join()
         for end, expected in zip(ends, alone):
             self.assertTrue(numpy.array_equal(end, expected))
+
+
+    def test_mujocos_own_threads_roll_out_alike(self):
+        """Twelve runs from one state, by three threads that take data in turn."""
+        model = MODELS[3]
+        start = mujoco.MjData(model)
+        mujoco.mj_resetData(model, start)
+        state = numpy.empty(mujoco.mj_stateSize(model, mujoco.mjtState.mjSTATE_FULLPHYSICS))
+        mujoco.mj_getState(model, start, state, mujoco.mjtState.mjSTATE_FULLPHYSICS)
+        before = counts()
+        runs, _ = rollout.rollout(model, [mujoco.MjData(model) for _ in range(3)], numpy.tile(state, (12, 1)), nstep=100)
+        self.assertGreater(counts().answered, before.answered + 1200)
+        for run in runs[1:]:
+            self.assertTrue(numpy.array_equal(run, runs[0]))
 
 
 class Refusals(unittest.TestCase):
