@@ -9,7 +9,7 @@ use crate::base::error::Result;
 use crate::base::memory::push;
 use crate::base::simd::environment::with_default;
 use crate::manifold::{ManifoldCache, ManifoldConfig, add_points, manifold_into};
-use crate::pair::{Outcome, SignedDistance};
+use crate::pair::Outcome;
 
 /// The manifolds of all pairs of pieces up to `config.max_distance` apart, in order of the pieces, as [`crate::manifold::manifold`]
 /// finds each with a cold cache. Pieces overlap where they join, so a body that rests on two of them may have points twice.
@@ -39,9 +39,9 @@ fn find(bodies: &[PlacedCompound; 2], config: &ManifoldConfig, found: &mut Compo
     near.sort_unstable();
     for pieces in near {
         let first_point = found.points.len() as u32;
-        let (mut cache, mut distance) = (ManifoldCache::default(), SignedDistance::default());
+        let mut cache = ManifoldCache::default();
         let manifold = with_pieces(bodies, pieces, |placed| {
-            add_points(&mut found.points, |sink| manifold_into(placed, &mut cache, config, sink, &mut distance))
+            add_points(&mut found.points, |sink| manifold_into(placed, &mut cache, config, sink, None))
         })??;
         if manifold.outcome != Outcome::Beyond {
             let [piece1, piece2] = pieces;

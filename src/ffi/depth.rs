@@ -278,18 +278,18 @@ pub unsafe extern "C" fn swiftprox_pair_manifold(
     manifold: *mut Manifold,
 ) -> StatusCode {
     let CManifoldRoom { points, capacity, distance } = room;
-    let mut unasked = SignedDistance::default();
-    let distance = if distance.is_null() { &raw mut unasked } else { distance };
     let status = guard(|| {
         // SAFETY: the header's pointer rules; a pose is twelve doubles, row by row, as is `Pose`.
         let (bodies, cache, config, distance) = unsafe {
             output(manifold, "manifold", Manifold::default())?;
-            output(distance, "distance", SignedDistance::default())?;
+            if !distance.is_null() {
+                output(distance, "distance", SignedDistance::default())?;
+            }
             (
                 bodies(object1, object2)?,
                 exclusive(cache.cast::<ManifoldCache>(), "cache")?,
                 read_manifold_config(config)?,
-                exclusive(distance, "distance")?,
+                distance.as_mut(),
             )
         };
         // SAFETY: the header's pointer rules; the sink stays below its capacity.

@@ -9,6 +9,8 @@ mod answer;
 mod sink;
 mod id;
 mod patch;
+mod steady;
+mod witness;
 mod outline;
 mod clip;
 mod places;
@@ -16,7 +18,6 @@ mod overlay;
 mod reduction;
 mod at_rest;
 mod swept;
-mod steady;
 mod half_space;
 mod four;
 
@@ -34,7 +35,7 @@ use crate::shape::Placed;
 use answer::FOUR;
 pub(crate) use answer::Reference;
 pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
-use at_rest::{Answered, AtRest};
+use at_rest::{Answered, AtRest, Clipping, Writing};
 use clip::Precision;
 pub(crate) use four::four_of_points;
 pub use half_space::half_space_manifold;
@@ -47,7 +48,9 @@ use patch::{Patches, STICKY, STICKY_INCIDENT, choose, facing};
 use places::{CommonPoint, Origin, View};
 use reduction::{Thinned, four_of};
 pub(crate) use sink::{Fill, Sink};
-use steady::name_by_place;
+use steady::{is_thin, name_by_place};
+use witness::push_witness;
+pub(crate) use witness::witness;
 
 /// The manifold of two objects, written to `points` as far as there is room. For objects farther apart than `max_distance` there is
 /// none.
@@ -64,7 +67,7 @@ pub fn manifold(
     config: &ManifoldConfig,
     points: &mut [ManifoldPoint],
 ) -> Result<Manifold> {
-    manifold_beside(bodies, cache, config, points, &mut SignedDistance::default())
+    manifold_beside(bodies, cache, config, points, None)
 }
 
 /// As [`manifold`], with the signed distance that it is made from: the estimate, and the witness points with their features.
@@ -78,7 +81,7 @@ pub fn manifold_with_distance(
     points: &mut [ManifoldPoint],
 ) -> Result<(Manifold, SignedDistance)> {
     let mut distance = SignedDistance::default();
-    let manifold = manifold_beside(bodies, cache, config, points, &mut distance)?;
+    let manifold = manifold_beside(bodies, cache, config, points, Some(&mut distance))?;
     Ok((manifold, distance))
 }
 
@@ -87,7 +90,7 @@ fn manifold_beside(
     cache: &mut ManifoldCache,
     config: &ManifoldConfig,
     points: &mut [ManifoldPoint],
-    distance: &mut SignedDistance,
+    distance: Option<&mut SignedDistance>,
 ) -> Result<Manifold> {
     let capacity = points.len();
     let mut write = |place: usize, fill: Fill| fill(&mut points[place]);
@@ -118,16 +121,20 @@ pub(crate) fn manifold_into(
     cache: &mut ManifoldCache,
     config: &ManifoldConfig,
     points: &mut Sink,
-    contact: &mut SignedDistance,
+    contact: Option<&mut SignedDistance>,
 ) -> Result<Manifold> {
     with_default(|| {
         config.check()?;
+        let (is_asked, mut unasked) = (contact.is_some(), SignedDistance::default());
+        let contact = contact.unwrap_or(&mut unasked);
         let within = PairConfig { max_distance: config.max_distance, ..PairConfig::default() };
         if cache.depth().resting().is_some() && Radii::of(&bodies).is_none() {
-            let mut query = AtRest { bodies: &bodies, cache, config, points, contact };
+            let mut query = AtRest { bodies: &bodies, cache, config, points, contact, is_asked };
             match simd::dispatch_to_avx2(&mut query) {
                 Answered::Whole(manifold) => return Ok(manifold),
-                Answered::Contact => return Ok(make(bodies, &mut cache.reference, config, contact, points)),
+                Answered::Contact => {
+                    return Ok(make(bodies, &mut cache.reference, config, contact, points));
+                }
                 Answered::Nothing => {}
             }
         }
@@ -197,14 +204,6 @@ fn of_bodies(
     Manifold { outcome: contact.outcome, lower: contact.lower, upper: contact.upper, ..manifold }
 }
 
-/// The pair of witness points.
-pub(crate) fn witness(contact: &SignedDistance) -> ManifoldPoint {
-    let &SignedDistance { local1, local2, world1, world2, feature1, feature2, .. } = contact;
-    let (gap_lower, gap_upper) = (contact.lower, contact.upper);
-    let id = id_of(&feature1, &feature2);
-    ManifoldPoint { local1, local2, world1, world2, gap_lower, gap_upper, feature1, feature2, id }
-}
-
 fn make(
     bodies: [Placed; 2],
     before: &mut Reference,
@@ -226,17 +225,24 @@ fn make(
         return answer;
     }
     if let Some(patches) = choose_patches(bodies, contact, &last) {
-        let found = clip(bodies, &patches, (&last, before), config, contact, points);
+        let mut reference = last;
+        let writing = Writing { reference: &mut reference, config, points };
+        let mut query = Clipping { bodies: &bodies, contact, patches: &patches, writing };
+        let is_plain = !bodies.iter().any(|body| is_thin(body.shape.polyhedron()));
+        let by_masks = if is_plain { simd::dispatch_to_avx2(&mut query) } else { None };
+        let found = if let Some(found) = by_masks {
+            *before = reference;
+            found
+        } else {
+            sweep(bodies, &patches, (&last, before), config, contact, points)
+        };
         if found > 0 {
             answer.reference = patches.reference as u32 + 1;
             (answer.point_count, answer.found_count) = (points.written as u32, found as u32);
             return answer;
         }
     }
-    points.push(|point| {
-        *point = witness(contact);
-        name_by_place(bodies.map(|body| body.shape.polyhedron()), point);
-    });
+    push_witness(bodies.map(|body| body.shape.polyhedron()), contact, points);
     (answer.point_count, answer.found_count) = (points.written as u32, 1);
     answer
 }
@@ -261,8 +267,8 @@ const LARGEST: f64 = 1e150;
 /// Edges of bodies of which any number of points are named by their places.
 const MOST_NAMED: usize = 1024;
 
-/// Writes the points that both patches have in common; how many there are.
-fn clip(
+/// Writes the points that both patches have in common, of any poses and patches; how many there are.
+fn sweep(
     bodies: [Placed; 2],
     patches: &Patches,
     (last, now): (&Reference, &mut Reference),

@@ -28,7 +28,7 @@ pub enum Patch {
 
 impl Patch {
     /// The patch of a number, if there is one: merged faces come first.
-    fn of_number(polyhedron: &Polyhedron, number: u32) -> Option<Patch> {
+    pub fn of_number(polyhedron: &Polyhedron, number: u32) -> Option<Patch> {
         match number.checked_sub(polyhedron.faces.len() as u32) {
             None => Some(Patch::Merged(number)),
             Some(face) => polyhedron.contact_faces.faces.get(face as usize).map(|_| Patch::Contact(face)),

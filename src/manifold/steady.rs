@@ -28,7 +28,7 @@ pub fn name_by_place(polyhedra: [&Polyhedron; 2], point: &mut ManifoldPoint) {
 }
 
 /// Thinner than [`ONE`] along one direction, and no larger than its ball along the others. False of a NaN.
-fn is_thin(polyhedron: &Polyhedron) -> bool {
+pub fn is_thin(polyhedron: &Polyhedron) -> bool {
     let reach = 2.0 * polyhedron.radius;
     polyhedron.mass.volume <= ONE * polyhedron.radius * reach * reach
 }

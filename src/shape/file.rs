@@ -21,6 +21,7 @@ use crate::body::build::assembly::{Labels, build_in_steps};
 use crate::body::build::check::check_hull_in_steps;
 use crate::body::build::contact_faces::find_contact_faces;
 use crate::body::build::hull::{Hull, convex_hull_in_steps};
+use crate::body::build::outlines::give_contact_faces;
 use crate::body::polyhedron::Polyhedron;
 use crate::body::polyhedron::lookup::Plan;
 use crate::body::tables::{LookupKind, LookupOptions, plan_lookup};
@@ -178,7 +179,8 @@ fn read(bytes: &[u8], admits_automatic_levels: bool, progress: &mut Progress) ->
     if !(0.0..=LARGEST_SWEPT_RADIUS).contains(&deviation) {
         return damaged("the deviation is no length");
     }
-    polyhedron.contact_faces = find_contact_faces(&polyhedron, noise, &mut bodies.part(reader.done(), reader.done()))?;
+    let contact_faces = find_contact_faces(&polyhedron, noise, &mut bodies.part(reader.done(), reader.done()))?;
+    give_contact_faces(&mut polyhedron, contact_faces)?;
     let kind = reader.number()?;
     let Some(kind) = read_kind(kind) else {
         return damaged("an unknown kind of levels");

@@ -28,6 +28,7 @@ use crate::body::build::check::{
 use crate::body::build::contact_faces::{default_noise, find_contact_faces};
 use crate::body::build::hull::{check_points, convex_hull_in_steps};
 use crate::body::build::mass::inertia;
+use crate::body::build::outlines::give_contact_faces;
 use crate::body::mesh::io::read_mesh;
 use crate::body::mesh::{Numbers, PolygonMesh, coordinate_unit};
 use crate::body::polyhedron::Polyhedron;
@@ -636,7 +637,8 @@ impl Shape {
         progress.report(share)?;
         polyhedron.lookup = plan_lookup(&polyhedron, &options.lookup)?;
         // Next to nothing of the time.
-        polyhedron.contact_faces = find_contact_faces(&polyhedron, noise, &mut progress.part(share, share))?;
+        let contact_faces = find_contact_faces(&polyhedron, noise, &mut progress.part(share, share))?;
+        give_contact_faces(&mut polyhedron, contact_faces)?;
         Shape::from_parts(polyhedron, Hierarchy::AUTOMATIC, options.radius()?)?
             .with_levels(&options.hierarchy, &mut progress.part(share, 1.0))
     }

@@ -16,6 +16,7 @@ use crate::body::polyhedron::contact_faces::ContactFaces;
 use crate::body::polyhedron::fan::{Fan, PointBlock};
 use crate::body::polyhedron::lookup::Lookup;
 use crate::body::polyhedron::outlines::Outlines;
+use crate::body::polyhedron::planes::PlaneBlock;
 use crate::body::polyhedron::polygon_search::PolygonSearch;
 use std::ops::RangeInclusive;
 
@@ -26,20 +27,6 @@ pub const NONE: u32 = u32::MAX;
 pub const LARGEST: f64 = f64::from_bits((1023 + 200) << 52);
 /// See [`LARGEST`].
 pub const SMALLEST: f64 = f64::from_bits((1023 - 200) << 52);
-
-/// Four planes, one in each lane: the value of lane i at p is `x[i]·p.x + y[i]·p.y + z[i]·p.z + offset[i]`.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[repr(C, align(64))]
-pub struct PlaneBlock {
-    /// First components of the four unit normals.
-    pub x: [f64; 4],
-    /// Second components.
-    pub y: [f64; 4],
-    /// Third components.
-    pub z: [f64; 4],
-    /// Constant terms.
-    pub offset: [f64; 4],
-}
 
 /// Up to eight neighbours of a vertex in the triangulated exact hull, diagonals of merged faces included; those along edges
 /// come first. Unused lanes repeat lane 0, so that a test over all lanes needs no mask. A point body is its own neighbour, in
@@ -577,12 +564,5 @@ impl NeighbourBlock {
     #[inline]
     pub fn slopes(&self, [x, y, z]: [f32; 3]) -> [f32; 8] {
         std::array::from_fn(|lane| self.x[lane] * x + self.y[lane] * y + self.z[lane] * z)
-    }
-}
-
-impl PlaneBlock {
-    /// The value of one plane at a point.
-    pub fn value(&self, lane: usize, point: &Vector) -> f64 {
-        self.x[lane] * point.x + self.y[lane] * point.y + self.z[lane] * point.z + self.offset[lane]
     }
 }

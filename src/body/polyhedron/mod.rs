@@ -7,6 +7,7 @@ pub(crate) mod polygon_search;
 #[doc(hidden)]
 pub mod fan;
 pub(crate) mod contact_faces;
+mod planes;
 #[doc(hidden)]
 pub mod outlines;
 mod layout;
@@ -16,3 +17,4 @@ pub(crate) mod surface_walk;
 
 pub use contact_faces::{ContactFace, ContactFaces, FacePart};
 pub use layout::*;
+pub use planes::PlaneBlock;

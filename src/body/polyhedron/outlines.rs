@@ -1,6 +1,7 @@
-//! The faces' corners, side by side, for bodies that rest on each other.
+//! The corners of faces and contact faces, side by side, for manifolds.
 
 use super::fan::PointBlock;
+use super::planes::PlaneBlock;
 use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::copied;
@@ -13,12 +14,14 @@ pub struct Outlines {
     pub middle: Vector,
     /// The length of the shortest side.
     pub shortest: f64,
-    /// The first block of each face, and the end; empty where there are none.
+    /// The first block of each face, of each contact face, and the end; empty where there are none.
     pub starts: Vec<u32>,
     /// Positions of a face's corners in the order of its sides; its last block repeats its last corner.
     pub blocks: Vec<PointBlock>,
     /// The vertices, as in `blocks`.
     pub vertices: Vec<[u32; 4]>,
+    /// The sides of contact faces, inside positive, as the last of `blocks`; other faces have their own.
+    pub contact_sides: Vec<PlaneBlock>,
 }
 
 impl Outlines {
@@ -33,12 +36,16 @@ impl Outlines {
             starts: copied(&self.starts)?,
             blocks: copied(&self.blocks)?,
             vertices: copied(&self.vertices)?,
+            contact_sides: copied(&self.contact_sides)?,
         })
     }
 
     /// Memory held, in bytes.
     pub(super) fn heap_bytes(&self) -> usize {
-        size_of_val(&self.starts[..]) + size_of_val(&self.blocks[..]) + size_of_val(&self.vertices[..])
+        size_of_val(&self.starts[..])
+            + size_of_val(&self.blocks[..])
+            + size_of_val(&self.vertices[..])
+            + size_of_val(&self.contact_sides[..])
     }
 
     /// Whether there are none.
@@ -47,11 +54,19 @@ impl Outlines {
         self.starts.is_empty()
     }
 
-    /// The blocks of a face's corners; none of a face that there is not.
+    /// The blocks of a patch's corners, faces before contact faces; none of one that there is not.
     #[inline(always)]
-    pub fn corners(&self, face: u32) -> (&[PointBlock], &[[u32; 4]]) {
+    pub fn corners(&self, patch: u32) -> (&[PointBlock], &[[u32; 4]]) {
         let at = |place: usize| self.starts.get(place).copied().unwrap_or(u32::MAX) as usize;
-        let range = at(face as usize)..at(face as usize + 1);
+        let range = at(patch as usize)..at(patch as usize + 1);
         (self.blocks.get(range.clone()).unwrap_or(&[]), self.vertices.get(range).unwrap_or(&[]))
+    }
+
+    /// The plane of a contact face's side, behind so many faces.
+    #[inline(always)]
+    pub fn contact_side(&self, faces: u32, contact: u32, side: usize) -> [f64; 4] {
+        let first = self.starts[(faces + contact) as usize] - self.starts[faces as usize];
+        let (block, lane) = (&self.contact_sides[first as usize + side / 4], side % 4);
+        [block.x[lane], block.y[lane], block.z[lane], block.offset[lane]]
     }
 }

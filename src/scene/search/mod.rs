@@ -19,7 +19,7 @@ mod parts;
 mod shares;
 mod gathering;
 mod all_pairs;
-mod straight;
 pub(crate) mod events;
 pub(crate) mod listener;
 pub(crate) mod ask;
+mod straight;
