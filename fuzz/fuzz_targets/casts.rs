@@ -136,7 +136,12 @@ fn check_clearance(case: &Case, answer: &CastAnswer) {
     let CastConfig { time_begin, time_end, step_budget, .. } = case.config;
     let config = ClearanceConfig { time_begin, time_end, step_budget, ..ClearanceConfig::default() };
     let mut smallest = Clearance::default();
-    clearance(case.bodies(), &mut PairCache::default(), &config, &mut smallest).expect("what a cast answers");
+    match clearance(case.bodies(), &mut PairCache::default(), &config, &mut smallest) {
+        Ok(()) => {}
+        // A cast has not seen the poses behind its hit.
+        Err(Error::Pose(_)) if answer.outcome != CastOutcome::Free => return,
+        Err(error) => panic!("{error}: what a cast answers"),
+    }
     let Clearance { lower, upper, .. } = smallest;
     let agrees = match answer.outcome {
         CastOutcome::Free => upper >= answer.clearance,

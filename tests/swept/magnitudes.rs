@@ -25,6 +25,27 @@ fn accepts(checked: Result<(), Error>) -> bool {
     matches!(checked, Ok(()) | Err(Error::Argument(_)))
 }
 
+/// Halves of odd subnormal numbers are rounded: a point with such coordinates was not its own centre, which closed forms count on.
+#[test]
+fn a_point_of_odd_subnormal_coordinates_is_its_own_centre() {
+    for units in [1, 3, 5, 7] {
+        let unit = f64::from_bits(units);
+        let points = [vec![Vector::new(unit, -unit, 0.0)], vec![Vector::new(0.0, unit, 3.0 * unit)]];
+        for radii in [[0.0, 0.0], [unit, 0.0], [1.0, 0.5]] {
+            let bodies = [swept(&points[0], radii[0]), swept(&points[1], radii[1])];
+            assert!(bodies.iter().all(|body| body.polyhedron().vertices[0].position == Vector::zeros()));
+            let poses: [Pose; 2] = [at(0.0, 0.0, 0.0), at(4.0 * unit, 0.0, 0.0)];
+            let placed = [bodies[0].at(&poses[0]), bodies[1].at(&poses[1])];
+            let (first, second) = (coordinates(&points[0]), coordinates(&points[1]));
+            let (truth, _) = Length::signed([&first, &second], &poses, radii, 0);
+            let mut answer = SignedDistance::default();
+            let cache = &mut SignedDistanceCache::default();
+            signed_distance(placed, cache, &PairConfig::default(), &mut answer).unwrap();
+            assert!(truth.lies_between(answer.lower, answer.upper), "{units} {radii:?} {answer:?}");
+        }
+    }
+}
+
 /// Poses at the largest double and a little on the other side of the origin. Cause: an upper end that was infinite for the
 /// polyhedra stayed so less the radii, beside a lower end that was no longer the largest double; `verify_manifold` refused it. A
 /// manifold's sum of the largest double and the radii was infinite as a lower end. The largest double's unit is 2⁹⁷¹; the radii go

@@ -171,7 +171,8 @@ fn centre_of(points: &[Vector]) -> Vector {
     Vector::from_fn(|axis, _| {
         let low = points.iter().map(|p| p[axis]).fold(f64::INFINITY, f64::min);
         let high = points.iter().map(|p| p[axis]).fold(f64::NEG_INFINITY, f64::max);
-        let middle = 0.5 * low + 0.5 * high;
+        // Halves of odd subnormal numbers are rounded; a point is its own centre.
+        let middle = if low == high { low } else { 0.5 * low + 0.5 * high };
         let half = (high - middle).max(middle - low);
         if middle.is_finite() && half <= middle.abs() / 3.0 { middle } else { 0.0 }
     })
