@@ -20,8 +20,9 @@ use crate::shape::Placed;
 /// # Errors
 /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted (not finite, a reflection, an entry of RᵀR −
 /// I above [`ROTATION_LIMIT`](crate::base::math::ROTATION_LIMIT)), [`Error::Argument`](crate::base::error::Error::Argument) for a
-/// `max_distance` that is NaN or negative. Then `answer` and `cache` are as they were. The fields of `config` that only
-/// [`approximate`] uses are ignored.
+/// `max_distance` that is NaN or negative. Then `answer` and `cache` are as they were.
+/// [`Error::Memory`](crate::base::error::Error::Memory) may leave an unset answer. The fields of `config` that only [`approximate`]
+/// uses are ignored.
 pub fn distance(
     bodies: [Placed; 2],
     cache: &mut PairCache,

@@ -55,12 +55,15 @@ pub(super) fn query(
     // how near, are not asked of curved bodies.
     let needs_distance = !is_verdict || radii.deviation > 0.0;
     let asked = if query == Query::Intersection && needs_distance { Query::Distance } else { query };
-    // Who is refused finds the answer as it was.
+    // A refusal leaves the answer as it was.
     ladder::ask(asked, Glances::Asked, bodies, cache, &of_polyhedra, answer)?;
-    if query == Query::Approximate && is_too_wide(answer, radii, config) {
-        ladder::ask(Query::Distance, Glances::Asked, bodies, cache, &of_polyhedra, answer)?;
-    }
-    if let Err(error) = take_off(query, bodies, radii, tolerance, answer) {
+    let is_open = query == Query::Approximate && is_too_wide(answer, radii, config);
+    let asked = if is_open {
+        ladder::ask(Query::Distance, Glances::Asked, bodies, cache, &of_polyhedra, answer)
+    } else {
+        Ok(())
+    };
+    if let Err(error) = asked.and_then(|()| take_off(query, bodies, radii, tolerance, answer)) {
         *answer = PairAnswer::UNSAID;
         return Err(error);
     }
