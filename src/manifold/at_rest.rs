@@ -500,10 +500,13 @@ impl Writing<'_, '_> {
         let out = if reference == 0 { along.direction } else { along.direction.negate() };
         let Along { upper, contact, .. } = *along;
         let seen = Seen { corners, reference, out, size, coincident, upper, contact };
-        match seen.corners[0].blocks.len().max(seen.corners[1].blocks.len()) {
-            ..=ONE => self.clip_in::<L, ONE>(frame, &seen),
-            ..=FEW => L::out_of_line(&mut ClipMore::<L, FEW> { writing: self, frame, seen: &seen }),
-            _ => L::out_of_line(&mut ClipMore::<L, MANY> { writing: self, frame, seen: &seen }),
+        let fours = seen.corners[0].blocks.len().max(seen.corners[1].blocks.len());
+        if fours <= ONE {
+            self.clip_in::<L, ONE>(frame, &seen)
+        } else if fours <= FEW {
+            L::out_of_line(&mut ClipMore::<L, FEW> { writing: self, frame, seen: &seen })
+        } else {
+            L::out_of_line(&mut ClipMore::<L, MANY> { writing: self, frame, seen: &seen })
         }
     }
 
