@@ -2,17 +2,18 @@
 //! axes of its body, and compared with its sides, as bits. So are those of the other, where any is needed. For a pair at rest the
 //! facet of before proves the depth first.
 //!
-//! Skewed rotations, many corners and corners next to a side are left to [the sweep](super::clip).
+//! Skewed rotations, many corners, corners next to a side and witness points that no corner is as deep as are left to the
+//! [overlay](super::overlay) and [the sweep](super::clip).
 
 use super::answer::{FOUR, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Reference};
 use super::id::id_of;
 use super::outline::STEEPEST;
 use super::overlay::DOUBT;
 use super::patch::{COINCIDENT, Facing, PARALLEL, Patch, Patches, STICKY, STICKY_INCIDENT, choose, facing};
-use super::places::{KEY_OF_WITNESS, key_of_crossing, key_of_vertex};
+use super::places::{key_of_crossing, key_of_vertex};
 use super::reduction::{Place, four_of};
 use super::sink::Sink;
-use super::witness::{fill_witness, push_witness};
+use super::witness::push_witness;
 use crate::answer::{Feature, FeatureKind, Outcome};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::{Kernel, Lanes, Work};
@@ -92,7 +93,7 @@ impl Kernel for AtRest<'_, '_> {
         // In no closure: that would be compiled without vector units (R2).
         let found = match choose_patches(self.bodies, &frame, &proved, &self.cache.reference) {
             Some(patches) => {
-                let along = Along { direction: proved.direction, upper: answer.upper, contact: None };
+                let along = Along { direction: proved.direction, upper: answer.upper };
                 let reference = &mut self.cache.reference;
                 Writing { reference, config: self.config, points: self.points }.clip(&frame, &along, &patches)
             }
@@ -169,39 +170,12 @@ fn is_steep<L: Lanes>(frame: &Frame<L>, i: usize, towards: L) -> bool {
     most_parallel(frame, i, towards).is_some_and(|most| most < PARALLEL)
 }
 
-/// The query of a pair whose contact and patches are known.
-pub struct Clipping<'a, 'b> {
-    pub bodies: &'a [Placed<'a>; 2],
-    pub contact: &'a SignedDistance,
-    pub patches: &'a Patches,
-    pub writing: Writing<'a, 'b>,
-}
-
-impl Kernel for Clipping<'_, '_> {
-    type Output = Option<usize>;
-
-    #[inline(always)]
-    fn run<L: Lanes>(&mut self) -> Option<usize> {
-        let [body1, body2] = self.bodies;
-        let polyhedra = [body1.shape.polyhedron(), body2.shape.polyhedron()];
-        let frame = Frame::<L>::new(&Pair { polyhedra, poses: [body1.pose, body2.pose] });
-        if !(frame.in_range && frame.rigid && is_in_scale(polyhedra)) {
-            return None;
-        }
-        let direction = L::from_vector(&self.contact.normal.into()).negate();
-        let along = Along { direction, upper: self.contact.upper, contact: Some(self.contact) };
-        self.writing.clip(&frame, &along, self.patches)
-    }
-}
-
 /// The normal of a contact.
-pub struct Along<'a, L> {
+pub struct Along<L> {
     /// The unit vector out of body 1.
     direction: L,
     /// The distance along it is at most this.
     upper: f64,
-    /// The witness points, which are one more place where no corner is as deep.
-    contact: Option<&'a SignedDistance>,
 }
 
 /// The destination of the points, and how many are wanted.
@@ -426,8 +400,6 @@ enum Corner {
     Of(u8, u8),
     /// Two sides.
     Crossing(u8, u8),
-    /// No corner, but the witness points.
-    Witness,
 }
 
 impl Place for Spot {
@@ -447,7 +419,6 @@ impl Place for Spot {
         match self.corner {
             Corner::Of(body, corner) => key_of_vertex(body.into(), corner.into()),
             Corner::Crossing(first, second) => key_of_crossing([first.into(), second.into()]),
-            Corner::Witness => KEY_OF_WITNESS,
         }
     }
 }
@@ -498,8 +469,7 @@ impl Writing<'_, '_> {
             return None;
         }
         let out = if reference == 0 { along.direction } else { along.direction.negate() };
-        let Along { upper, contact, .. } = *along;
-        let seen = Seen { corners, reference, out, size, coincident, upper, contact };
+        let seen = Seen { corners, reference, out, size, coincident, upper: along.upper };
         let fours = seen.corners[0].blocks.len().max(seen.corners[1].blocks.len());
         if fours <= ONE {
             self.clip_in::<L, ONE>(frame, &seen)
@@ -546,9 +516,7 @@ impl Writing<'_, '_> {
             L::out_of_line(&mut crossing)?;
         }
         if spots.count > 0 && !spots.is_deep {
-            let contact = seen.contact?;
-            let [gap, error] = [contact.upper + contact.lower, contact.upper - contact.lower].map(|ends| 0.5 * ends);
-            spots.push(gap, error, 0.0, Corner::Witness)?;
+            return None;
         }
         self.write(frame, &Found { seen, slid: &slid }, &mut spots);
         Some(spots.count)
@@ -670,7 +638,6 @@ struct Seen<'a, L> {
     coincident: f64,
     /// See [`Along`].
     upper: f64,
-    contact: Option<&'a SignedDistance>,
 }
 
 impl<L> Seen<'_, L> {
@@ -722,11 +689,6 @@ impl<L: Lanes, const F: usize> Found<'_, L, F> {
                 let to = L::from_vector(&on.place(self.seen.corners[1 - self.seen.reference].next(edge)));
                 to.sub(from).mul_add(L::splat(spot.share), from)
             }
-            Corner::Witness => {
-                let reference = self.seen.reference;
-                let local = self.seen.contact.map_or([0.0; 3], |contact| [contact.local1, contact.local2][reference]);
-                L::from_vector(&(Vector::from(local) - self.seen.corners[reference].polyhedron.centre))
-            }
         }
     }
 
@@ -775,12 +737,6 @@ impl<L: Lanes, const F: usize> Found<'_, L, F> {
                 features =
                     [self.seen.corners[0].side_label(first.into()), self.seen.corners[1].side_label(second.into())];
             }
-            Corner::Witness => {
-                if let Some(contact) = self.seen.contact {
-                    fill_witness(frame.polyhedra(), contact, point);
-                }
-                return;
-            }
         }
         let [body1, body2] = &frame.bodies;
         places[0].add(L::from_vector(&body1.polyhedron.centre)).store_vector(&mut point.local1);
@@ -795,12 +751,37 @@ impl<L: Lanes, const F: usize> Found<'_, L, F> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{add_points, sweep};
+    use super::super::{add_points, clip as sweep};
     use super::*;
     use crate::base::math::{Matrix, Pose};
     use crate::base::simd::dispatch_to_avx2;
     use crate::random::Random;
     use crate::shape::{Shape, ShapeOptions};
+
+    /// The query of a pair whose contact and patches are known.
+    pub struct Clipping<'a, 'b> {
+        pub bodies: &'a [Placed<'a>; 2],
+        pub contact: &'a SignedDistance,
+        pub patches: &'a Patches,
+        pub writing: Writing<'a, 'b>,
+    }
+
+    impl Kernel for Clipping<'_, '_> {
+        type Output = Option<usize>;
+
+        #[inline(always)]
+        fn run<L: Lanes>(&mut self) -> Option<usize> {
+            let [body1, body2] = self.bodies;
+            let polyhedra = [body1.shape.polyhedron(), body2.shape.polyhedron()];
+            let frame = Frame::<L>::new(&Pair { polyhedra, poses: [body1.pose, body2.pose] });
+            if !(frame.in_range && frame.rigid && is_in_scale(polyhedra)) {
+                return None;
+            }
+            let direction = L::from_vector(&self.contact.normal.into()).negate();
+            let along = Along { direction, upper: self.contact.upper };
+            self.writing.clip(&frame, &along, self.patches)
+        }
+    }
 
     /// A prism over a convex polygon of this many corners, whose coordinates are off by up to a noise.
     fn prism(corners: usize, noise: f64, random: &mut Random) -> Shape {

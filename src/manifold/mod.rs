@@ -35,7 +35,7 @@ use crate::shape::Placed;
 use answer::FOUR;
 pub(crate) use answer::Reference;
 pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
-use at_rest::{Answered, AtRest, Clipping, Writing};
+use at_rest::{Answered, AtRest};
 use clip::Precision;
 pub(crate) use four::four_of_points;
 pub use half_space::half_space_manifold;
@@ -48,7 +48,7 @@ use patch::{Patches, STICKY, STICKY_INCIDENT, choose, facing};
 use places::{CommonPoint, Origin, View};
 use reduction::{Thinned, four_of};
 pub(crate) use sink::{Fill, Sink};
-use steady::{is_thin, name_by_place};
+use steady::name_by_place;
 use witness::push_witness;
 pub(crate) use witness::witness;
 
@@ -225,17 +225,7 @@ fn make(
         return answer;
     }
     if let Some(patches) = choose_patches(bodies, contact, &last) {
-        let mut reference = last;
-        let writing = Writing { reference: &mut reference, config, points };
-        let mut query = Clipping { bodies: &bodies, contact, patches: &patches, writing };
-        let is_plain = !bodies.iter().any(|body| is_thin(body.shape.polyhedron()));
-        let by_masks = if is_plain { simd::dispatch_to_avx2(&mut query) } else { None };
-        let found = if let Some(found) = by_masks {
-            *before = reference;
-            found
-        } else {
-            sweep(bodies, &patches, (&last, before), config, contact, points)
-        };
+        let found = clip(bodies, &patches, (&last, before), config, contact, points);
         if found > 0 {
             answer.reference = patches.reference as u32 + 1;
             (answer.point_count, answer.found_count) = (points.written as u32, found as u32);
@@ -268,7 +258,7 @@ const LARGEST: f64 = 1e150;
 const MOST_NAMED: usize = 1024;
 
 /// Writes the points that both patches have in common, of any poses and patches; how many there are.
-fn sweep(
+fn clip(
     bodies: [Placed; 2],
     patches: &Patches,
     (last, now): (&Reference, &mut Reference),

@@ -55,15 +55,12 @@ impl CommonPoint {
     /// all.
     pub fn key(&self) -> u32 {
         match self.origin {
-            Origin::Witness => KEY_OF_WITNESS,
+            Origin::Witness => 1,
             Origin::Corner(CommonCorner::Vertex { body, corner }) => key_of_vertex(body, corner),
             Origin::Corner(CommonCorner::Crossing { sides }) => key_of_crossing(sides),
         }
     }
 }
-
-/// See [`CommonPoint::key`].
-pub const KEY_OF_WITNESS: u32 = 1;
 
 /// See [`CommonPoint::key`].
 #[inline(always)]

@@ -17,11 +17,8 @@ pub fn witness(contact: &SignedDistance) -> ManifoldPoint {
 
 /// The pair of witness points as the manifold's point.
 pub fn push_witness(polyhedra: [&Polyhedron; 2], contact: &SignedDistance, points: &mut Sink) {
-    points.push(|point| fill_witness(polyhedra, contact, point));
-}
-
-/// A point that is the pair of witness points.
-pub fn fill_witness(polyhedra: [&Polyhedron; 2], contact: &SignedDistance, point: &mut ManifoldPoint) {
-    *point = witness(contact);
-    name_by_place(polyhedra, point);
+    points.push(|point| {
+        *point = witness(contact);
+        name_by_place(polyhedra, point);
+    });
 }
