@@ -108,6 +108,8 @@ fn round_bodies_answer_alike_in_every_environment() {
 fn what_is_refused_is_told_in_every_environment() {
     let tetrahedron = [[0.0, 0.0, 0.0], [1.0, 0.1, 0.0], [0.9, 1.0, 0.2], [0.2, 0.3, 1.0]].map(Vector::from);
     let body = Shape::from_points(&tetrahedron, &ShapeOptions::default()).unwrap();
+    let round = ShapeOptions { swept_radius: 0.5, ..ShapeOptions::default() };
+    let round = Shape::from_points(&tetrahedron, &round).unwrap();
     let [here, there] = [Pose::IDENTITY, at(3.0, 0.0, 0.0)];
     let bodies = [body.at(&here), body.at(&there)];
     let mut skewed = here;
@@ -122,6 +124,8 @@ fn what_is_refused_is_told_in_every_environment() {
             for query in QUERIES {
                 let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
                 told.push(query(bodies, &mut cache, &pair_config, &mut answer).err());
+                let swept = [round.at(&here), bodies[1]];
+                told.push(query(swept, &mut cache, &pair_config, &mut answer).err());
                 let unplaced = [body.at(&skewed), body.at(&there)];
                 told.push(query(unplaced, &mut cache, &PairConfig::default(), &mut answer).err());
             }

@@ -31,11 +31,11 @@ pub(super) fn query(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    if !config.is_in_range(query) {
-        return Err(config.first_fault());
-    }
     if !environment::is_default() {
         return with_default(|| self::query(query, bodies, cache, config, answer));
+    }
+    if !config.is_in_range(query) {
+        return Err(config.first_fault());
     }
     let radii = &Radii::of_both(bodies);
     let is_verdict = query == Query::Intersection && config.max_distance == f64::INFINITY;
