@@ -1,7 +1,7 @@
 # make demo                   flies polyhedra around each other: a table, and build/demo.svg; then build/demo.html, a tower and a pile
 #                             in 3-D, for a browser; MODELS="a.obj b.stl": your own fly, in 3-D, too
 # make check                  the daily loop, minutes of it: unit tests, C tests and lint
-# make test                   everything that is tested: lint, test-rust, test-c, test-fuzz, proofs and loom, side by side
+# make test                   everything that is tested: lint, test-rust, test-c, proofs and loom, side by side
 # make proofs                 bounds on rounding, proved of the code by Gappa and Coq: docs/proofs.md (a part of make test, too)
 # make fuzz                   the fuzz targets, SECONDS=900 each (default: 15), or one: TARGET=pairs; fuzz/README.md says more
 # make asan                   tests under the address sanitizer, C ones under that of undefined behaviour, too
@@ -100,7 +100,7 @@ test:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ nm=binutils cmake=cmake python3=python3
 	-@scripts/require.sh valgrind=valgrind pkg-config=pkg-config $(PEERS)
 	@scripts/rust.sh cargo-fmt cargo-clippy
-	$(MAKE) --jobs=$(shell nproc) --output-sync=recurse test-rust test-c test-fuzz test-proofs lint loom
+	$(MAKE) --jobs=$(shell nproc) --output-sync=recurse test-rust test-c test-proofs lint loom
 
 lint:
 	@scripts/require.sh $(CC_PACKAGES) python3=python3
@@ -110,7 +110,7 @@ lint:
 # Optimised as for release, with overflow checks and debug assertions on.
 test-rust:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ nm=binutils
-	cargo test --locked --profile checked --package swiftprox --package proofs
+	cargo test --locked --profile checked --package swiftprox --package proofs --package swiftprox-fuzz
 
 # Without valgrind or the peers their tests are left out; CMake says so. Where the peers differ from the exact answer is printed
 # in the end: it fails no test, but nobody should have to look for it.
@@ -121,9 +121,9 @@ test-c:
 	ctest --test-dir $(BUILD) --parallel 2 --output-on-failure
 	@grep -E '^( +verdicts|scene +poses|all )' $(BUILD)/Testing/Temporary/LastTest.log || true
 
-# Every input of the corpora.
+# The committed inputs of the fuzz targets, a part of test-rust.
 test-fuzz:
-	scripts/fuzz.sh --as-test
+	cargo test --locked --profile checked --package swiftprox-fuzz
 
 # Where Gappa and Coq cannot be had the tapes are compared all the same, by test-rust.
 PROVERS = gappa=gappa coqc=coq $(shell coqc -where 2>/dev/null)/user-contrib/Flocq=libcoq-flocq

@@ -2,7 +2,7 @@
 # What is checked without running anything: formatting, clippy, the width of comments, the pages' tables against their CSV files.
 set -e
 cd "${0%/*}/.."
-for manifest in Cargo.toml benches/compare/Cargo.toml fuzz/Cargo.toml loom/Cargo.toml; do
+for manifest in Cargo.toml benches/compare/Cargo.toml loom/Cargo.toml; do
     cargo fmt --all --check --manifest-path "$manifest"
 done
 cargo clippy --locked --profile checked --workspace --all-targets -- -D warnings

@@ -1,6 +1,6 @@
 //! What holds of depths and manifolds, whatever their caches hold.
 
-use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use arbitrary::{Result, Unstructured};
 use swiftprox::base::simd::environment::Environment;
 use swiftprox::error::Error;
 use swiftprox::manifold::manifold;

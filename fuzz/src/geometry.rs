@@ -1,7 +1,7 @@
 //! Geometry from arbitrary bytes. Few bytes mean nothing hard: most numbers are small integers, powers of two and
 //! neighbours of the number before, so that points coincide, faces line up and bodies touch, exactly or up to a few roundings.
 
-use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use arbitrary::{Result, Unstructured};
 use nalgebra::{Quaternion, UnitQuaternion};
 use swiftprox::base::simd::environment::Environment;
 use swiftprox::body::tables::{LookupKind, LookupOptions};

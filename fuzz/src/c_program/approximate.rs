@@ -3,7 +3,7 @@
 use std::ffi::{CStr, c_char, c_void};
 use std::ptr::{null, null_mut};
 
-use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use arbitrary::{Result, Unstructured};
 use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::arrays::CMesh;
 use swiftprox::ffi::level::*;

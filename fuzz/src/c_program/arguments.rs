@@ -4,7 +4,7 @@ use std::alloc::{Layout, alloc, dealloc};
 use std::ffi::CString;
 use std::ptr::null_mut;
 
-use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use arbitrary::{Result, Unstructured};
 use swiftprox::ffi::pair::*;
 use swiftprox::ffi::shape_options::*;
 use swiftprox::ffi::tuning::*;

@@ -2,7 +2,7 @@
 
 use std::ptr::null;
 
-use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use arbitrary::{Result, Unstructured};
 use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::depth::*;
 use swiftprox::ffi::ground::*;

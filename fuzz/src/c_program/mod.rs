@@ -12,7 +12,7 @@ mod shapes;
 use std::ffi::{CStr, CString};
 use std::ptr::{null, null_mut};
 
-use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use arbitrary::{Result, Unstructured};
 use swiftprox::base::simd::environment::Environment;
 use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::library::*;

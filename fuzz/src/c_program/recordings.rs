@@ -3,7 +3,7 @@
 use std::ffi::CString;
 use std::ptr::{null, null_mut};
 
-use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use arbitrary::{Result, Unstructured};
 use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::query::{CSceneAnswer, DEFAULT_MAX_DISTANCE};
 use swiftprox::ffi::record::*;

@@ -2,7 +2,7 @@
 
 use std::ptr::{null, null_mut};
 
-use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use arbitrary::{Result, Unstructured};
 use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::filter::*;
 use swiftprox::ffi::object::*;

@@ -2,7 +2,7 @@
 
 use std::ptr::{null, null_mut};
 
-use libfuzzer_sys::arbitrary::{Result, Unstructured};
+use arbitrary::{Result, Unstructured};
 use swiftprox::base::simd::environment::Environment;
 use swiftprox::ffi::StatusCode;
 use swiftprox::ffi::arrays::CMesh;
