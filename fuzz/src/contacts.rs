@@ -59,7 +59,7 @@ pub fn check(
     let reduces = u.arbitrary()?;
     let max_distance = if u.arbitrary()? { 0.0 } else { known.distance.abs() * *u.choose(&[0.5, 1.0, 2.0])? };
     if max_distance.is_finite() {
-        let config = ManifoldConfig { max_distance, reduces, ..ManifoldConfig::default() };
+        let config = ManifoldConfig { max_distance, reduces };
         check_manifold(bodies, known, truth.as_ref(), measured, environment, &config, &mut memory.manifold);
     }
     Ok(())

@@ -35,7 +35,7 @@ pub fn run(bytes: &[u8]) {
 fn run_from(u: &mut Unstructured, environment: Environment) -> Result<()> {
     let hulls = [points(u, MOST_POINTS)?, points(u, MOST_POINTS)?];
     let ends = [0, 1].map(|_| poses(u, [&hulls[0], &hulls[1]]));
-    let [starts, ends] = [ends[0].clone()?, ends[1].clone()?];
+    let [starts, ends] = [ends[0]?, ends[1]?];
     let config = config(u)?;
     let cache = any_cache(u)?;
     if u.ratio(1, 16)? {

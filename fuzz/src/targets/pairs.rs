@@ -159,7 +159,7 @@ fn check_tolerance(u: &mut Unstructured, placed: &Placed, mut cache: PairCache, 
     let config = PairConfig { max_distance, ..PairConfig::default() };
     let mut answer = PairAnswer::default();
     let asked = distance([body1.shape.at(pose1), body2.shape.at(pose2)], &mut cache, &config, &mut answer);
-    if !(max_distance >= 0.0) {
+    if max_distance < 0.0 || max_distance.is_nan() {
         assert!(matches!(asked, Err(Error::Argument(_))), "{asked:?}");
         return Ok(());
     }
