@@ -19,8 +19,12 @@ fn main() {
     Shim { peer: "bullet", sources: &["src/peers/bullet.cpp"], flags: bullet }
         .link(cc::Build::new().cpp(true).std("c++14"));
     let bullet64 = pkg_config("bullet-float64", "libbullet-dev");
-    Shim { peer: "bullet64", sources: &["src/cast/bullet.cpp", "src/resting/bullet.cpp"], flags: bullet64 }
-        .link(cc::Build::new().cpp(true).std("c++14"));
+    Shim {
+        peer: "bullet64",
+        sources: &["src/cast/bullet.cpp", "src/resting/bullet.cpp", "src/peers/bullet_round.cpp"],
+        flags: bullet64,
+    }
+    .link(cc::Build::new().cpp(true).std("c++14"));
     // Of the header alone; what valgrind's libraries are for is another thing.
     let valgrind = pkg_config("valgrind", "valgrind").map(|flags| Flags { link: Vec::new(), ..flags });
     Shim { peer: "callgrind", sources: &["src/callgrind.c"], flags: valgrind }.link(cc::Build::new().std("gnu99"));

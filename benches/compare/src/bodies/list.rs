@@ -1,4 +1,4 @@
-//! Which bodies: the paper's, real hulls, bodies as CAD systems have them, and a box beside each of those.
+//! Which bodies: the paper's, real hulls, bodies as CAD systems have them, a box beside each of those, and round bodies.
 
 use std::path::{Path, PathBuf};
 use std::rc::Rc;
@@ -6,6 +6,7 @@ use std::rc::Rc;
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::mesh_io::read_mesh;
 
+use super::round;
 use crate::model;
 use crate::options::Options;
 use testkit::models::{ELLIPSOIDS, hull_mesh, normalised};
@@ -34,7 +35,10 @@ pub struct Body {
     pub family: &'static str,
     pub name: String,
     pub form: String,
+    /// Of a round body the core: a point, a segment or a box.
     pub meshes: [Rc<PolygonMesh>; 2],
+    /// Of the balls swept over the meshes.
+    pub radii: [f64; 2],
     pub extent: Extent,
 }
 
@@ -48,6 +52,7 @@ pub fn bodies(options: &Options, wanted: &[String]) -> Result<Vec<Body>, String>
         bodies.extend(real(directory)?);
     }
     bodies.extend(cad()?);
+    bodies.extend(round::bodies(options)?);
     bodies.retain(|body| wanted.is_empty() || wanted.iter().any(|start| body.name.starts_with(start.as_str())));
     if bodies.is_empty() { Err("--bodies: there are none of these names".into()) } else { Ok(bodies) }
 }
@@ -111,6 +116,7 @@ fn cad() -> Result<Vec<Body>, String> {
             name: format!("box+{}", solid.name),
             form: "turned".into(),
             meshes: [cuboid.clone(), mesh(Form::Turned)?],
+            radii: [0.0; 2],
             extent: Extent::Strongest,
         });
     }
@@ -124,5 +130,5 @@ fn extent(number: usize) -> Extent {
 }
 
 fn alike(family: &'static str, name: String, form: String, mesh: Rc<PolygonMesh>, extent: Extent) -> Body {
-    Body { family, name, form, meshes: [mesh.clone(), mesh], extent }
+    Body { family, name, form, meshes: [mesh.clone(), mesh], radii: [0.0; 2], extent }
 }

@@ -5,10 +5,11 @@ use std::rc::Rc;
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::mesh::PolygonMesh;
 use swiftprox::pair::{Levels, PairConfig};
-use swiftprox::shape::{Shape, ShapeOptions};
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 
 use super::list::{Body, Extent};
 use super::manifold::{OwnManifold, ParryManifold, parry_polyhedron};
+use super::round::{FAMILY, Round};
 use crate::depth::{self, ours::Depth, parry::Contact, triangulated};
 use crate::method::Method;
 use crate::parry::{Climbing, Parry, Rings, Verdict};
@@ -56,6 +57,8 @@ const FURTHER_DISTANCES: [&str; 11] = [
     "fcl-indep-1e-10",
 ];
 const STRONGEST_VERDICTS: [&str; 3] = ["libccd-mpr-1e-4", "coal-1e-6", "jolt-1e-6"];
+/// Of round bodies, by the libraries' own primitives.
+const ROUND: [&str; 2] = ["coal-round-1e-10", "bullet-round-1e-6"];
 const FURTHER_VERDICTS: [&str; 4] = ["libccd-gjk-1e-4", "mujoco-1e-6", "fcl-1e-6", "fcl-indep-1e-6"];
 
 /// What methods are made of.
@@ -65,6 +68,8 @@ pub struct Methods {
     layered: Option<[Rc<Shape>; 2]>,
     triangles: [PolygonMesh; 2],
     rings: [Rc<Rings>; 2],
+    /// Of bodies that the others have primitives for.
+    round: Option<[f64; 2]>,
 }
 
 impl Methods {
@@ -73,8 +78,13 @@ impl Methods {
     pub fn new(body: &Body) -> Result<Methods, String> {
         let failed = |e: swiftprox::error::Error| format!("{}: {e}", body.name);
         let made = |options: &ShapeOptions| -> Result<[Rc<Shape>; 2], String> {
-            let shape = |mesh: &PolygonMesh| Shape::from_mesh(mesh, options).map(Rc::new).map_err(failed);
-            Ok([shape(&body.meshes[0])?, shape(&body.meshes[1])?])
+            let shape = |k: usize| {
+                // A point or a segment has no faces to be taken as they are.
+                let input = if body.family == FAMILY { InputPolicy::Hull } else { options.input };
+                let options = ShapeOptions { input, swept_radius: body.radii[k], ..*options };
+                Shape::from_mesh(&body.meshes[k], &options).map(Rc::new).map_err(failed)
+            };
+            Ok([shape(0)?, shape(1)?])
         };
         let hierarchy =
             HierarchyOptions { kind: HierarchyKind::Quadric, decimation: DECIMATION, ..HierarchyOptions::default() };
@@ -85,7 +95,13 @@ impl Methods {
         };
         let triangles = [0, 1].map(|k| triangulated(&body.meshes[k]).expect("fans of a mesh that was taken"));
         let rings = triangles.each_ref().map(|mesh| Rc::new(Rings::new(mesh)));
-        Ok(Methods { shapes: made(&ShapeOptions::default())?, layered, triangles, rings })
+        Ok(Methods {
+            shapes: made(&ShapeOptions::default())?,
+            layered,
+            triangles,
+            rings,
+            round: (body.family == FAMILY).then_some(body.radii),
+        })
     }
 
     pub fn shapes(&self) -> [&Shape; 2] {
@@ -111,6 +127,9 @@ impl Methods {
     fn of_distance(&self) -> [Vec<Box<dyn Method>>; 3] {
         let shapes = self.shapes.each_ref();
         let exact = setting_of_pair("swiftprox", Query::Distance, shapes, PairConfig::default());
+        if let Some(radii) = self.round {
+            return [self.with_primitives(Question::Distance, exact, radii), Vec::new(), Vec::new()];
+        }
         let parry = Box::new(Parry::new(self.rings.clone(), Climbing::First));
         let approximate = |error: f64| {
             let config = PairConfig { absolute_error: error, ..PairConfig::default() };
@@ -135,6 +154,9 @@ impl Methods {
 
     fn of_verdict(&self) -> [Vec<Box<dyn Method>>; 3] {
         let own = setting_of_pair("swiftprox", Query::Intersection, self.shapes.each_ref(), PairConfig::default());
+        if let Some(radii) = self.round {
+            return [self.with_primitives(Question::Verdict, own, radii), Vec::new(), Vec::new()];
+        }
         let parry = Box::new(Verdict::new(self.rings.clone()));
         [
             self.with_peers(Asked::Verdict, vec![own, parry], &STRONGEST_VERDICTS),
@@ -145,8 +167,11 @@ impl Methods {
 
     fn of_depth(&self) -> [Vec<Box<dyn Method>>; 3] {
         let shapes = self.shapes.each_ref();
-        let parry = Box::new(Contact::new(self.rings.clone()));
         let of_error = |error: f64| Box::new(Depth::new(shapes, error)) as Box<dyn Method>;
+        if let Some(radii) = self.round {
+            return [self.with_primitives(Question::Depth, of_error(0.0), radii), Vec::new(), Vec::new()];
+        }
+        let parry = Box::new(Contact::new(self.rings.clone()));
         [
             self.with_peers(Asked::Depth, vec![of_error(0.0), parry], &depth::STRONGEST),
             depth::ERRORS.map(of_error).into(),
@@ -160,6 +185,18 @@ impl Methods {
             all.push(Box::new(ParryManifold::new("parry", [first, second])));
         }
         [all, Vec::new(), Vec::new()]
+    }
+
+    /// Our method, and the others by their own primitives.
+    fn with_primitives(&self, question: Question, own: Box<dyn Method>, radii: [f64; 2]) -> Vec<Box<dyn Method>> {
+        let asked = match question {
+            Question::Distance => Asked::Distance,
+            Question::Verdict => Asked::Verdict,
+            Question::Depth | Question::Manifold => Asked::Depth,
+        };
+        let mut all = vec![own, Round::method(question, self.triangles.each_ref(), radii)];
+        all.extend(ROUND.iter().filter_map(|name| peers::round(asked, name, self.triangles.each_ref(), radii)));
+        all
     }
 
     fn with_peers(&self, asked: Asked, mut all: Vec<Box<dyn Method>>, names: &[&str]) -> Vec<Box<dyn Method>> {

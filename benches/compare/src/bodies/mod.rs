@@ -6,6 +6,7 @@ mod list;
 pub mod manifold;
 mod methods;
 mod record;
+mod round;
 mod truth;
 
 use swiftprox::math::Pose;
@@ -26,10 +27,11 @@ use testkit::orbits::Step;
 use truth::Truth;
 
 /// What is asked on which orbit; depths and manifolds of the poses of it whose bodies intersect.
-const ASKED: [(Question, &str); 5] = [
+const ASKED: [(Question, &str); 6] = [
     (Question::Distance, "small"),
     (Question::Distance, "deep"),
     (Question::Verdict, "small"),
+    (Question::Verdict, "deep"),
     (Question::Depth, "deep"),
     (Question::Manifold, "deep"),
 ];

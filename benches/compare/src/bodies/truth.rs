@@ -19,6 +19,8 @@ pub struct Truth {
     pub pose: usize,
     /// Between what the distance or depth lies: the same twice up to rounding where the search came to its end. 0 is exact.
     pub bounds: [f64; 2],
+    /// By how much rounding may have moved the bounds.
+    slack: f64,
 }
 
 impl Truth {
@@ -30,18 +32,22 @@ impl Truth {
         judged
             .map(|pose| {
                 let placed = place(&vertices[0], &vertices[1], &poses[pose]);
-                let squares = match question {
-                    Question::Distance | Question::Verdict => {
-                        let square = nearest(&placed).square;
-                        [square.clone(), square]
-                    }
-                    Question::Depth | Question::Manifold => {
+                let unit = 2f64.powi(placed.exponent);
+                let length = |square: &RBig| root(square) * unit;
+                let radius: f64 = body.radii.iter().sum();
+                let apart = length(&nearest(&placed).square);
+                let is_deep = matches!(question, Question::Depth | Question::Manifold);
+                let bounds = match (is_deep, apart > 0.0) {
+                    (false, _) => [(apart - radius).max(0.0); 2],
+                    // Only the balls meet.
+                    (true, true) => [radius - apart; 2],
+                    (true, false) => {
                         let found = depth(&placed, MOST_VERTICES);
-                        [found.lower_square, found.upper_square]
+                        [found.lower_square, found.upper_square].map(|square| length(&square) + radius)
                     }
                 };
-                let unit = 2f64.powi(placed.exponent);
-                Truth { pose, bounds: squares.map(|square| root(&square) * unit) }
+                // The rounding of a fraction, of a root, of the radii's sum and of a difference: 1.5u, 1.5u, u and u.
+                Truth { pose, bounds, slack: f64::EPSILON * (bounds[1] + 2.0 * radius) }
             })
             .collect()
     }
@@ -54,9 +60,7 @@ impl Truth {
 
     /// Whether an interval has nothing in common with the truth.
     pub fn is_missed_by(&self, [lower, upper]: [f64; 2]) -> bool {
-        // The bounds are off by the rounding of a fraction and of a root, 1.5u of them.
-        let slack = f64::EPSILON * self.bounds[1];
-        lower > self.bounds[1] + slack || upper < self.bounds[0] - slack
+        lower > self.bounds[1] + self.slack || upper < self.bounds[0] - self.slack
     }
 }
 

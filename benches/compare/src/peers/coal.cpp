@@ -8,6 +8,7 @@
 #include <coal/collision.h>
 #include <coal/distance.h>
 #include <coal/shape/convex.h>
+#include <coal/shape/geometric_shapes.h>
 
 extern "C" {
 #include "peer.h"
@@ -16,7 +17,7 @@ extern "C" {
 using Convex = coal::Convex<coal::Triangle>;
 
 struct peer {
-    std::unique_ptr<Convex> convex[2];
+    std::unique_ptr<coal::ShapeBase> shapes[2];
     std::unique_ptr<coal::ComputeDistance> distance;
     std::unique_ptr<coal::ComputeCollision> collision;
     coal::DistanceRequest of_distance, of_depth;
@@ -33,7 +34,7 @@ static coal::Transform3s transform(const double *m)
     return coal::Transform3s(rotation, coal::Vec3s(m[3], m[7], m[11]));
 }
 
-static Convex *convex(const peer_mesh &mesh)
+static coal::ShapeBase *convex(const peer_mesh &mesh)
 {
     auto points = std::make_shared<std::vector<coal::Vec3s>>();
     for (size_t i = 0; i < mesh.vertex_count; ++i) {
@@ -71,15 +72,15 @@ static double ask(peer *peer, size_t i, coal::DistanceRequest &request, double *
 
 extern "C" {
 
-peer *coal_peer_create(const peer_mesh *meshes, double tolerance)
+static peer *create(const peer_mesh *meshes, double tolerance, coal::ShapeBase *(*shape)(const peer_mesh &))
 {
     try {
         std::unique_ptr<peer> made(new peer);
         for (int k = 0; k < 2; ++k) {
-            made->convex[k].reset(convex(meshes[k]));
+            made->shapes[k].reset(shape(meshes[k]));
         }
-        made->distance.reset(new coal::ComputeDistance(made->convex[0].get(), made->convex[1].get()));
-        made->collision.reset(new coal::ComputeCollision(made->convex[0].get(), made->convex[1].get()));
+        made->distance.reset(new coal::ComputeDistance(made->shapes[0].get(), made->shapes[1].get()));
+        made->collision.reset(new coal::ComputeCollision(made->shapes[0].get(), made->shapes[1].get()));
         made->of_distance.enable_signed_distance = false;
         made->of_distance.gjk_tolerance = tolerance;
         made->of_depth.enable_signed_distance = true;
@@ -91,6 +92,32 @@ peer *coal_peer_create(const peer_mesh *meshes, double tolerance)
     } catch (...) {
         return nullptr;
     }
+}
+
+peer *coal_peer_create(const peer_mesh *meshes, double tolerance)
+{
+    return create(meshes, tolerance, convex);
+}
+
+// Of a point a sphere, of a segment along z a capsule, of eight corners along the axes a box.
+peer *coal_round_create(const peer_mesh *meshes, double tolerance)
+{
+    return create(meshes, tolerance, [](const peer_mesh &mesh) -> coal::ShapeBase * {
+        const double *last = mesh.vertices + 3 * (mesh.vertex_count - 1);
+        switch (mesh.vertex_count) {
+        case 1:
+            return new coal::Sphere(mesh.radius);
+        case 2:
+            return new coal::Capsule(mesh.radius, 2 * last[2]);
+        case 8: {
+            coal::Box *box = new coal::Box(2 * last[0], 2 * last[1], 2 * last[2]);
+            box->setSweptSphereRadius(mesh.radius);
+            return box;
+        }
+        default:
+            return convex(mesh);
+        }
+    });
 }
 
 void coal_peer_free(peer *peer)

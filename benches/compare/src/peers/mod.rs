@@ -30,6 +30,7 @@ struct Mesh {
     vertex_count: usize,
     corners: *const u32,
     triangle_count: usize,
+    radius: f64,
 }
 
 /// What is asked of a library.
@@ -90,7 +91,11 @@ macro_rules! way {
 }
 
 #[rustfmt::skip]
-const WAYS: [Way; 11] = [
+const WAYS: [Way; 13] = [
+    way!("coal-round", coal: coal_round_create, coal_peer_load, coal_peer_forget, coal_peer_free;
+         distance: coal_distance, verdict: coal_verdict, depth: coal_depth),
+    way!("bullet-round", bullet64: bullet_round_create, bullet_round_load, bullet_round_forget, bullet_round_free;
+         distance: bullet_round_distance, verdict: bullet_round_verdict, depth: bullet_round_depth),
     way!("coal", coal: coal_peer_create, coal_peer_load, coal_peer_forget, coal_peer_free;
          distance: coal_distance, verdict: coal_verdict, depth: coal_depth),
     way!("mujoco", mujoco: mujoco_peer_create, mujoco_peer_load, mujoco_peer_forget, mujoco_peer_free;
@@ -121,6 +126,15 @@ pub fn of_names(asked: Asked, names: &[&str], meshes: [&PolygonMesh; 2]) -> Vec<
 
 /// A library with a tolerance, as in coal-1e-10; none where it is not there, does not know the query, or refuses a mesh.
 pub fn named(asked: Asked, name: &str, meshes: [&PolygonMesh; 2]) -> Option<Peer> {
+    swept(asked, name, meshes, [0.0; 2])
+}
+
+/// The same of bodies with balls swept over them, which the way's primitives stand for.
+pub fn round(asked: Asked, name: &str, cores: [&PolygonMesh; 2], radii: [f64; 2]) -> Option<Box<dyn Method>> {
+    Some(Box::new(swept(asked, name, cores, radii)?))
+}
+
+fn swept(asked: Asked, name: &str, meshes: [&PolygonMesh; 2], radii: [f64; 2]) -> Option<Peer> {
     let (functions, tolerance) = WAYS.into_iter().find_map(|way| {
         let tolerance = name.strip_prefix(way.word)?.strip_prefix('-')?.parse().ok()?;
         Some((way.functions?, tolerance))
@@ -131,7 +145,7 @@ pub fn named(asked: Asked, name: &str, meshes: [&PolygonMesh; 2]) -> Option<Peer
         Asked::Depth => functions.depth,
         Asked::Manifold => functions.manifold,
     };
-    Peer::new(name, functions, ask?, tolerance, meshes)
+    Peer::new(name, (functions, ask?), tolerance, meshes, radii)
 }
 
 /// A library that was found.
@@ -148,7 +162,13 @@ pub struct Peer {
 
 impl Peer {
     /// None where the library refuses a mesh.
-    fn new(name: &str, functions: Functions, ask: Ask, tolerance: f64, meshes: [&PolygonMesh; 2]) -> Option<Peer> {
+    fn new(
+        name: &str,
+        (functions, ask): (Functions, Ask),
+        tolerance: f64,
+        meshes: [&PolygonMesh; 2],
+        radii: [f64; 2],
+    ) -> Option<Peer> {
         let vertices = meshes.map(|mesh| mesh.vertices.iter().flat_map(|v| [v.x, v.y, v.z]).collect::<Vec<f64>>());
         let given = [0, 1].map(|i| {
             let mesh = meshes[i];
@@ -158,6 +178,7 @@ impl Peer {
                 vertex_count: mesh.vertices.len(),
                 corners: mesh.indices.as_ptr(),
                 triangle_count: mesh.face_count(),
+                radius: radii[i],
             }
         });
         // SAFETY: the pointers are to arrays of the lengths that are passed; the shim copies them.

@@ -18,6 +18,7 @@ struct peer_mesh {
     size_t vertex_count;
     const unsigned *corners;
     size_t triangle_count;
+    double radius; /* of a ball swept over it; above 0 for the ways of round bodies alone */
 };
 
 struct peer;
