@@ -21,7 +21,7 @@ pub struct Enclosure {
 }
 
 /// The faces opposite the four corners, each ordered so that the determinants of a tetrahedron around the origin have one sign.
-const FACES: [[usize; 3]; 4] = [[1, 3, 2], [0, 2, 3], [0, 3, 1], [0, 1, 2]];
+pub const FACES: [[usize; 3]; 4] = [[1, 3, 2], [0, 2, 3], [0, 3, 1], [0, 1, 2]];
 
 /// Exchanges of a corner before the search is given up: some Minkowski differences have no such tetrahedron, and some bodies hardly
 /// overlap.
@@ -107,13 +107,13 @@ fn best_exchange<L: Lanes>(
 
 /// On which side of its faces a tetrahedron has the origin.
 #[derive(Debug, Clone, Copy)]
-struct Sides {
+pub struct Sides {
     /// Convex weights if all four faces have it inside, else signed ones; −∞ without volume.
-    weights: [f64; 4],
+    pub weights: [f64; 4],
     /// Whether the origin is certainly on the inner side of the face opposite each corner.
     inside: [bool; 4],
     /// How many faces have it certainly inside.
-    certain: u32,
+    pub certain: u32,
 }
 
 impl Sides {
@@ -128,7 +128,7 @@ impl Sides {
 /// 3W²e(1 + e/W)² from its exact value, and its evaluation by 8u times its permanent (Shewchuk 1997, §4.3). That is at most √2·W³:
 /// two columns b and c have (|bᵢcⱼ| + |bⱼcᵢ|)² ≤ 2(bᵢ²cⱼ² + bⱼ²cᵢ²), whose sum over the three pairs of rows is at most 2|b|²|c|².
 #[inline(always)]
-fn sides_of_faces<L: Lanes>(frame: &Frame<L>, corners: &[L; 4]) -> Sides {
+pub fn sides_of_faces<L: Lanes>(frame: &Frame<L>, corners: &[L; 4]) -> Sides {
     let [x, y, z] = L::components(corners);
     let mut longest_square = 0.0;
     for square in z.mul_add(z, y.mul_add(y, x.mul(x))).to_array() {

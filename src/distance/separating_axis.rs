@@ -81,6 +81,12 @@ impl<L: Lanes> Trial<L> {
         Trial::new(frame, direction, axis.vertices, 0, LONGEST_CLIMBS[0])
     }
 
+    /// Tries a direction from vertices that are about its support vertices.
+    #[inline(always)]
+    pub fn along(frame: &Frame<L>, direction: L, vertices: [u32; 2]) -> Trial<L> {
+        Trial::new(frame, direction, vertices, 0, LONGEST_CLIMBS[1])
+    }
+
     /// Whether the bodies are proved disjoint.
     #[inline(always)]
     pub fn separates(&self) -> bool {

@@ -172,7 +172,7 @@ impl Kernel for Separation<'_, '_> {
 
 /// The answer of an axis that separates.
 #[inline(always)]
-fn fill_trial<L: Lanes>(trial: &Trial<L>, pair: &mut PairQuery) {
+pub(super) fn fill_trial<L: Lanes>(trial: &Trial<L>, pair: &mut PairQuery) {
     pair.answer.decided_by = DecidedBy::Coherence;
     pair.answer.statistics = Statistics { marching_steps: trial.steps, ..Statistics::default() };
     pair.set_interval(&trial.interval, trial.distance);

@@ -5,6 +5,7 @@ mod query;
 mod glance;
 mod acceptance;
 mod marching;
+mod meeting;
 mod decision;
 mod support_glance;
 mod level_choice;
@@ -155,6 +156,9 @@ fn answer_by_bodies(query: Query, pair: &mut PairQuery, glances: Glances) -> Res
 #[inline(never)]
 fn answer_on(pair: &mut PairQuery, mut attempt: Attempt) -> Result<()> {
     pair.forget()?;
+    if pair.meets_or_misses() {
+        return Ok(());
+    }
     let enclosure = pair.cache.enclosure(pair.polyhedra());
     if matches!(attempt, Attempt::Untried) && enclosure.is_none() {
         attempt = pair.march(None);
