@@ -310,7 +310,7 @@ fn planes() -> Found {
     }
     polytope.corners[0] = [0, 1, 2, 0];
     (polytope.vertex_count, polytope.triangle_count) = (3, 1);
-    let rounding = Rounding {
+    let rounding = PairRounding {
         difference: 0.0,
         plane: value(input("plane", 1e-15 * random.uniform(1.0, 2.0))),
         determinant: value(input("determinant", 1e-15 * random.uniform(1.0, 2.0))),
@@ -371,7 +371,7 @@ fn pyramid() -> Found {
                 continue;
             }
             let pyramid = Pyramid::new(&[[a, b], [c, d], [e, f]], [6 - a - c - e, 6 - b - d - f]);
-            let _ = pyramid.prove(frame, &Rounding::of(frame));
+            let _ = pyramid.prove(frame, &PairRounding::of(frame));
             if finished().claims.len() > before {
                 break;
             }

@@ -15,7 +15,7 @@ pub use swiftprox::body::polyhedron::Polyhedron;
 pub use swiftprox::body::polyhedron::fan::PointBlock;
 pub use swiftprox::depth::facets::placed::PlacedFan;
 pub use swiftprox::depth::facets::{NODE, NORMAL, ON_ARC, SUPPORT};
-pub use swiftprox::depth::polytope::{HEIGHTS, Polytope, Pyramid, Rounding, evaluate, heights, rounding};
+pub use swiftprox::depth::polytope::{HEIGHTS, PairRounding, Polytope, Pyramid, evaluate, heights, rounding};
 pub use swiftprox::distance::certificate::{DIRECTION_ERROR, REMAINDER, RIGID_MISFIT, beside, beside_one, ends};
 pub use swiftprox::distance::enclosure::{determinant_error, encloses_origin, length_above};
 pub use swiftprox::distance::gjk::{COMBINATION, EXCESS, height_over, plus_weighted};

@@ -3,7 +3,7 @@
 use crate::answer::pair_answer::{Feature, FeatureKind, PairAnswer};
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF, Vector, clamp, length};
 use crate::base::simd::{Lanes, Portable};
-use crate::body::polyhedron::{Edge, Face, NONE, Polyhedron};
+use crate::body::polyhedron::{Edge, MergedFace, NONE, Polyhedron};
 use crate::distance::certificate::Minimum;
 use crate::placed::Pair;
 use crate::placed::exact::VertexPair;
@@ -286,7 +286,7 @@ fn face_holding(
 /// The face nearest to a point in the body, of several the one that looks most towards the other body. It is the face whose plane
 /// is nearest: the foot on it lies in the body, so in the face. If rounding leaves several planes, the distances decide.
 fn nearest_face(polyhedron: &Polyhedron, point: &Vector, towards: &Vector) -> Option<u32> {
-    let height = |face: &Face| face.planes.value(0, point);
+    let height = |face: &MergedFace| face.planes.value(0, point);
     let highest = polyhedron.faces.iter().map(height).fold(f64::NEG_INFINITY, f64::max);
     let (mut best, mut least, mut steepest) = (None, f64::INFINITY, f64::NEG_INFINITY);
     for (face, record) in (0..).zip(&polyhedron.faces) {
@@ -337,7 +337,11 @@ fn misses_face(polyhedron: &Polyhedron, face: u32, point: &Vector) -> f64 {
 }
 
 /// How far inside each side of a face a point is.
-fn side_values<'a>(polyhedron: &'a Polyhedron, record: &'a Face, point: &'a Vector) -> impl Iterator<Item = f64> + 'a {
+fn side_values<'a>(
+    polyhedron: &'a Polyhedron,
+    record: &'a MergedFace,
+    point: &'a Vector,
+) -> impl Iterator<Item = f64> + 'a {
     let first = (1..4).map(|lane| record.planes.value(lane, point));
     let further = polyhedron.further_sides(record).iter();
     first.chain(further.flat_map(|block| (0..4).map(|lane| block.value(lane, point))))

@@ -124,13 +124,13 @@ pub fn move_points(
     [by1, by2]: [f64; 2],
 ) {
     let normal = &Vector::from(*normal);
-    let one = Moving { local: local1, world: world1, pose: pose1, by: by1 };
-    let two = Moving { local: local2, world: world2, pose: pose2, by: by2 };
+    let one = MovingPoint { local: local1, world: world1, pose: pose1, by: by1 };
+    let two = MovingPoint { local: local2, world: world2, pose: pose2, by: by2 };
     simd::dispatch(&mut Move { normal, one, two });
 }
 
 /// A point of a body, and how far it moves.
-struct Moving<'a> {
+struct MovingPoint<'a> {
     local: &'a mut [f64; 3],
     world: &'a mut [f64; 3],
     pose: &'a Pose,
@@ -139,8 +139,8 @@ struct Moving<'a> {
 
 struct Move<'a> {
     normal: &'a Vector,
-    one: Moving<'a>,
-    two: Moving<'a>,
+    one: MovingPoint<'a>,
+    two: MovingPoint<'a>,
 }
 
 impl Kernel for Move<'_> {
@@ -153,7 +153,7 @@ impl Kernel for Move<'_> {
     }
 }
 
-impl Moving<'_> {
+impl MovingPoint<'_> {
     /// Products are rounded before they are summed: all machines move points alike.
     #[inline(always)]
     fn go<L: Lanes>(&mut self, normal: &Vector) {

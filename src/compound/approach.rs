@@ -38,7 +38,7 @@ pub(super) fn approach(
     let frame = |i: usize| MovingFrame::new(bodies[i].motion, bodies[i].compound.reach.lever, range);
     let frames =
         [frame(0).map_err(|error| error.about("object 1"))?, frame(1).map_err(|error| error.about("object 2"))?];
-    let mut approach = Approach {
+    let mut approach = CompoundApproach {
         bodies,
         frames,
         max_distance,
@@ -54,7 +54,7 @@ pub(super) fn approach(
     Ok(approach.passed)
 }
 
-struct Approach<'a, 'b> {
+struct CompoundApproach<'a, 'b> {
     bodies: &'b [MovingCompound<'a>; 2],
     frames: [MovingFrame<'a>; 2],
     max_distance: f64,
@@ -70,7 +70,7 @@ struct Approach<'a, 'b> {
     ask: &'b mut dyn FnMut([u32; 2]) -> Result<f64>,
 }
 
-impl Approach<'_, '_> {
+impl CompoundApproach<'_, '_> {
     fn stops(&self, time: f64) -> Result<[Stop; 2]> {
         Ok([self.frames[0].at(time)?, self.frames[1].at(time)?])
     }
@@ -116,7 +116,7 @@ impl Approach<'_, '_> {
 
 /// Down to the next pair of pieces of one part.
 struct Sieve<'a, 'b, 'c> {
-    approach: &'c mut Approach<'a, 'b>,
+    approach: &'c mut CompoundApproach<'a, 'b>,
     between: Between,
     drift: f64,
     /// So often the part may be halved yet.
@@ -128,7 +128,7 @@ impl Kernel for Sieve<'_, '_, '_> {
 
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Result<Option<[u32; 2]>> {
-        let Approach { bodies, max_distance, passed, open, work, .. } = &mut *self.approach;
+        let CompoundApproach { bodies, max_distance, passed, open, work, .. } = &mut *self.approach;
         let [tree_a, tree_b] = [&bodies[0].compound.tree, &bodies[1].compound.tree];
         let between = self.between.in_lanes::<L>();
         let drift = self.drift;

@@ -24,9 +24,9 @@
 //! below [`LARGEST`]; elsewhere the slack is infinite and nothing is ruled out. Products that underflow are off by 2⁻¹⁰⁷⁵ each.
 
 use super::PlacedCompound;
-use super::body::Reach;
+use super::body::CompoundReach;
 use super::fit::{Fitted, Oriented};
-use super::tree::{Node, Tree};
+use super::tree::{PieceNode, PieceTree};
 use crate::base::error::Result;
 use crate::base::math::{ROTATION_LIMIT, UNIT_ROUNDOFF as U};
 use crate::base::simd::Lanes;
@@ -153,7 +153,7 @@ impl Between {
 #[inline(always)]
 pub(super) fn check_pieces(body: &PlacedCompound, defect: f64, is_in_range: bool) -> Result<()> {
     // No entry of the product's |RᵀR − I| is above the piece's own by more than 3·1.03 times that of the body.
-    let Reach { placing, skew, .. } = body.compound.reach;
+    let CompoundReach { placing, skew, .. } = body.compound.reach;
     let are_accepted = placing == 0.0 || (is_in_range && skew + 4.0 * defect + 64.0 * U <= ROTATION_LIMIT);
     if are_accepted { Ok(()) } else { check_each(body) }
 }
@@ -278,8 +278,8 @@ impl<L: Lanes> InLanes<L> {
 
 /// The two pairs that come of two nodes by opening one: the larger, unless it is a leaf. `None` of two leaves.
 #[inline(always)]
-pub(super) fn opened(trees: [&Tree; 2], [a, b]: [u32; 2]) -> Option<[[u32; 2]; 2]> {
-    let (node_a, node_b): (&Node, &Node) = (&trees[0].nodes[a as usize], &trees[1].nodes[b as usize]);
+pub(super) fn opened(trees: [&PieceTree; 2], [a, b]: [u32; 2]) -> Option<[[u32; 2]; 2]> {
+    let (node_a, node_b): (&PieceNode, &PieceNode) = (&trees[0].nodes[a as usize], &trees[1].nodes[b as usize]);
     match (node_a.piece(), node_b.piece()) {
         (Some(_), Some(_)) => None,
         (None, other) if other.is_some() || node_a.size >= node_b.size => {
@@ -305,13 +305,13 @@ mod tests {
     use std::sync::Arc;
     use swiftprox::random::Random;
 
-    struct Bounds<'a> {
+    struct NodePair<'a> {
         between: &'a Between,
-        trees: [&'a Tree; 2],
+        trees: [&'a PieceTree; 2],
         nodes: [usize; 2],
     }
 
-    impl Kernel for Bounds<'_> {
+    impl Kernel for NodePair<'_> {
         type Output = [f64; 3];
 
         #[inline(always)]
@@ -342,7 +342,7 @@ mod tests {
         Compound::new(&(0..5).map(|_| piece(random)).collect::<Vec<_>>()).unwrap()
     }
 
-    fn pieces_below(tree: &Tree, node: usize) -> Vec<u32> {
+    fn pieces_below(tree: &PieceTree, node: usize) -> Vec<u32> {
         match tree.nodes[node].piece() {
             Some(piece) => vec![piece],
             None => tree.nodes[node].children().iter().flat_map(|child| pieces_below(tree, *child as usize)).collect(),
@@ -383,7 +383,7 @@ mod tests {
                 let below = [pieces_below(trees[0], a), pieces_below(trees[1], b)];
                 let pairs = below[0].iter().flat_map(|i| below[1].iter().map(|j| truth[*i as usize][*j as usize]));
                 let least = pairs.fold(f64::INFINITY, f64::min);
-                for bound in simd::dispatch(&mut Bounds { between: &between, trees, nodes: [a, b] }) {
+                for bound in simd::dispatch(&mut NodePair { between: &between, trees, nodes: [a, b] }) {
                     assert!(bound <= least, "{round}: {bound:e} {least:e}");
                     tight += usize::from(bound > 0.5 * least && least > 0.0);
                 }

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::tree::{Leaf, Tree};
+use super::tree::{Leaf, PieceTree};
 use crate::base::error::{Error, Result};
 use crate::base::mark::Mark;
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
@@ -32,14 +32,14 @@ pub struct Piece {
 #[derive(Debug, Clone)]
 pub struct Compound {
     pieces: Vec<Piece>,
-    pub(super) tree: Tree,
-    pub(super) reach: Reach,
+    pub(super) tree: PieceTree,
+    pub(super) reach: CompoundReach,
     pub(crate) mark: Mark,
 }
 
 /// How far the pieces reach, whatever the pose; rounded up.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Reach {
+pub(super) struct CompoundReach {
     /// No point of the compound, swept radii included, is farther from its origin.
     pub lever: f64,
     /// The lengths that go into the places of pieces that are not at the identity, at most; 0 where all are.
@@ -97,7 +97,7 @@ impl Compound {
             let is_placed = *pose != Pose::IDENTITY;
             points.push(collected(vertices.map(|point| if is_placed { pose.transform(&point) } else { point }))?);
         }
-        let mut reach = Reach { lever: 0.0, placing: 0.0, skew: 0.0 };
+        let mut reach = CompoundReach { lever: 0.0, placing: 0.0, skew: 0.0 };
         let mut leaves = with_capacity(pieces.len())?;
         for (piece, points) in pieces.iter().zip(&points) {
             // A vertex is centre + position, off by u of that. R·v + T is off by 8u·(|R||v| + |T|), ‖|R|‖ ≤ √3·1.015.
@@ -112,7 +112,7 @@ impl Compound {
                 reach.placing = reach.placing.max(lengths);
             }
         }
-        let tree = Tree::new(&leaves)?;
+        let tree = PieceTree::new(&leaves)?;
         drop(leaves);
         Ok(Compound { pieces, tree, reach, mark: Mark::new() })
     }

@@ -8,7 +8,7 @@ const SLOTS: usize = 128;
 /// The cache of two pieces; their numbers are counted from 1, so that 0 is nobody's.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(C)]
-struct Slot {
+struct PairSlot {
     pieces: [u32; 2],
     cache: PairCache,
 }
@@ -21,12 +21,12 @@ pub struct CompoundCache {
     /// Pieces that met, and the nearest ones; counted from 1.
     met: [u32; 2],
     nearest: [u32; 2],
-    slots: [Slot; SLOTS],
+    slots: [PairSlot; SLOTS],
 }
 
 impl Default for CompoundCache {
     fn default() -> Self {
-        CompoundCache { met: [0; 2], nearest: [0; 2], slots: [Slot::default(); SLOTS] }
+        CompoundCache { met: [0; 2], nearest: [0; 2], slots: [PairSlot::default(); SLOTS] }
     }
 }
 
@@ -57,7 +57,7 @@ impl CompoundCache {
         let spread = a.wrapping_mul(0x9e37_79b1).wrapping_add(b.wrapping_mul(0x85eb_ca77));
         let slot = &mut self.slots[(spread >> (32 - SLOTS.ilog2())) as usize];
         if slot.pieces != [a, b] {
-            *slot = Slot { pieces: [a, b], cache: PairCache::default() };
+            *slot = PairSlot { pieces: [a, b], cache: PairCache::default() };
         }
         &mut slot.cache
     }

@@ -33,7 +33,7 @@ pub fn cast(
         check_config(config)?;
         let counts = bodies.map(|body| body.compound.piece_count());
         let last = cache.nearest(counts);
-        let mut first = First {
+        let mut first = FirstPieces {
             bodies: &bodies,
             cache,
             config,
@@ -129,7 +129,7 @@ fn with_carried<T>(bodies: &[MovingCompound; 2], pieces: [u32; 2], work: impl Fn
 }
 
 /// The first contact of the pairs of pieces that were cast.
-struct First<'a> {
+struct FirstPieces<'a> {
     bodies: &'a [MovingCompound<'a>; 2],
     cache: &'a mut CompoundCache,
     config: &'a CastConfig,
@@ -143,7 +143,7 @@ struct First<'a> {
     named: Option<([u32; 2], CastAnswer)>,
 }
 
-impl First<'_> {
+impl FirstPieces<'_> {
     fn learn(&mut self, pieces: [u32; 2]) -> Result<()> {
         if self.until < self.config.time_begin {
             return Ok(());
@@ -178,7 +178,7 @@ impl First<'_> {
     }
 
     fn finish(self, counts: [usize; 2]) -> Result<CompoundCastAnswer> {
-        let First { bodies, cache, config, lower, clearance, queries, named, .. } = self;
+        let FirstPieces { bodies, cache, config, lower, clearance, queries, named, .. } = self;
         let Some((pieces, mut answer)) = named else {
             let clearance = clearance.max(config.max_distance);
             let (outcome, time_lower) = (CastOutcome::Free, config.time_end);

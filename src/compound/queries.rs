@@ -55,7 +55,7 @@ fn ask(
     config.check(query)?;
     let reaches = Reaches::new(bodies)?;
     let is_verdict = query == Query::Intersection && config.max_distance == f64::INFINITY;
-    let mut least = Least {
+    let mut least = LeastOfPieces {
         query,
         is_verdict,
         bodies,
@@ -79,7 +79,7 @@ fn ask(
 }
 
 /// The least distance of the pairs of pieces that have been asked.
-struct Least<'a> {
+struct LeastOfPieces<'a> {
     query: Query,
     /// Whether only the verdict is asked: all that is apart is passed by.
     is_verdict: bool,
@@ -100,7 +100,7 @@ struct Least<'a> {
 /// would otherwise leave it to integers which are nearer.
 pub(super) const MORE: f64 = 1.0 + 1e-9;
 
-impl Least<'_> {
+impl LeastOfPieces<'_> {
     fn run(mut self, between: &Between) -> Result<()> {
         let counts = self.bodies.map(|body| body.compound.piece_count());
         let last = if self.is_verdict { self.cache.met(counts) } else { self.cache.nearest(counts) };

@@ -30,7 +30,7 @@ pub fn signed_distance(
     with_default(|| {
         config.check(Query::Distance)?;
         let between = Between::new(&bodies, &Reaches::new(&bodies)?);
-        let least = Least {
+        let least = LeastSigned {
             bodies: &bodies,
             cache,
             config: *config,
@@ -45,7 +45,7 @@ pub fn signed_distance(
 }
 
 /// The least of the pairs of pieces that have been asked.
-struct Least<'a> {
+struct LeastSigned<'a> {
     bodies: &'a [PlacedCompound<'a>; 2],
     cache: &'a mut CompoundCache,
     config: PairConfig,
@@ -56,7 +56,7 @@ struct Least<'a> {
     named: Option<([u32; 2], SignedDistance)>,
 }
 
-impl Least<'_> {
+impl LeastSigned<'_> {
     fn run(mut self, between: &Between) -> Result<CompoundSignedDistance> {
         let counts = self.bodies.map(|body| body.compound.piece_count());
         let last = self.cache.nearest(counts);

@@ -19,13 +19,13 @@ use crate::ray::{Ray, RayAnswer, RayOutcome, entry_of_box};
 pub fn cast_ray(body: PlacedCompound, ray: &Ray) -> Result<CompoundRayAnswer> {
     with_default(|| {
         ray.check()?;
-        let frame = Frame::new(&body, &ray.origin())?;
+        let frame = CompoundPoint::new(&body, &ray.origin())?;
         let direction = body.pose.rotate_back(&ray.direction());
         /// Directions of such lengths neither overflow nor lose digits when they are turned; others rule no box out.
         const PLAIN: std::ops::RangeInclusive<f64> = 1e-290..=1e290;
         let is_plain = PLAIN.contains(&ray.direction().amax());
         let slabs = Slabs { frame: &frame, direction: is_plain.then_some(direction), t_max: ray.t_max };
-        let mut nearest = Nearest::new(&body);
+        let mut nearest = NearestOfPieces::new(&body);
         let miss = RayAnswer { outcome: RayOutcome::Miss, ..RayAnswer::default() };
         let mut first = CompoundRayAnswer { answer: miss, piece: body.compound.piece_count() as u32 };
         let mut entry = f64::INFINITY;
@@ -57,8 +57,8 @@ pub fn cast_ray(body: PlacedCompound, ray: &Ray) -> Result<CompoundRayAnswer> {
 pub fn locate_point(body: PlacedCompound, point: [f64; 3]) -> Result<CompoundPointAnswer> {
     with_default(|| {
         check_finite("point", &point)?;
-        let frame = Frame::new(&body, &point.into())?;
-        let mut nearest = Nearest::new(&body);
+        let frame = CompoundPoint::new(&body, &point.into())?;
+        let mut nearest = NearestOfPieces::new(&body);
         let (mut least, mut lower) = (CompoundPointAnswer::default(), f64::INFINITY);
         while let Some(piece) = nearest.next(|fitted| frame.distance(fitted)) {
             let mut own = Pose::IDENTITY;
@@ -77,7 +77,7 @@ pub fn locate_point(body: PlacedCompound, point: [f64; 3]) -> Result<CompoundPoi
 }
 
 /// The walk down one tree.
-struct Nearest<'a> {
+struct NearestOfPieces<'a> {
     body: &'a PlacedCompound<'a>,
     /// Nodes with a greater bound are passed by.
     enough: f64,
@@ -85,10 +85,10 @@ struct Nearest<'a> {
     count: usize,
 }
 
-impl<'a> Nearest<'a> {
-    fn new(body: &'a PlacedCompound<'a>) -> Nearest<'a> {
+impl<'a> NearestOfPieces<'a> {
+    fn new(body: &'a PlacedCompound<'a>) -> NearestOfPieces<'a> {
         let waiting = [(f64::NEG_INFINITY, 0); DEEPEST + 2];
-        Nearest { body, enough: f64::INFINITY, waiting, count: 1 }
+        NearestOfPieces { body, enough: f64::INFINITY, waiting, count: 1 }
     }
 
     /// The next piece, where a bound says nothing against it; infinite bounds rule out.
@@ -120,15 +120,15 @@ impl<'a> Nearest<'a> {
 /// A point x of the compound is at R·x + T, so Rᵀ(p − T) − x is Rᵀ(p − (R·x + T)) + (RᵀR − I)·x. The slack holds the last, at most
 /// 3d·L for the largest entry d of |RᵀR − I|, half of it again for swept balls, and what rounding makes of all: some 24u of
 /// |p − T| + L, and of pieces that are placed what [`between`](super::between) says.
-struct Frame {
+struct CompoundPoint {
     point: Vector,
     slack: f64,
     shrink: f64,
     grow: f64,
 }
 
-impl Frame {
-    fn new(body: &PlacedCompound, world: &Vector) -> Result<Frame> {
+impl CompoundPoint {
+    fn new(body: &PlacedCompound, world: &Vector) -> Result<CompoundPoint> {
         let defect = body.pose.checked_defect()? + 8.0 * U;
         let reach = body.compound.reach;
         let way = world - body.pose.translation();
@@ -146,7 +146,7 @@ impl Frame {
             slack = f64::INFINITY;
         }
         let (shrink, grow) = (1.0 - 2.0 * defect - 16.0 * U, 1.0 + 4.0 * defect + 16.0 * U);
-        Ok(Frame { point: body.pose.rotate_back(&way), slack, shrink, grow })
+        Ok(CompoundPoint { point: body.pose.rotate_back(&way), slack, shrink, grow })
     }
 
     /// The signed distance from all that is in a box is at least this.
@@ -165,7 +165,7 @@ impl Frame {
 
 /// The ray in the frame of a compound: its origin is the frame's point.
 struct Slabs<'a> {
-    frame: &'a Frame,
+    frame: &'a CompoundPoint,
     direction: Option<Vector>,
     t_max: f64,
 }

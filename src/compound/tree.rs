@@ -14,7 +14,7 @@ pub(super) const DEEPEST: usize = DEEP + 20;
 
 /// A node: a box along the body's axes, and one that fits better.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Node {
+pub(super) struct PieceNode {
     pub fitted: Fitted,
     /// The square of half the diagonal.
     pub size: f64,
@@ -24,7 +24,7 @@ pub(super) struct Node {
 
 const LEAF: u32 = u32::MAX;
 
-impl Node {
+impl PieceNode {
     /// The piece of a leaf.
     #[inline(always)]
     pub fn piece(&self) -> Option<u32> {
@@ -41,8 +41,8 @@ impl Node {
 
 /// The tree; node 0 holds all pieces.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Tree {
-    pub nodes: Vec<Node>,
+pub(super) struct PieceTree {
+    pub nodes: Vec<PieceNode>,
     /// The same nodes' other boxes.
     pub oriented: Vec<Oriented>,
 }
@@ -59,16 +59,16 @@ pub(super) struct Leaf<'a> {
     pub shape: &'a Shape,
 }
 
-impl Tree {
+impl PieceTree {
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn new(leaves: &[Leaf]) -> Result<Tree> {
+    pub fn new(leaves: &[Leaf]) -> Result<PieceTree> {
         debug_assert!(!leaves.is_empty());
         let count = 2 * leaves.len() - 1;
         let mut order: Vec<u32> = collected(0..leaves.len() as u32)?;
         let own = [Vector::x(), Vector::y(), Vector::z()];
         let boxes = collected(leaves.iter().map(|leaf| Extremes::of(&leaf.cloud(&[leaf.points]).box_along(&own))))?;
-        let tree = Tree { nodes: with_capacity(count)?, oriented: with_capacity(count)? };
+        let tree = PieceTree { nodes: with_capacity(count)?, oriented: with_capacity(count)? };
         let mut growth = Growth { leaves, boxes, tree };
         growth.grow(&mut order, 0)?;
         Ok(growth.tree)
@@ -129,7 +129,7 @@ impl Extremes {
 struct Growth<'a> {
     leaves: &'a [Leaf<'a>],
     boxes: Vec<Extremes>,
-    tree: Tree,
+    tree: PieceTree,
 }
 
 impl Growth<'_> {
@@ -142,7 +142,7 @@ impl Growth<'_> {
             _ => self.boxes_of(order)?,
         };
         let children = [order[0], LEAF];
-        push(&mut self.tree.nodes, Node { fitted, size: fitted.size(), children })?;
+        push(&mut self.tree.nodes, PieceNode { fitted, size: fitted.size(), children })?;
         push(&mut self.tree.oriented, oriented)?;
         if order.len() > 1 {
             let (first, second) = self.split(order, depth)?;

@@ -2,7 +2,7 @@
 //! the deepest overlap of boxes first, a distance to the nearest.
 
 use super::between::{Between, opened};
-use super::tree::{DEEPEST, Tree};
+use super::tree::{DEEPEST, PieceTree};
 use crate::base::error::Result;
 use crate::base::simd::{self, Kernel, Lanes};
 
@@ -20,7 +20,7 @@ pub(super) enum Aim {
 
 /// Two nodes that are to be looked at.
 #[derive(Clone, Copy)]
-struct Waiting {
+struct WaitingNodes {
     /// The signed distance of all in them is at least this.
     bound: f64,
     nodes: [u32; 2],
@@ -29,7 +29,7 @@ struct Waiting {
 /// Two trees, and what is asked of them.
 #[derive(Clone, Copy)]
 pub(super) struct PiecePair<'a> {
-    pub trees: [&'a Tree; 2],
+    pub trees: [&'a PieceTree; 2],
     pub between: &'a Between,
     pub aim: Aim,
 }
@@ -53,9 +53,9 @@ fn descend(
     enough: f64,
     mut ask: impl FnMut([u32; 2]) -> Result<Option<f64>>,
 ) -> Result<f64> {
-    let waiting = [Waiting { bound: root, nodes: [0; 2] }; ROOM];
-    let mut walk = Walk { pair, enough, passed: f64::INFINITY, waiting, count: 1 };
-    while let Some(pieces) = simd::dispatch(&mut Descent { walk: &mut walk }) {
+    let waiting = [WaitingNodes { bound: root, nodes: [0; 2] }; ROOM];
+    let mut walk = TreeWalk { pair, enough, passed: f64::INFINITY, waiting, count: 1 };
+    while let Some(pieces) = simd::dispatch(&mut TreeDescent { walk: &mut walk }) {
         match ask(pieces)? {
             Some(enough) => walk.enough = enough,
             None => break,
@@ -65,20 +65,20 @@ fn descend(
 }
 
 /// A walk.
-struct Walk<'a> {
+struct TreeWalk<'a> {
     pair: PiecePair<'a>,
     /// Pairs that are farther apart are passed by.
     enough: f64,
     /// All that has been passed by is at least this far apart.
     passed: f64,
-    waiting: [Waiting; ROOM],
+    waiting: [WaitingNodes; ROOM],
     count: usize,
 }
 
-impl Walk<'_> {
+impl TreeWalk<'_> {
     /// Keeps a pair of nodes in mind, or passes it by.
     #[inline(always)]
-    fn push(&mut self, waiting: Waiting) {
+    fn push(&mut self, waiting: WaitingNodes) {
         // False for a NaN, which rules nothing out.
         if waiting.bound > self.enough {
             self.pass(waiting.bound);
@@ -112,11 +112,11 @@ impl Kernel for Roots<'_> {
 }
 
 /// Down to the next pair of pieces.
-struct Descent<'a, 'b> {
-    walk: &'a mut Walk<'b>,
+struct TreeDescent<'a, 'b> {
+    walk: &'a mut TreeWalk<'b>,
 }
 
-impl Kernel for Descent<'_, '_> {
+impl Kernel for TreeDescent<'_, '_> {
     type Output = Option<[u32; 2]>;
 
     #[inline(always)]
@@ -131,7 +131,7 @@ impl Kernel for Descent<'_, '_> {
         let crosses = aim == Aim::Verdict;
         while walk.count > 0 {
             walk.count -= 1;
-            let Waiting { bound, nodes } = walk.waiting[walk.count];
+            let WaitingNodes { bound, nodes } = walk.waiting[walk.count];
             if bound > walk.enough {
                 walk.pass(bound);
                 continue;
@@ -154,8 +154,8 @@ impl Kernel for Descent<'_, '_> {
                 }
             }
             let first = usize::from(bounds[1] < bounds[0]);
-            walk.push(Waiting { bound: bounds[1 - first], nodes: pairs[1 - first] });
-            walk.push(Waiting { bound: bounds[first], nodes: pairs[first] });
+            walk.push(WaitingNodes { bound: bounds[1 - first], nodes: pairs[1 - first] });
+            walk.push(WaitingNodes { bound: bounds[first], nodes: pairs[first] });
         }
         None
     }

@@ -1,7 +1,7 @@
 //! Answers from the result of a search, and from integers where that leaves the verdict open.
 
 use super::answer::{DepthAnswer, DepthEnding, DepthStatistics};
-use super::search::{FoundPolytope, Search, WIDEST};
+use super::search::{DepthSearch, FoundPolytope, WIDEST};
 use crate::answer::{Outcome, contact};
 use crate::base::error::Result;
 use crate::base::math::{Matrix, Vector, clamp};
@@ -11,26 +11,26 @@ use crate::depth::facets::Overlap;
 use crate::depth::polytope::{Ending, Expansion};
 use crate::distance::decide::combinations;
 use crate::placed::Pair;
-use crate::placed::exact::{self, Differences, ExactAnswer, Position, Supports, VertexPair, WayOut};
+use crate::placed::exact::{self, Differences, ExactAnswer, Position, SupportScope, VertexPair, WayOut};
 use crate::placed::state::FeatureId;
 
 /// Answers by the result of the search, `overlap` where all facets gave it, and by integers where that leaves the verdict open.
 ///
 /// # Errors
 /// [`Error::Memory`](crate::base::error::Error::Memory) where integers get none: the answer is as it was.
-pub fn fill(answer: &mut DepthAnswer, pair: &Pair, found: Option<&Search>, overlap: &Overlap) -> Result<()> {
+pub fn fill(answer: &mut DepthAnswer, pair: &Pair, found: Option<&DepthSearch>, overlap: &Overlap) -> Result<()> {
     match found {
         None => return decide(answer, pair, None),
-        Some(Search::Apart(direction)) => {
+        Some(DepthSearch::Apart(direction)) => {
             answer.statistics = DepthStatistics::default();
             fill_separated(answer, DepthEnding::Separated, &-direction);
         }
-        Some(Search::Facets) => {
+        Some(DepthSearch::Facets) => {
             answer.statistics = DepthStatistics::default();
             fill_facet(answer, pair, overlap);
         }
-        Some(Search::Polytope(found)) => return fill_by_polytope(answer, pair, found),
-        Some(Search::Answered) => {}
+        Some(DepthSearch::Polytope(found)) => return fill_by_polytope(answer, pair, found),
+        Some(DepthSearch::Answered) => {}
     }
     Ok(())
 }
@@ -89,7 +89,7 @@ fn decide(answer: &mut DepthAnswer, pair: &Pair, found: Option<&FoundPolytope>) 
     // The bounds have met, next to 0.
     let met = known.filter(|found| found.expansion.ending == Ending::Narrow && has_witness(found, pair));
     let (position, way_out, along_axes) = in_integers(|| {
-        let position = exact::locate(pair, hint, Supports::Climbed);
+        let position = exact::locate(pair, hint, SupportScope::Climbed);
         let overlaps = matches!(position, Position::Overlapping(_));
         let way_out = if overlaps { way_out(pair) } else { None };
         let is_unknown = overlaps && way_out.is_none() && known.is_none();

@@ -20,7 +20,7 @@ use crate::base::error::Result;
 use crate::base::simd;
 use crate::base::simd::environment::with_default;
 use crate::depth::facets::Overlap;
-use crate::depth::polytope::{Expansion, Pyramid, Witness};
+use crate::depth::polytope::{Expansion, PolytopeWitness, Pyramid};
 use crate::placed::Pair;
 use crate::shape::Placed;
 pub use answer::{DepthAnswer, DepthConfig, DepthEnding, DepthStatistics};
@@ -31,7 +31,7 @@ pub(crate) use proof::{ProofFrom, proof};
 pub(crate) use resting::{DepthPlaces, prove_at_rest};
 use scaling::Rescaled;
 pub(crate) use search::Pyramids;
-use search::{DepthQuery, FoundPolytope, Search};
+use search::{DepthQuery, DepthSearch, FoundPolytope};
 
 /// How deep two polyhedra are in each other.
 ///
@@ -101,7 +101,7 @@ pub(crate) fn deepest(pair: &Pair, pyramids: Pyramids) -> Result<(DepthAnswer, O
 /// [`Error::Memory`](crate::base::error::Error::Memory) where the copies get none.
 #[cold]
 #[inline(never)]
-fn search_rescaled(pair: &Pair, config: &DepthConfig, cache: &mut DepthCache) -> Result<Option<Search>> {
+fn search_rescaled(pair: &Pair, config: &DepthConfig, cache: &mut DepthCache) -> Result<Option<DepthSearch>> {
     let Some(copies) = Rescaled::of(pair)? else { return Ok(None) };
     let config = DepthConfig { absolute_error: copies.in_unit(config.absolute_error), ..*config };
     let pair = copies.pair();
@@ -109,15 +109,15 @@ fn search_rescaled(pair: &Pair, config: &DepthConfig, cache: &mut DepthCache) ->
     let (config, answer, pyramids) = (&config, &mut unused, Pyramids::Unused);
     let query = &mut DepthQuery { pair, config, cache, answer, pyramids, overlap: &mut overlap };
     // Copies have no fan.
-    let Some(Search::Polytope(found)) = simd::dispatch_to_avx2(query) else { return Ok(None) };
+    let Some(DepthSearch::Polytope(found)) = simd::dispatch_to_avx2(query) else { return Ok(None) };
     let FoundPolytope { expansion, witness, .. } = found;
     let upper = copies.upper_of(expansion.upper);
     if upper == f64::INFINITY && expansion.upper < upper {
         return Ok(None);
     }
-    Ok(Some(Search::Polytope(FoundPolytope {
+    Ok(Some(DepthSearch::Polytope(FoundPolytope {
         expansion: Expansion { lower: copies.lower_of(expansion.lower), upper, ..expansion },
-        witness: Witness { depth: copies.lower_of(witness.depth), ..witness },
+        witness: PolytopeWitness { depth: copies.lower_of(witness.depth), ..witness },
         ..found
     })))
 }

@@ -5,7 +5,7 @@ use super::scaling::Rescaled;
 use crate::base::error::Result;
 use crate::base::memory::listed;
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::depth::polytope::{self, Polytope, SearchStart, Wanted, is_in_scale};
+use crate::depth::polytope::{self, Polytope, SearchStart, WantedDepth, is_in_scale};
 use crate::placed::Pair;
 use crate::placed::exact::VertexPair;
 use crate::placed::frame::Frame;
@@ -64,7 +64,7 @@ impl Kernel for Proof<'_> {
             }
             ProofFrom::Search(lower) => {
                 let start = SearchStart { triangle: None, direction: None, first_triangles: 0, only_known: false };
-                let wanted = Wanted { width: 0.0, relative: 0.0, steps: u32::MAX, lower };
+                let wanted = WantedDepth { width: 0.0, relative: 0.0, steps: u32::MAX, lower };
                 polytope::expand::<L, _, _, 4>(&frame, &mut polytope, &start, &wanted);
             }
         }

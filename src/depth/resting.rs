@@ -6,7 +6,7 @@ use crate::answer::{Feature, Outcome, contact};
 use crate::base::math::{Pose, Vector, clamp};
 use crate::base::simd::{self, Kernel, Lanes, Work};
 use crate::depth::facets::{self, Facet, Proved};
-use crate::depth::polytope::{self, Failure, Pyramid, Rest, Rounding};
+use crate::depth::polytope::{self, PairRounding, ProofFailure, Pyramid, Rest};
 use crate::placed::Pair;
 use crate::placed::exact::VertexPair;
 use crate::placed::frame::Frame;
@@ -85,7 +85,7 @@ pub fn look_at_pyramids<L: Lanes>(
     if !cache.has_pyramid() {
         return false;
     }
-    let rounding = Rounding::of(frame);
+    let rounding = PairRounding::of(frame);
     match cache.pyramid(0).prove(frame, &rounding) {
         Ok(rest) => {
             fill(answer, frame, poses, cache, &rest);
@@ -98,11 +98,11 @@ pub fn look_at_pyramids<L: Lanes>(
 /// The remaining steps after the first pyramid has failed: to move it, and to try the second one.
 struct LookFurther<'a, L> {
     frame: &'a Frame<'a, L>,
-    rounding: &'a Rounding,
+    rounding: &'a PairRounding,
     poses: [&'a Pose; 2],
     cache: &'a mut DepthCache,
     answer: &'a mut DepthAnswer,
-    failure: Failure,
+    failure: ProofFailure,
 }
 
 impl<L: Lanes> Work for LookFurther<'_, L> {
@@ -123,7 +123,7 @@ impl<L: Lanes> Work for LookFurther<'_, L> {
                     Err(other) => failure = other,
                 }
             }
-            if failure == Failure::Reach
+            if failure == ProofFailure::Reach
                 && let Some(moved) = moved(frame, rounding, cache.pyramid(place))
                 && let Ok(rest) = moved.prove(frame, rounding)
             {
@@ -139,7 +139,7 @@ impl<L: Lanes> Work for LookFurther<'_, L> {
 
 /// A pyramid over a face, moved to the vertex below it that is the deepest now.
 #[inline(always)]
-fn moved<L: Lanes>(frame: &Frame<L>, rounding: &Rounding, pyramid: &Pyramid) -> Option<Pyramid> {
+fn moved<L: Lanes>(frame: &Frame<L>, rounding: &PairRounding, pyramid: &Pyramid) -> Option<Pyramid> {
     let direction = pyramid.direction(frame);
     pyramid.moved_to(polytope::support(frame, rounding, &direction, Some(pyramid.first()), f64::INFINITY).pair)
 }
@@ -220,7 +220,7 @@ impl<L: Lanes> Work for Raise<'_, L> {
     fn run(&mut self) {
         let Raise { cache, frame, facet: LeastFacet { upper, direction, farthest, .. } } = self;
         if let Some(pyramid) = polytope::raise(frame, direction, *upper, *farthest)
-            && pyramid.prove(frame, &Rounding::of(frame)).is_ok()
+            && pyramid.prove(frame, &PairRounding::of(frame)).is_ok()
         {
             cache.raised(Some(&pyramid));
         } else {
@@ -248,6 +248,6 @@ impl Kernel for Proving<'_> {
         if !frame.in_range {
             return None;
         }
-        self.pyramid.prove(&frame, &Rounding::of(&frame)).ok().map(|rest| rest.triangle)
+        self.pyramid.prove(&frame, &PairRounding::of(&frame)).ok().map(|rest| rest.triangle)
     }
 }

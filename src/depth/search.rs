@@ -6,8 +6,10 @@ use super::resting::{self, LeastFacet};
 use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::base::simd::{Kernel, Lanes, Work};
 use crate::body::polyhedron::fan::Fan;
-use crate::depth::facets::{self, Outcome as ByFacets, Overlap};
-use crate::depth::polytope::{self, Ending, Expansion, Polytope, SearchStart, Wanted, Witness, is_in_scale};
+use crate::depth::facets::{self, FacetOutcome, Overlap};
+use crate::depth::polytope::{
+    self, Ending, Expansion, Polytope, PolytopeWitness, SearchStart, WantedDepth, is_in_scale,
+};
 use crate::placed::Pair;
 use crate::placed::frame::Frame;
 
@@ -69,7 +71,7 @@ const MOST_VERTICES: usize = 64;
 const MOST_TRIANGLES: usize = 124;
 
 /// The result of one search or the other.
-pub enum Search {
+pub enum DepthSearch {
     /// An earlier pyramid: the answer is already complete.
     Answered,
     /// All facets: the query's overlap.
@@ -83,14 +85,14 @@ pub enum Search {
 /// The result of the search by a polytope.
 pub struct FoundPolytope {
     pub expansion: Expansion,
-    pub witness: Witness,
+    pub witness: PolytopeWitness,
     pub triangles: u32,
 }
 
 impl FoundPolytope {
     #[inline(always)]
     fn without_triangles(expansion: Expansion) -> FoundPolytope {
-        let witness = Witness { pairs: [expansion.farthest; 3], count: 1, weights: [1.0; 4], depth: 0.0 };
+        let witness = PolytopeWitness { pairs: [expansion.farthest; 3], count: 1, weights: [1.0; 4], depth: 0.0 };
         FoundPolytope { expansion, witness, triangles: 0 }
     }
 
@@ -109,10 +111,10 @@ impl FoundPolytope {
 
 impl Kernel for DepthQuery<'_> {
     /// None of a pair that floating point is not for.
-    type Output = Option<Search>;
+    type Output = Option<DepthSearch>;
 
     #[inline(always)]
-    fn run<L: Lanes>(&mut self) -> Option<Search> {
+    fn run<L: Lanes>(&mut self) -> Option<DepthSearch> {
         let frame = Frame::<L>::new(&self.pair);
         if !(frame.in_range && is_in_scale(self.pair.polyhedra)) {
             return None;
@@ -122,7 +124,7 @@ impl Kernel for DepthQuery<'_> {
             && (resting::look_at_facet(&frame, self.cache, self.answer)
                 || resting::look_at_pyramids(&frame, self.pair.poses, self.cache, self.answer))
         {
-            return Some(Search::Answered);
+            return Some(DepthSearch::Answered);
         }
         let before = self.cache.direction(&frame);
         let found = self.search_anew(&frame)?;
@@ -158,10 +160,10 @@ struct ByPolytope<'a, 'b, L> {
 }
 
 impl<L: Lanes> Work for ByPolytope<'_, '_, L> {
-    type Output = Option<Search>;
+    type Output = Option<DepthSearch>;
 
     #[inline(always)]
-    fn run(&mut self) -> Option<Search> {
+    fn run(&mut self) -> Option<DepthSearch> {
         let ByPolytope { query, frame } = self;
         let mut polytope = Polytope::<MOST_VERTICES, { MOST_TRIANGLES + 4 }>::EMPTY;
         let mut start = query.cache.unpack(frame, &mut polytope);
@@ -183,13 +185,13 @@ impl<L: Lanes> Work for ByPolytope<'_, '_, L> {
             found = L::out_of_line(&mut again);
         }
         if found.expansion.ending != Ending::Stuck {
-            return Some(Search::Polytope(found));
+            return Some(DepthSearch::Polytope(found));
         }
         if let Some(found) = query.search_facets(frame, WIDEST_OF_ALL) {
             return Some(found);
         }
         let start = SearchStart { triangle: None, direction: None, only_known: false, ..start };
-        Some(Search::Polytope(L::out_of_line(&mut InLarge { search: query, frame, start })))
+        Some(DepthSearch::Polytope(L::out_of_line(&mut InLarge { search: query, frame, start })))
     }
 }
 
@@ -207,13 +209,13 @@ impl<'a> DepthQuery<'a> {
 
     /// `None` where the search was not sure of one.
     #[inline(always)]
-    fn facet_of(&self, found: &Search) -> Option<LeastFacet> {
+    fn facet_of(&self, found: &DepthSearch) -> Option<LeastFacet> {
         match found {
-            Search::Facets => {
+            DepthSearch::Facets => {
                 let Overlap { upper, direction, facet, .. } = *self.overlap;
                 Some(LeastFacet { upper, direction, farthest: [0; 2], facet: Some(facet) })
             }
-            Search::Polytope(FoundPolytope { expansion, .. }) => {
+            DepthSearch::Polytope(FoundPolytope { expansion, .. }) => {
                 let Expansion { ending, lower, upper, direction, farthest, .. } = *expansion;
                 (ending == Ending::Narrow && lower > 0.0).then_some(LeastFacet {
                     upper,
@@ -222,13 +224,13 @@ impl<'a> DepthQuery<'a> {
                     facet: None,
                 })
             }
-            Search::Apart(_) | Search::Answered => None,
+            DepthSearch::Apart(_) | DepthSearch::Answered => None,
         }
     }
 
     /// Without what rested before.
     #[inline(always)]
-    fn search_anew<L: Lanes>(&mut self, frame: &Frame<L>) -> Option<Search> {
+    fn search_anew<L: Lanes>(&mut self, frame: &Frame<L>) -> Option<DepthSearch> {
         let work = self.work();
         if work <= LITTLE_WORK || (work <= MOST_WORK && !self.cache.has_polytope()) {
             let before = self.cache.facet_directions();
@@ -236,7 +238,8 @@ impl<'a> DepthQuery<'a> {
             if work <= LITTLE_WORK && found.is_some() {
                 return found;
             }
-            let is_coherent = matches!(found, Some(Search::Facets)) && are_alike(before, self.cache.facet_directions());
+            let is_coherent =
+                matches!(found, Some(DepthSearch::Facets)) && are_alike(before, self.cache.facet_directions());
             if found.is_some() && !is_coherent {
                 return found;
             }
@@ -261,20 +264,20 @@ impl<'a> DepthQuery<'a> {
     }
 
     #[inline(always)]
-    fn search_facets<L: Lanes>(&mut self, frame: &Frame<L>, widest: f64) -> Option<Search> {
+    fn search_facets<L: Lanes>(&mut self, frame: &Frame<L>, widest: f64) -> Option<DepthSearch> {
         let fans = self.fans()?;
         let outcome = facets::search(frame, fans, self.cache.facet(), widest * scale_of(frame), self.overlap);
         let Overlap { facet, direction, .. } = &*self.overlap;
         match outcome {
-            ByFacets::Separated => {
+            FacetOutcome::Separated => {
                 self.cache.keep_facet(frame, *facet, direction, false);
-                Some(Search::Apart(*direction))
+                Some(DepthSearch::Apart(*direction))
             }
-            ByFacets::Overlapping => {
+            FacetOutcome::Overlapping => {
                 self.cache.keep_facet(frame, *facet, direction, true);
-                Some(Search::Facets)
+                Some(DepthSearch::Facets)
             }
-            ByFacets::Unclear => None,
+            FacetOutcome::Unclear => None,
         }
     }
 
@@ -287,7 +290,7 @@ impl<'a> DepthQuery<'a> {
         steps: u32,
     ) -> FoundPolytope {
         let DepthConfig { absolute_error, relative_error, .. } = *self.config;
-        let wanted = Wanted { width: absolute_error, relative: relative_error, steps, lower: 0.0 };
+        let wanted = WantedDepth { width: absolute_error, relative: relative_error, steps, lower: 0.0 };
         let mut expansion = polytope::expand::<L, V, T, W>(frame, polytope, start, &wanted);
         if expansion.ending == Ending::Outdated {
             return FoundPolytope::without_triangles(expansion);

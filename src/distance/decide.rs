@@ -5,7 +5,7 @@ use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::Polyhedron;
 use crate::distance::certificate::Interval;
 use crate::distance::enclosure::{self, Enclosure};
-use crate::distance::gjk::{self, Supports};
+use crate::distance::gjk::{self, GjkSupports};
 use crate::placed::Pair;
 use crate::placed::exact::{self, VertexPair};
 use crate::placed::frame::Frame;
@@ -149,7 +149,7 @@ impl Kernel for Propose<'_> {
     fn run<L: Lanes>(&mut self) -> (Proposal, u32) {
         let &mut Propose { pair, hint, wanted } = self;
         let frame = Frame::<L>::new(&pair);
-        let mut supports = Supports::new(hint);
+        let mut supports = GjkSupports::new(hint);
         let (outcome, iterations) = gjk::solve(&frame, &mut supports, hint, wanted.tight);
         let simplex = match outcome {
             gjk::GjkResult::Nearest(nearest) => {

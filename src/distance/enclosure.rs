@@ -7,7 +7,7 @@
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::scalar::{Scalar, constant};
 use crate::base::simd::Lanes;
-use crate::distance::gjk::{self, Supports};
+use crate::distance::gjk::{self, GjkSupports};
 use crate::placed::exact::VertexPair;
 use crate::placed::frame::Frame;
 
@@ -39,7 +39,7 @@ pub fn encloses_origin<L: Lanes>(frame: &Frame<L>, pairs: &[VertexPair]) -> Opti
 /// A tetrahedron of vertex differences around the origin, from a simplex of one to four pairs that holds the origin up to
 /// rounding. `None` if none was found: then nothing is proved.
 #[inline(always)]
-pub fn enclose<L: Lanes>(frame: &Frame<L>, supports: &mut Supports, simplex: &[VertexPair]) -> Option<Enclosure> {
+pub fn enclose<L: Lanes>(frame: &Frame<L>, supports: &mut GjkSupports, simplex: &[VertexPair]) -> Option<Enclosure> {
     let (mut pairs, mut corners) = complete(frame, supports, simplex)?;
     let mut sides = sides_of_faces(frame, &in_lanes(&corners));
     let mut exchanges = 0;
@@ -195,7 +195,7 @@ fn beyond_uncertain_faces(corners: &[Vector; 4], sides: &Sides) -> Vector {
 #[inline(always)]
 fn complete<L: Lanes>(
     frame: &Frame<L>,
-    supports: &mut Supports,
+    supports: &mut GjkSupports,
     simplex: &[VertexPair],
 ) -> Option<([VertexPair; 4], [Vector; 4])> {
     let mut count = simplex.len().min(4);

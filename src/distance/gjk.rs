@@ -56,20 +56,20 @@ const ITERATION_LIMIT: u32 = 128;
 
 /// Support vertices, climbed to from the best of the vertices that were met before.
 #[derive(Debug, Clone, Copy)]
-pub struct Supports {
+pub struct GjkSupports {
     met: [VertexPair; 8],
     count: usize,
     /// The entry to be overwritten next.
     oldest: usize,
 }
 
-impl Supports {
+impl GjkSupports {
     /// From the given pairs (1 to 4, indices in range).
-    pub fn new(start: &[VertexPair]) -> Supports {
+    pub fn new(start: &[VertexPair]) -> GjkSupports {
         let count = start.len().min(4);
         let mut met = [start[0]; 8];
         met[..count].copy_from_slice(&start[..count]);
-        Supports { met, count, oldest: count % 8 }
+        GjkSupports { met, count, oldest: count % 8 }
     }
 
     /// The vertices of both bodies whose difference is farthest along a direction.
@@ -126,7 +126,7 @@ const SAMPLE: usize = 16;
 #[inline(always)]
 pub fn solve<L: Lanes>(
     frame: &Frame<L>,
-    supports: &mut Supports,
+    supports: &mut GjkSupports,
     start: &[VertexPair],
     tight: bool,
 ) -> (GjkResult, u32) {

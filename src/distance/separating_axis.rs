@@ -51,7 +51,7 @@ const LONGEST_CLIMBS: [u32; 2] = [4, 16];
 pub const NUDGE: f64 = 1.0 / 32.0;
 
 /// An axis on trial, and what it proves.
-pub struct Trial<L> {
+pub struct AxisTrial<L> {
     /// In the world, from body 2 to body 1.
     pub direction: L,
     /// The direction's reciprocal length.
@@ -72,19 +72,19 @@ pub struct Trial<L> {
     pub steps: u32,
 }
 
-impl<L: Lanes> Trial<L> {
+impl<L: Lanes> AxisTrial<L> {
     /// Tries an axis whose vertices the bodies have.
     #[inline(always)]
-    pub fn of_axis(frame: &Frame<L>, axis: &Axis) -> Trial<L> {
+    pub fn of_axis(frame: &Frame<L>, axis: &Axis) -> AxisTrial<L> {
         let [x, y, z] = axis.direction;
         let direction = frame.bodies[0].rotate(&Vector::new(x.into(), y.into(), z.into()));
-        Trial::new(frame, direction, axis.vertices, 0, LONGEST_CLIMBS[0])
+        AxisTrial::new(frame, direction, axis.vertices, 0, LONGEST_CLIMBS[0])
     }
 
     /// Tries a direction from vertices that are about its support vertices.
     #[inline(always)]
-    pub fn along(frame: &Frame<L>, direction: L, vertices: [u32; 2]) -> Trial<L> {
-        Trial::new(frame, direction, vertices, 0, LONGEST_CLIMBS[1])
+    pub fn along(frame: &Frame<L>, direction: L, vertices: [u32; 2]) -> AxisTrial<L> {
+        AxisTrial::new(frame, direction, vertices, 0, LONGEST_CLIMBS[1])
     }
 
     /// Whether the bodies are proved disjoint.
@@ -100,7 +100,7 @@ impl<L: Lanes> Trial<L> {
     }
 
     #[inline(always)]
-    fn new(frame: &Frame<L>, direction: L, mut vertices: [u32; 2], mut steps: u32, longest_climb: u32) -> Trial<L> {
+    fn new(frame: &Frame<L>, direction: L, mut vertices: [u32; 2], mut steps: u32, longest_climb: u32) -> AxisTrial<L> {
         let [body1, body2] = &frame.bodies;
         let square = direction.dot(direction);
         let inverse = reciprocal_length(square);
@@ -115,19 +115,19 @@ impl<L: Lanes> Trial<L> {
         let distance = difference.dot(difference).sqrt();
         let gap = direction.dot(difference) * inverse;
         let interval = interval(distance, gap, frame.difference_error(distance), 0.0, 0.0);
-        Trial { direction, inverse, vertices, interval, difference, distance, gap, is_clear, steps }
+        AxisTrial { direction, inverse, vertices, interval, difference, distance, gap, is_clear, steps }
     }
 
     /// The next axis to try.
     #[inline(always)]
-    fn next(&self, frame: &Frame<L>) -> Trial<L> {
+    fn next(&self, frame: &Frame<L>) -> AxisTrial<L> {
         let unit = self.direction.mul(L::splat(self.inverse));
         let direction = if self.is_clear {
             self.difference.negated_mul_add(L::splat(2.0 * self.gap / divisor(self.distance * self.distance)), unit)
         } else {
             self.difference.mul_add(L::splat(NUDGE / divisor(self.distance)), unit)
         };
-        Trial::new(frame, direction, self.vertices, self.steps, LONGEST_CLIMBS[1])
+        AxisTrial::new(frame, direction, self.vertices, self.steps, LONGEST_CLIMBS[1])
     }
 }
 
@@ -136,7 +136,7 @@ pub struct AxisSearch<'a, L> {
     /// The pair.
     pub frame: &'a Frame<'a, L>,
     /// The first trial, and where there is a better one the last.
-    pub trial: Trial<L>,
+    pub trial: AxisTrial<L>,
 }
 
 impl<L: Lanes> Work for AxisSearch<'_, L> {
@@ -147,7 +147,7 @@ impl<L: Lanes> Work for AxisSearch<'_, L> {
         let frame = self.frame;
         let direction = frame.bodies[0].offset.mul(L::splat(1.0 / divisor(frame.separation)));
         let vertices = farthest(frame, direction).unwrap_or(self.trial.vertices);
-        self.trial = Trial::new(frame, direction, vertices, self.trial.steps, LONGEST_CLIMBS[1]);
+        self.trial = AxisTrial::new(frame, direction, vertices, self.trial.steps, LONGEST_CLIMBS[1]);
         for _ in 1..MOST_DIRECTIONS {
             if self.trial.separates() | self.trial.overlaps_much(frame) {
                 return;

@@ -16,7 +16,7 @@
 //! that is far less than errors that are worth a look-up; [`SupportSearch::interval`] adds it.
 
 use crate::base::simd::{Lanes, Twins};
-use crate::body::tables::support_map::{Grid, Grids, Node, U1};
+use crate::body::tables::support_map::{Grids, MapGrid, MapNode, U1};
 use crate::distance::certificate::{Interval, reciprocal_length};
 use crate::placed::frame::Frame;
 
@@ -256,7 +256,7 @@ pub struct Supports<T> {
 
 /// Looks up the supports along a direction of each body.
 #[inline(always)]
-pub fn look_up<L: Lanes>(grids: [&Grid; 2], towards: L::Twins) -> Supports<L::Twins> {
+pub fn look_up<L: Lanes>(grids: [&MapGrid; 2], towards: L::Twins) -> Supports<L::Twins> {
     let [grid1, grid2] = grids;
     let to_map = columns::<L>(&grid1.to_map, &grid2.to_map);
     let [a, b, c, _, x, y, z, _] = L::Twins::product(&to_map, towards).to_array();
@@ -278,7 +278,7 @@ pub fn look_up<L: Lanes>(grids: [&Grid; 2], towards: L::Twins) -> Supports<L::Tw
 /// The cell where a direction meets the map of a body.
 struct Cell<'a> {
     /// From the first corner of the cell on; the second row begins a side later.
-    nodes: &'a [Node],
+    nodes: &'a [MapNode],
     /// The direction is this times (1, u, v).
     length: f32,
     /// The places of u and v in the cell, from 0 to 1.
@@ -288,7 +288,7 @@ struct Cell<'a> {
 
 impl Cell<'_> {
     #[inline(always)]
-    fn of(grid: &Grid, direction: [f32; 3]) -> Cell<'_> {
+    fn of(grid: &MapGrid, direction: [f32; 3]) -> Cell<'_> {
         const NEXT: [usize; 3] = [1, 2, 0];
         let [x, y, z] = [direction[0].abs(), direction[1].abs(), direction[2].abs()];
         let (axis, length) = if x >= y { (0, x) } else { (1, y) };

@@ -52,16 +52,16 @@ impl Functions {
 }
 
 /// Functions that were set once, in a list. They stay for ever: blocks may still come from them.
-struct Source {
+struct MemorySource {
     functions: Functions,
-    before: Option<&'static Source>,
+    before: Option<&'static MemorySource>,
 }
 
 /// All sources.
-static SOURCES: Mutex<Option<&'static Source>> = Mutex::new(None);
+static SOURCES: Mutex<Option<&'static MemorySource>> = Mutex::new(None);
 
 /// The source of new blocks; null for the system.
-static CURRENT: AtomicPtr<Source> = AtomicPtr::new(null_mut());
+static CURRENT: AtomicPtr<MemorySource> = AtomicPtr::new(null_mut());
 
 /// An allocator that takes memory from where swiftprox_library_set_allocator says.
 ///
@@ -75,7 +75,7 @@ static ALLOCATOR: Replaceable = Replaceable;
 
 /// What is taken for a block of this layout, and where in it its source stands. `None` for more than the address space holds.
 fn with_source(layout: Layout) -> Option<(Layout, usize)> {
-    let (whole, at) = layout.extend(Layout::new::<*mut Source>()).ok()?;
+    let (whole, at) = layout.extend(Layout::new::<*mut MemorySource>()).ok()?;
     // aligned_alloc of C11 wants multiples of the alignment.
     Some((whole.pad_to_align(), at))
 }
@@ -84,10 +84,10 @@ fn with_source(layout: Layout) -> Option<(Layout, usize)> {
 ///
 /// # Safety
 /// `block` is null, or `at + 8` bytes of it can be written; at + block is aligned for a pointer.
-unsafe fn sign(block: *mut u8, at: usize, source: *mut Source) -> *mut u8 {
+unsafe fn sign(block: *mut u8, at: usize, source: *mut MemorySource) -> *mut u8 {
     if !block.is_null() {
         // SAFETY: by the caller.
-        unsafe { block.add(at).cast::<*mut Source>().write(source) };
+        unsafe { block.add(at).cast::<*mut MemorySource>().write(source) };
     }
     block
 }
@@ -100,7 +100,7 @@ unsafe impl GlobalAlloc for Replaceable {
         let source = CURRENT.load(Ordering::Acquire);
         // SAFETY: sources are never freed; the layout is not empty.
         let block = match unsafe { source.as_ref() } {
-            Some(Source { functions: f, .. }) => {
+            Some(MemorySource { functions: f, .. }) => {
                 // SAFETY: the functions take any size and alignment.
                 must_return(|| unsafe { (f.allocate)(f.user, whole.size(), whole.align()) }).cast()
             }
@@ -131,8 +131,8 @@ unsafe impl GlobalAlloc for Replaceable {
         let Some((whole, at)) = with_source(layout) else { return };
         // SAFETY: `block` was given for the same layout, so it was signed there; its source is good for ever.
         unsafe {
-            match block.add(at).cast::<*mut Source>().read().as_ref() {
-                Some(Source { functions: f, .. }) => {
+            match block.add(at).cast::<*mut MemorySource>().read().as_ref() {
+                Some(MemorySource { functions: f, .. }) => {
                     must_return(|| (f.deallocate)(f.user, block.cast(), whole.size(), whole.align()));
                 }
                 None => System.dealloc(block, whole),
@@ -148,7 +148,7 @@ unsafe impl GlobalAlloc for Replaceable {
         // SAFETY: `block` was given for `layout`, so it was signed at `at`, and goes back with what it was taken with. The system
         // keeps what both blocks have in common; so does the copy.
         unsafe {
-            let source = block.add(at).cast::<*mut Source>().read();
+            let source = block.add(at).cast::<*mut MemorySource>().read();
             if source.is_null() && CURRENT.load(Ordering::Acquire).is_null() {
                 return sign(System.realloc(block, whole, new_whole.size()), new_at, source);
             }
@@ -204,7 +204,7 @@ fn set(functions: Option<Functions>) {
 }
 
 /// The source that these functions are, a new one the first time.
-fn source_of(functions: Functions) -> &'static Source {
+fn source_of(functions: Functions) -> &'static MemorySource {
     let mut sources = locked(&SOURCES);
     let mut known = *sources;
     while let Some(source) = known {
@@ -213,15 +213,15 @@ fn source_of(functions: Functions) -> &'static Source {
         }
         known = source.before;
     }
-    let layout = Layout::new::<Source>();
+    let layout = Layout::new::<MemorySource>();
     // SAFETY: the layout is not empty; what is there is written before it is read, and stays. From the system: the program's
     // functions would miss it.
     let source = unsafe {
-        let place = System.alloc(layout).cast::<Source>();
+        let place = System.alloc(layout).cast::<MemorySource>();
         if place.is_null() {
             std::alloc::handle_alloc_error(layout);
         }
-        place.write(Source { functions, before: *sources });
+        place.write(MemorySource { functions, before: *sources });
         &*place
     };
     *sources = Some(source);

@@ -42,18 +42,18 @@ pub type MeshReaderCallback = Option<
 const LONGEST_MESSAGE: usize = 4096;
 
 /// A callback and its user pointer.
-struct Reader {
+struct CallbackReader {
     callback: unsafe extern "C-unwind" fn(*mut c_void, *const c_char, usize, *mut MeshSink) -> i32,
     user: *mut c_void,
 }
 
 // SAFETY: `user` is only ever handed back to the callback, which swiftprox_library_register_mesh_reader requires to be callable
 // from every thread.
-unsafe impl Send for Reader {}
+unsafe impl Send for CallbackReader {}
 // SAFETY: as above.
-unsafe impl Sync for Reader {}
+unsafe impl Sync for CallbackReader {}
 
-impl Reader {
+impl CallbackReader {
     /// The mesh that the callback makes of a file.
     fn read(&self, bytes: &[u8]) -> Result<PolygonMesh> {
         let mut data = with_capacity(bytes.len() + 1)?;
@@ -108,7 +108,7 @@ pub unsafe extern "C" fn swiftprox_library_register_mesh_reader(
             unregister_mesh_reader(magic);
             return Ok(());
         };
-        let reader = Reader { callback, user };
+        let reader = CallbackReader { callback, user };
         Ok(register_mesh_reader(magic, Arc::new(move |bytes| reader.read(bytes)))?)
     })
 }

@@ -23,11 +23,11 @@ pub struct SceneHandle {
     /// what follows.
     users: AtomicU32,
     mark: Mark,
-    content: UnsafeCell<Content>,
+    content: UnsafeCell<SceneContent>,
 }
 
 #[derive(Debug)]
-struct Content {
+struct SceneContent {
     scene: Scene,
     /// A change was begun and not ended: a panic left it, and what it left behind is unknown.
     poisoned: bool,
@@ -61,7 +61,7 @@ impl Changing<'_> {
         }
     }
 
-    fn content(&mut self) -> &mut Content {
+    fn content(&mut self) -> &mut SceneContent {
         // SAFETY: `users` keeps all others out while this lives, and it is borrowed exclusively.
         unsafe { &mut *self.0.content.get() }
     }
@@ -85,7 +85,7 @@ impl Reading<'_> {
         if before >= CHANGING { Err(busy()) } else { Ok(reading) }
     }
 
-    fn content(&self) -> &Content {
+    fn content(&self) -> &SceneContent {
         // SAFETY: `users` keeps out those that change the scene while this lives.
         unsafe { &*self.0.content.get() }
     }
@@ -100,7 +100,7 @@ impl Drop for Reading<'_> {
 // The header's rule for threads needs this of both handles.
 const _: () = {
     const fn is_shared_between_threads<T: Send + Sync>() {}
-    is_shared_between_threads::<Content>();
+    is_shared_between_threads::<SceneContent>();
     is_shared_between_threads::<Shape>();
 };
 
@@ -175,7 +175,7 @@ pub unsafe extern "C" fn swiftprox_scene_destroy(scene: *mut SceneHandle) -> Sta
             std::mem::forget(Changing::enter(unsafe { handle(scene, "scene") }?)?);
             // SAFETY: a live scene by the header's pointer rules; every one comes from Box::into_raw.
             let handle = unsafe { Box::from_raw(scene) };
-            let Content { mut scene, poisoned, .. } = handle.content.into_inner();
+            let SceneContent { mut scene, poisoned, .. } = handle.content.into_inner();
             // A bug was told when it was met: what there is of a recording ends here.
             return if poisoned { Ok(()) } else { Ok(scene.end_recording()?) };
         }
@@ -260,7 +260,7 @@ pub unsafe extern "C" fn swiftprox_scene_get_pair_active(
 pub(super) fn new_scene(workers: &CSceneOptions) -> Checked<*mut SceneHandle> {
     let mut made = Scene::new();
     made.set_workers(read_workers(workers)?);
-    let content = Content { scene: made, poisoned: false, told_of_recording: false };
+    let content = SceneContent { scene: made, poisoned: false, told_of_recording: false };
     let handle = SceneHandle { users: AtomicU32::new(0), mark: Mark::new(), content: UnsafeCell::new(content) };
     Ok(Box::into_raw(Box::new(handle)))
 }
@@ -352,7 +352,7 @@ pub(super) unsafe fn change_guarded(
     result
 }
 
-impl Content {
+impl SceneContent {
     /// Tells the log once that the recording has ended early: the call that met it did what it says all the same.
     #[inline(always)]
     fn tell_of_recording(&mut self) {

@@ -79,7 +79,7 @@ pub unsafe extern "C" fn swiftprox_scene_ground_contacts(
     answer: *mut CSceneGroundAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { find(scene, set, || Ok(Floor::Ground(read_placed(ground)?)), config, scratch, answer) }
+    unsafe { find(scene, set, || Ok(FloorInput::Ground(read_placed(ground)?)), config, scratch, answer) }
 }
 
 /// Like swiftprox_scene_ground_contacts for a half-space: one contact for each piece within config->max_distance, as from
@@ -95,7 +95,7 @@ pub unsafe extern "C" fn swiftprox_scene_half_space_contacts(
     answer: *mut CSceneGroundAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { find(scene, set, || Ok(Floor::HalfSpace(input(half_space, "half_space")?)), config, scratch, answer) }
+    unsafe { find(scene, set, || Ok(FloorInput::HalfSpace(input(half_space, "half_space")?)), config, scratch, answer) }
 }
 
 /// Asks a scene, and writes its contacts with what `floor` reads; none where it fails.
@@ -105,7 +105,7 @@ pub unsafe extern "C" fn swiftprox_scene_half_space_contacts(
 unsafe fn find<'a>(
     scene: *const SceneHandle,
     set: *const CObjectSet,
-    floor: impl FnOnce() -> Checked<Floor<'a>>,
+    floor: impl FnOnce() -> Checked<FloorInput<'a>>,
     config: *const CSceneGroundConfig,
     scratch: *mut SetScratch,
     answer: *mut CSceneGroundAnswer,
@@ -124,8 +124,10 @@ unsafe fn find<'a>(
             };
             let (scratch, set) = (exclusive(scratch, "scratch")?, set.as_ref());
             let SceneGroundContacts { contacts, points } = match floor()? {
-                Floor::Ground(ground) => scene.ground_contacts(set, ground, &config, filter, scratch)?,
-                Floor::HalfSpace(half_space) => scene.half_space_contacts(set, half_space, &config, filter, scratch)?,
+                FloorInput::Ground(ground) => scene.ground_contacts(set, ground, &config, filter, scratch)?,
+                FloorInput::HalfSpace(half_space) => {
+                    scene.half_space_contacts(set, half_space, &config, filter, scratch)?
+                }
             };
             answer.write(CSceneGroundAnswer {
                 contacts: if contacts.is_empty() { std::ptr::null() } else { contacts.as_ptr() },
@@ -139,7 +141,7 @@ unsafe fn find<'a>(
 }
 
 /// The objects whose contacts are sought.
-enum Floor<'a> {
+enum FloorInput<'a> {
     Ground(PlacedGround<'a>),
     HalfSpace(&'a HalfSpace),
 }

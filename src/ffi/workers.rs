@@ -35,12 +35,12 @@ pub type FinishTaskCallback = Option<unsafe extern "C-unwind" fn(task: *mut c_vo
 type FinishTask = unsafe extern "C-unwind" fn(task: *mut c_void, user: *mut c_void);
 
 /// The callbacks' companions from call to call.
-struct User(*mut c_void);
+struct UserWorkers(*mut c_void);
 
 // SAFETY: the pointer is only ever handed back to the callbacks, in the thread that calls.
-unsafe impl Send for User {}
+unsafe impl Send for UserWorkers {}
 // SAFETY: as above.
-unsafe impl Sync for User {}
+unsafe impl Sync for UserWorkers {}
 
 /// A task's work. It lives until the task is finished.
 struct Context<'a> {
@@ -63,9 +63,9 @@ unsafe extern "C" fn run_task(first: u32, end: u32, context: *mut c_void) {
 
 /// Workers that are a program's own threads.
 pub(super) fn workers(count: usize, enqueue: EnqueueTask, finish: FinishTask, user: *mut c_void) -> Workers {
-    let user = User(user);
+    let user = UserWorkers(user);
     Workers::new(count, move |parts, work| {
-        let User(user) = &user;
+        let UserWorkers(user) = &user;
         let context = Context { work, failed: AtomicBool::new(false) };
         let pointer = (&raw const context).cast_mut().cast::<c_void>();
         // SAFETY: the callbacks take such a task, its context, which outlives both calls, and their own pointer.

@@ -5,11 +5,11 @@
 use super::PlacedGround;
 use super::lowest::{PlacedTriangle, is_inside, local_point};
 use super::normals::TILT;
-use super::reach::Reach;
+use super::reach::GroundReach;
 use super::vertices::Vertices;
 use crate::answer::{feature_of_vertices, label};
 use crate::base::math::{Matrix, UNIT_ROUNDOFF, Vector, is_unit};
-use crate::body::polyhedron::Face;
+use crate::body::polyhedron::MergedFace;
 use crate::pair::{Feature, FeatureKind, Outcome, Placed, SignedDistance};
 use crate::placed::state::FeatureId;
 
@@ -18,21 +18,21 @@ const MOST_TRIED: usize = 64;
 
 /// A unit normal in the world, and how far the polyhedron is above the triangle along it; less than 0 where they overlap.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Best {
+pub(super) struct LeastOverlap {
     pub normal: Vector,
     pub gap: f64,
-    place: Place,
+    place: OverlapPlace,
 }
 
-impl Best {
+impl LeastOverlap {
     pub fn is_along_own_normal(&self) -> bool {
-        matches!(self.place, Place::Face(_))
+        matches!(self.place, OverlapPlace::Face(_))
     }
 }
 
 /// What touches what.
 #[derive(Debug, Clone, Copy)]
-enum Place {
+enum OverlapPlace {
     /// A vertex of the body, the triangle's face.
     Face(u32),
     /// The line of two vertices, or a vertex twice, and a side.
@@ -52,37 +52,37 @@ struct Low {
 }
 
 /// A search for the best normal of a triangle.
-pub(super) struct Search<'a> {
+pub(super) struct NormalSearch<'a> {
     body: Placed<'a>,
     vertices: Vertices<'a>,
     ground: PlacedGround<'a>,
-    reach: &'a Reach,
+    reach: &'a GroundReach,
     triangle: &'a PlacedTriangle,
 }
 
-impl<'a> Search<'a> {
+impl<'a> NormalSearch<'a> {
     pub fn new(
         vertices: Vertices<'a>,
         ground: PlacedGround<'a>,
-        reach: &'a Reach,
+        reach: &'a GroundReach,
         triangle: &'a PlacedTriangle,
-    ) -> Search<'a> {
-        Search { body: vertices.body, vertices, ground, reach, triangle }
+    ) -> NormalSearch<'a> {
+        NormalSearch { body: vertices.body, vertices, ground, reach, triangle }
     }
 
     /// The triangle's own normal, along which a vertex is lowest.
-    pub fn own(&self, vertex: u32) -> Best {
+    pub fn own(&self, vertex: u32) -> LeastOverlap {
         self.upwards(&Low { normal: self.triangle.up, vertex, point: self.point(vertex) })
     }
 
-    fn upwards(&self, low: &Low) -> Best {
+    fn upwards(&self, low: &Low) -> LeastOverlap {
         let gap = low.normal.dot(&(low.point - self.triangle.corners[0]));
-        Best { normal: low.normal, gap, place: Place::Face(low.vertex) }
+        LeastOverlap { normal: low.normal, gap, place: OverlapPlace::Face(low.vertex) }
     }
 
     /// The best normal. Rounding may hide which of two that are about as good is better.
     /// `vertex` is the lowest along the triangle's own.
-    pub fn best(&self, vertex: u32) -> Best {
+    pub fn best(&self, vertex: u32) -> LeastOverlap {
         let PlacedTriangle { own, marks, up, .. } = self.triangle;
         let low = Low { normal: *up, vertex, point: self.point(vertex) };
         let mut best = self.upwards(&low);
@@ -114,7 +114,7 @@ impl<'a> Search<'a> {
     /// Looks for better normals across a side, from the triangle's own to the one at the other end. Along each the body is as far
     /// above the side as its lowest vertex. Between two normals it is at most as far as the lowest vertices of both are; where that
     /// is better than the best, the lowest vertex there either is one of them or divides what is left in two.
-    fn across(&self, k: usize, own: Low, far: &Vector, best: &mut Best) {
+    fn across(&self, k: usize, own: Low, far: &Vector, best: &mut LeastOverlap) {
         let [tail, head] = [self.triangle.corners[k], self.triangle.corners[(k + 1) % 3]];
         // Along the normals between, the vertex that is below the side is a height of which the ends are the most, while it is
         // negative.
@@ -125,7 +125,7 @@ impl<'a> Search<'a> {
         let end = self.lowest(far, own.vertex);
         let gap = far.dot(&(end.point - tail));
         if gap > best.gap {
-            *best = Best { normal: *far, gap, place: Place::Beside(end.vertex) };
+            *best = LeastOverlap { normal: *far, gap, place: OverlapPlace::Beside(end.vertex) };
         }
         // No step is for the sake of rounding.
         let least_step =
@@ -143,12 +143,12 @@ impl<'a> Search<'a> {
             let low = self.lowest(&normal, one.vertex);
             let height = normal.dot(&(low.point - tail));
             if height >= bound - least_step {
-                *best = Best { normal, gap: bound, place: Place::Side(k, vertices) };
+                *best = LeastOverlap { normal, gap: bound, place: OverlapPlace::Side(k, vertices) };
                 continue;
             }
             // Two vertices may be as low as this at the normal that divides.
             if height > best.gap {
-                *best = Best { normal, gap: height, place: Place::Side(k, [low.vertex; 2]) };
+                *best = LeastOverlap { normal, gap: height, place: OverlapPlace::Side(k, [low.vertex; 2]) };
             }
             if count + 2 <= MOST_TRIED {
                 (open[count], open[count + 1]) = ((one, low), (low, other));
@@ -159,7 +159,7 @@ impl<'a> Search<'a> {
 
     /// Looks for a better normal at a corner, among those of the body's faces: where overlaps are least inside a peak's cone, three
     /// vertices are lowest. `inverse` is that of the body's rotation.
-    fn at_peak(&self, k: u32, inverse: &Matrix, best: &mut Best) {
+    fn at_peak(&self, k: u32, inverse: &Matrix, best: &mut LeastOverlap) {
         let (polyhedron, pose) = (self.body.shape.polyhedron(), self.body.pose);
         if polyhedron.dimension < 3 {
             return;
@@ -190,7 +190,7 @@ impl<'a> Search<'a> {
             }
             let gap = normal.dot(&(self.lowest(&normal, plane.vertex).point - corner));
             if gap > best.gap {
-                *best = Best { normal, gap, place: Place::Corner(k as usize, face) };
+                *best = LeastOverlap { normal, gap, place: OverlapPlace::Corner(k as usize, face) };
             }
         }
     }
@@ -208,25 +208,25 @@ impl<'a> Search<'a> {
 
     /// The contact along the best normal, with the outcome of `found`, and whether its points are on both. If not, they are the
     /// body's lowest and the one below it.
-    pub fn contact(&self, best: &Best, found: &SignedDistance) -> (SignedDistance, bool) {
-        let Best { normal, gap, place } = *best;
+    pub fn contact(&self, best: &LeastOverlap, found: &SignedDistance) -> (SignedDistance, bool) {
+        let LeastOverlap { normal, gap, place } = *best;
         let polyhedron = self.body.shape.polyhedron();
         let vertex =
             |vertex: u32| Feature { kind: FeatureKind::Vertex, ids: [polyhedron.vertex_labels[vertex as usize], 0] };
         let face_feature = Feature { kind: FeatureKind::Face, ids: [self.triangle.own.label, 0] };
         match place {
-            Place::Face(lowest) => {
+            OverlapPlace::Face(lowest) => {
                 let point = self.point(lowest);
                 let contact =
                     self.between(&normal, &point, &(point - normal * gap), [vertex(lowest), face_feature], found);
                 let is_over = self.is_over(&contact.local2.into());
                 (contact, is_over)
             }
-            Place::Beside(lowest) => {
+            OverlapPlace::Beside(lowest) => {
                 let point = self.point(lowest);
                 (self.between(&normal, &point, &(point - normal * gap), [vertex(lowest), face_feature], found), false)
             }
-            Place::Side(k, [one, other]) => {
+            OverlapPlace::Side(k, [one, other]) => {
                 let [tail, side] =
                     [self.triangle.corners[k], self.triangle.corners[(k + 1) % 3] - self.triangle.corners[k]];
                 let [a, line] = [self.point(one), self.point(other) - self.point(one)];
@@ -239,12 +239,13 @@ impl<'a> Search<'a> {
                 let on = if is_over { tail + side * s } else { own - normal * gap };
                 (self.between(&normal, &own, &on, [feature1, feature2], found), is_over)
             }
-            Place::Corner(k, face) => {
+            OverlapPlace::Corner(k, face) => {
                 let on = self.triangle.corners[k];
                 let own = on + normal * gap;
                 let local = local_point(self.body.pose, &own) - polyhedron.centre;
                 let lengths = polyhedron.radius + own.lp_norm(1) + self.body.pose.translation().lp_norm(1);
-                let is_off = |face: &Face| face.planes.value(0, &local) > face.slack + 256.0 * UNIT_ROUNDOFF * lengths;
+                let is_off =
+                    |face: &MergedFace| face.planes.value(0, &local) > face.slack + 256.0 * UNIT_ROUNDOFF * lengths;
                 if polyhedron.faces.iter().any(is_off) {
                     let Low { vertex: lowest, point, .. } = self.lowest(&normal, 0);
                     let on = point - normal * gap;
@@ -258,7 +259,7 @@ impl<'a> Search<'a> {
     }
 
     /// Another point of the body that is below the triangle: that of the direction in which they overlap least.
-    pub fn inner(&self, best: &Best, nearest: &SignedDistance) -> Option<SignedDistance> {
+    pub fn inner(&self, best: &LeastOverlap, nearest: &SignedDistance) -> Option<SignedDistance> {
         let (normal, towards) = (best.normal, Vector::from(nearest.normal));
         let own = Vector::from(nearest.world1) + towards * self.body.shape.swept_radius();
         let face = Feature { kind: FeatureKind::Face, ids: [self.triangle.own.label, 0] };

@@ -1,11 +1,11 @@
 //! When a moving body first meets a ground: its way is cut into parts, and the triangles near each part are cast at one by one.
 
 use super::PlacedGround;
-use super::reach::Reach;
-use super::tree::{Bounds, Visit};
+use super::reach::GroundReach;
+use super::tree::{NodeBounds, Visit};
 use crate::base::error::{Error, Result};
 use crate::base::simd::environment::with_default;
-use crate::motion::{CastAnswer, CastConfig, CastOutcome, Motion, Moving, Place, Swept, cast};
+use crate::motion::{CastAnswer, CastConfig, CastOutcome, Motion, Moving, PartEnd, Swept, cast};
 use crate::pair::PairCache;
 use crate::shape::TriangleShape;
 
@@ -39,7 +39,7 @@ pub fn ground_cast(body: Moving, ground: PlacedGround, config: &CastConfig) -> R
         let count = ground.ground.triangle_count() as u32;
         let fixed = Motion::Fixed(*ground.pose);
         let free = CastAnswer { outcome: CastOutcome::Free, time_lower: config.time_end, ..CastAnswer::default() };
-        let mut first = First {
+        let mut first = FirstTouch {
             body,
             fixed: &fixed,
             ground,
@@ -55,10 +55,10 @@ pub fn ground_cast(body: Moving, ground: PlacedGround, config: &CastConfig) -> R
             stretch: 1.0,
         };
         let swept = Swept::new(body.into(), config.range())?;
-        let mut before: Option<(f64, Bounds)> = None;
+        let mut before: Option<(f64, NodeBounds)> = None;
         for place in swept.places() {
-            let Place { time, pose, off } = place?;
-            let reach = Reach::new(body.shape.at(&pose), ground)?;
+            let PartEnd { time, pose, off } = place?;
+            let reach = GroundReach::new(body.shape.at(&pose), ground)?;
             let beyond = ((off + config.max_distance) / reach.stretch).next_up();
             let here = reach.bounds.grown(beyond);
             if let Some((from, there)) = before.replace((time, here)) {
@@ -80,7 +80,7 @@ pub fn ground_cast(body: Moving, ground: PlacedGround, config: &CastConfig) -> R
 }
 
 /// The first contact with the triangles that walks have reached.
-struct First<'a> {
+struct FirstTouch<'a> {
     body: Moving<'a>,
     fixed: &'a Motion<'a>,
     ground: PlacedGround<'a>,
@@ -96,14 +96,14 @@ struct First<'a> {
     clearance: f64,
     queries: u32,
     /// What the body sweeps over in the part, grown by `max_distance`, in the frame of the ground.
-    bounds: Option<Bounds>,
+    bounds: Option<NodeBounds>,
     /// What begins after it is the next part's to find, unless it is the last.
     part_end: f64,
     stretch: f64,
 }
 
-impl Visit for First<'_> {
-    fn goes_to(&mut self, _: &Bounds, gap: f64) -> bool {
+impl Visit for FirstTouch<'_> {
+    fn goes_to(&mut self, _: &NodeBounds, gap: f64) -> bool {
         if gap > 0.0 {
             self.clearance = self.clearance.min(gap * self.stretch);
         }
@@ -113,7 +113,7 @@ impl Visit for First<'_> {
 
     fn triangle(&mut self, triangle: u32) -> Result<bool> {
         let own = self.ground.ground.triangle(triangle);
-        let bounds = Bounds::of(&own.corners);
+        let bounds = NodeBounds::of(&own.corners);
         let gap = self.bounds.map_or(0.0, |swept| bounds.gap(&swept));
         if !self.goes_to(&bounds, gap) {
             return Ok(true);
@@ -151,7 +151,7 @@ impl Visit for First<'_> {
     }
 }
 
-impl First<'_> {
+impl FirstTouch<'_> {
     fn answer(self) -> GroundCastAnswer {
         let mut found = self.found;
         found.answer.queries = self.queries;

@@ -3,12 +3,12 @@
 
 use super::corner::most_parallel;
 use super::lowest::PlacedTriangle;
-use super::reach::Reach;
+use super::reach::GroundReach;
 use super::vertices::Vertices;
 use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::memory::push;
-use crate::body::polyhedron::{Face, Polyhedron};
+use crate::body::polyhedron::{MergedFace, Polyhedron};
 use crate::manifold::{COINCIDENT, ManifoldPoint, PARALLEL, id_of, witness};
 use crate::pair::{Feature, FeatureKind, SignedDistance};
 
@@ -25,7 +25,7 @@ const LEAST_COSINE: f64 = 0.05;
 /// A contact of a body and a triangle.
 pub(super) struct Meet<'a> {
     pub body: &'a Vertices<'a>,
-    pub reach: &'a Reach,
+    pub reach: &'a GroundReach,
     pub triangle: &'a PlacedTriangle,
     pub contact: &'a SignedDistance,
     /// Whether the contact's own points are on both.
@@ -220,7 +220,7 @@ impl<'a> Projected<'a> {
         Feature { kind: FeatureKind::Vertex, ids: [self.polyhedron.vertex_labels[vertex as usize], 0] }
     }
 
-    fn side(&self, face: &Face, side: usize) -> Feature {
+    fn side(&self, face: &MergedFace, side: usize) -> Feature {
         edge(self.polyhedron.edges[self.polyhedron.side(face, side as u32) as usize].labels)
     }
 

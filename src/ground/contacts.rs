@@ -1,17 +1,17 @@
 //! Contacts of a body with a ground, with normals of the surface.
 
 use super::PlacedGround;
-use super::allowed::Search;
+use super::allowed::NormalSearch;
 use super::answer::GroundContacts;
 use super::common::{Meet, add_common};
-use super::corner::{Behind, behind_face};
+use super::corner::{FaceVerdict, behind_face};
 use super::grouping::{group, least_gap};
 use super::inside::triangle_over;
 use super::lowest::{Limit, Lowest, PlacedTriangle, inside_by};
 use super::normals::TILT;
-use super::reach::Reach;
-use super::room::{Room, Touch};
-use super::simplex::{self, Nearest};
+use super::reach::GroundReach;
+use super::room::{Room, TriangleTouch};
+use super::simplex::{self, NearestOfTriangle};
 use super::vertices::Vertices;
 use crate::base::error::Result;
 use crate::base::math::Vector;
@@ -66,7 +66,7 @@ pub(crate) fn add_contacts(
         config.check()?;
         body.pose.check()?;
         ground.pose.check()?;
-        let reach = Reach::new(body, ground)?;
+        let reach = GroundReach::new(body, ground)?;
         let (bounds, enough) = (reach.bounds, config.max_distance / reach.stretch);
         let within = PairConfig { max_distance: config.max_distance, ..PairConfig::default() };
         let Room { triangle, touches, points, vertices, .. } = &mut found.room;
@@ -107,12 +107,12 @@ struct Meeting<'a> {
     body: Placed<'a>,
     vertices: Vertices<'a>,
     ground: PlacedGround<'a>,
-    reach: &'a Reach,
+    reach: &'a GroundReach,
     within: PairConfig,
     all: ManifoldConfig,
     /// The query's triangle.
     shape: &'a mut TriangleShape,
-    touches: &'a mut Vec<Touch>,
+    touches: &'a mut Vec<TriangleTouch>,
     points: &'a mut Vec<ManifoldPoint>,
     /// `max_distance`, in the frame of the ground.
     enough: f64,
@@ -136,10 +136,10 @@ impl Meeting<'_> {
             return Ok(());
         }
         let placed = PlacedTriangle::new(own, self.ground, self.reach);
-        let search = Search::new(self.vertices, self.ground, self.reach, &placed);
+        let search = NormalSearch::new(self.vertices, self.ground, self.reach, &placed);
         let (nearest, best) = match self.nearest(&placed)? {
-            Found::Beyond => return Ok(()),
-            Found::Nearest(nearest) => {
+            TriangleFinding::Beyond => return Ok(()),
+            TriangleFinding::Nearest(nearest) => {
                 let normal = self.reach.local_normal(&nearest.normal.into());
                 if self.ground.ground.allows(triangle, &normal) {
                     self.touch(&placed, &nearest, true, None)?;
@@ -147,8 +147,8 @@ impl Meeting<'_> {
                 }
                 (Some(nearest), search.best(self.lowest))
             }
-            Found::Meeting => (None, search.best(self.lowest)),
-            Found::Through => (None, search.own(self.lowest)),
+            TriangleFinding::Meeting => (None, search.best(self.lowest)),
+            TriangleFinding::Through => (None, search.own(self.lowest)),
         };
         let gap = best.gap - self.body.shape.swept_radius();
         let found = nearest.unwrap_or(SignedDistance { outcome: Outcome::Intersecting, ..SignedDistance::default() });
@@ -180,7 +180,7 @@ impl Meeting<'_> {
 }
 
 /// What is known of a body and a triangle.
-enum Found {
+enum TriangleFinding {
     /// They are farther apart than `max_distance`.
     Beyond,
     Nearest(SignedDistance),
@@ -192,31 +192,35 @@ enum Found {
 
 impl Meeting<'_> {
     /// How near the body is to a triangle. Sets the lowest vertex.
-    fn nearest(&mut self, triangle: &PlacedTriangle) -> Result<Found> {
+    fn nearest(&mut self, triangle: &PlacedTriangle) -> Result<TriangleFinding> {
         let lowest = Lowest::new(&self.vertices, triangle, &triangle.up, self.lowest);
         self.lowest = lowest.vertex;
         let limit = Limit { radius: self.body.shape.swept_radius(), max_distance: self.all.max_distance };
         if limit.is_beyond(lowest.lower) {
-            return Ok(Found::Beyond);
+            return Ok(TriangleFinding::Beyond);
         }
         let inside = inside_by(triangle, &(lowest.world - lowest.up * lowest.height));
         if lowest.is_through(&self.reach.centre_in_world, triangle) {
-            return Ok(if lowest.is_least(triangle, inside) { Found::Through } else { Found::Meeting });
+            return Ok(if lowest.is_least(triangle, inside) {
+                TriangleFinding::Through
+            } else {
+                TriangleFinding::Meeting
+            });
         }
         if let Some(contact) = lowest.contact(self.body, &triangle.own, self.reach, limit, inside) {
-            return Ok(Found::Nearest(contact));
+            return Ok(TriangleFinding::Nearest(contact));
         }
         match behind_face(self.body, self.reach, triangle, &lowest, limit) {
-            Behind::Beyond => return Ok(Found::Beyond),
-            Behind::Nearest(contact) => return Ok(Found::Nearest(contact)),
-            Behind::Meets => return Ok(Found::Meeting),
-            Behind::Open => {}
+            FaceVerdict::Beyond => return Ok(TriangleFinding::Beyond),
+            FaceVerdict::Nearest(contact) => return Ok(TriangleFinding::Nearest(contact)),
+            FaceVerdict::Meets => return Ok(TriangleFinding::Meeting),
+            FaceVerdict::Open => {}
         }
         match simplex::nearest(&self.vertices, self.reach, triangle, &lowest, limit) {
-            Nearest::Beyond => return Ok(Found::Beyond),
-            Nearest::Apart(contact) => return Ok(Found::Nearest(contact)),
-            Nearest::Meeting if limit.radius == 0.0 => return Ok(Found::Meeting),
-            Nearest::Meeting | Nearest::Open => {}
+            NearestOfTriangle::Beyond => return Ok(TriangleFinding::Beyond),
+            NearestOfTriangle::Apart(contact) => return Ok(TriangleFinding::Nearest(contact)),
+            NearestOfTriangle::Meeting if limit.radius == 0.0 => return Ok(TriangleFinding::Meeting),
+            NearestOfTriangle::Meeting | NearestOfTriangle::Open => {}
         }
         // That takes longer than all before.
         if limit.radius == 0.0 {
@@ -225,13 +229,13 @@ impl Meeting<'_> {
             let mut answer = PairAnswer::default();
             pair::distance(bodies, &mut PairCache::default(), &self.within, &mut answer)?;
             return Ok(match answer.outcome {
-                Outcome::Intersecting => Found::Meeting,
-                Outcome::Beyond => Found::Beyond,
-                _ => Found::Nearest((&answer).into()),
+                Outcome::Intersecting => TriangleFinding::Meeting,
+                Outcome::Beyond => TriangleFinding::Beyond,
+                _ => TriangleFinding::Nearest((&answer).into()),
             });
         }
         let contact = self.signed_distance(&triangle.own)?;
-        Ok(if contact.outcome == Outcome::Beyond { Found::Beyond } else { Found::Nearest(contact) })
+        Ok(if contact.outcome == Outcome::Beyond { TriangleFinding::Beyond } else { TriangleFinding::Nearest(contact) })
     }
 
     /// The signed distance of the body and a triangle.
@@ -277,7 +281,7 @@ impl Meeting<'_> {
         let count = (self.points.len() - first_point) as u32;
         let &SignedDistance { outcome, normal, .. } = contact;
         let manifold = Manifold { outcome, reference, lower, upper, normal, point_count: count, found_count: count };
-        push(self.touches, Touch { triangle: triangle.own.label, manifold, first_point, beside })?;
+        push(self.touches, TriangleTouch { triangle: triangle.own.label, manifold, first_point, beside })?;
         Ok(true)
     }
 
@@ -303,7 +307,7 @@ impl Meeting<'_> {
         }
         let Some(triangle) = triangle_over(self.ground.ground, &self.reach.centre)? else { return Ok(()) };
         let placed = PlacedTriangle::new(self.ground.ground.triangle(triangle), self.ground, self.reach);
-        let contact = Search::new(self.vertices, self.ground, self.reach, &placed).push_from_behind();
+        let contact = NormalSearch::new(self.vertices, self.ground, self.reach, &placed).push_from_behind();
         // Its centre may be inside where the body is not, as that of an open surface.
         if contact.upper >= 0.0 {
             return Ok(());
@@ -315,7 +319,7 @@ impl Meeting<'_> {
     /// Leaves out contacts whose triangles a body no longer meets once another contact has pushed it out, if they are certainly
     /// more than twice as deep as that or push it back.
     fn leave_out_needless(&mut self) {
-        let most_deep = |touch: &Touch| -touch.least_gap()[0];
+        let most_deep = |touch: &TriangleTouch| -touch.least_gap()[0];
         self.touches.sort_unstable_by(|a, b| most_deep(a).total_cmp(&most_deep(b)).then(a.triangle.cmp(&b.triangle)));
         let first = self.touches.iter().take_while(|touch| touch.least_gap()[1] >= 0.0).count();
         let mut kept = first;
@@ -335,7 +339,7 @@ impl Meeting<'_> {
     }
 
     /// Whether a body that a contact has pushed out is clear of a triangle along the contact's normal.
-    fn frees(&self, contact: &Touch, triangle: u32) -> bool {
+    fn frees(&self, contact: &TriangleTouch, triangle: u32) -> bool {
         let normal = Vector::from(contact.manifold.normal);
         let vertex = self.vertices.lowest(&normal, 0);
         let low = normal.dot(&self.vertices.point(vertex)) - self.body.shape.swept_radius();
@@ -349,7 +353,7 @@ impl Meeting<'_> {
 /// Bodies beside the triangles of hills.
 #[cfg(test)]
 pub(super) mod near_hills {
-    use super::{PlacedTriangle, Reach, Vertices};
+    use super::{GroundReach, PlacedTriangle, Vertices};
     use crate::base::math::{Pose, Vector};
     use crate::ground::surface::{Ground, HeightGrid};
     use crate::random::Random;
@@ -360,7 +364,7 @@ pub(super) mod near_hills {
         pub ground: &'a Ground,
         pub place: &'a Pose,
         pub vertices: &'a Vertices<'a>,
-        pub reach: &'a Reach,
+        pub reach: &'a GroundReach,
         pub triangle: &'a PlacedTriangle,
     }
 
@@ -384,7 +388,7 @@ pub(super) mod near_hills {
             let pose = Pose::new(&(place.rotation() * turn), &place.transform(&over));
             let (body, placed, mut room) = (shape.at(&pose), ground.at(&place), Vec::new());
             let vertices = Vertices::place(body, &mut room).unwrap();
-            let reach = Reach::new(body, placed).unwrap();
+            let reach = GroundReach::new(body, placed).unwrap();
             for triangle in 0..ground.triangle_count() as u32 {
                 let own = ground.triangle(triangle);
                 let is_behind = own.normal.dot(&(reach.centre - own.corners[0])) < 0.0;

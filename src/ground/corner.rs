@@ -2,15 +2,15 @@
 //! triangles that are out of reach; where all other faces are farther from the corner, it is the nearest point, or the deepest.
 
 use super::lowest::{Limit, Lowest, PlacedTriangle, local_point};
-use super::reach::Reach;
+use super::reach::GroundReach;
 use crate::answer::label;
 use crate::base::math::{Vector, is_unit};
-use crate::body::polyhedron::{Face, NONE, Polyhedron};
+use crate::body::polyhedron::{MergedFace, NONE, Polyhedron};
 use crate::pair::{Feature, FeatureKind, Placed, SignedDistance};
 use crate::placed::state::FeatureId;
 
 /// The verdict of a face of the body on a triangle.
-pub(super) enum Behind {
+pub(super) enum FaceVerdict {
     /// The triangle is farther from the body than `max_distance`.
     Beyond,
     Nearest(SignedDistance),
@@ -34,20 +34,20 @@ pub(super) enum Behind {
 /// deep as the least of o − n·x − σ.
 pub(super) fn behind_face(
     body: Placed,
-    reach: &Reach,
+    reach: &GroundReach,
     triangle: &PlacedTriangle,
     lowest: &Lowest,
     limit: Limit,
-) -> Behind {
+) -> FaceVerdict {
     let (polyhedron, pose) = (body.shape.polyhedron(), body.pose);
     if !reach.is_rigid || polyhedron.dimension < 3 || body.shape.extent().inner_radius <= 0.0 {
-        return Behind::Open;
+        return FaceVerdict::Open;
     }
     // The bound of `PlacedTriangle` holds twice over for points in the body's frame: the transpose is off by three times the
     // defect.
     let error = 2.0 * lowest.error;
     let Some(face) = most_parallel(polyhedron, lowest.vertex, &pose.rotate_back(&-lowest.up)) else {
-        return Behind::Open;
+        return FaceVerdict::Open;
     };
     let world = &triangle.corners;
     let corners = world.map(|corner| pose.rotate_back(&(corner - pose.translation())) - polyhedron.centre);
@@ -56,7 +56,7 @@ pub(super) fn behind_face(
     let least = (1..3).fold(0, |least, k| if heights[k] < heights[least] { k } else { least });
     let lower = heights[least] - plane.slack - error;
     if limit.is_beyond(lower) {
-        return Behind::Beyond;
+        return FaceVerdict::Beyond;
     }
     let upper = heights[least] + plane.slack + error;
     let inside = inside_face(polyhedron, plane, &corners[least]);
@@ -73,18 +73,18 @@ pub(super) fn behind_face(
         if !(is_within && is_least) {
             match depth_of(polyhedron, &corners[least], error) {
                 // Another face is nearer.
-                Some(depth) if -depth > upper => return Behind::Meets,
+                Some(depth) if -depth > upper => return FaceVerdict::Meets,
                 Some(_) => {}
-                None if is_within => return Behind::Meets,
-                None => return Behind::Open,
+                None if is_within => return FaceVerdict::Meets,
+                None => return FaceVerdict::Open,
             }
         }
     } else if inside < 4.0 * (error + plane.slack) {
-        return Behind::Open;
+        return FaceVerdict::Open;
     }
-    let Some(distance) = limit.distance([lower, upper], heights[least]) else { return Behind::Open };
+    let Some(distance) = limit.distance([lower, upper], heights[least]) else { return FaceVerdict::Open };
     let world1 = world[least] + normal * distance.distance;
-    Behind::Nearest(SignedDistance {
+    FaceVerdict::Nearest(SignedDistance {
         local1: local_point(pose, &world1).into(),
         local2: triangle.own.corners[least].into(),
         world1: world1.into(),
@@ -97,7 +97,7 @@ pub(super) fn behind_face(
 }
 
 /// How far a point in centred coordinates is inside the sides of a face; less than 0 beside it.
-fn inside_face(polyhedron: &Polyhedron, face: &Face, point: &Vector) -> f64 {
+fn inside_face(polyhedron: &Polyhedron, face: &MergedFace, point: &Vector) -> f64 {
     let first = (1..4).map(|lane| face.planes.value(lane, point)).fold(f64::INFINITY, f64::min);
     let further = (face.side_count as usize).saturating_sub(3).div_ceil(4);
     let blocks = &polyhedron.more_sides[face.first_more as usize..][..further];
@@ -160,9 +160,9 @@ mod tests {
             let mut truth = PairAnswer::default();
             pair::distance(bodies, &mut PairCache::default(), &PairConfig::default(), &mut truth).unwrap();
             match found {
-                Behind::Beyond => assert!(truth.upper > limit.max_distance),
-                Behind::Meets => assert_eq!(truth.outcome, Outcome::Intersecting),
-                Behind::Nearest(contact) => {
+                FaceVerdict::Beyond => assert!(truth.upper > limit.max_distance),
+                FaceVerdict::Meets => assert_eq!(truth.outcome, Outcome::Intersecting),
+                FaceVerdict::Nearest(contact) => {
                     assert_eq!(truth.outcome, contact.outcome);
                     if contact.outcome == Outcome::Separated {
                         assert!(contact.lower <= truth.upper && truth.lower <= contact.upper);
@@ -181,13 +181,13 @@ mod tests {
                         assert!(height(&near.vertices.point(vertex)) - high <= contact.upper + 1e-12);
                     }
                 }
-                Behind::Open => {}
+                FaceVerdict::Open => {}
             }
             seen[match found {
-                Behind::Beyond => 0,
-                Behind::Meets => 1,
-                Behind::Nearest(_) => 2,
-                Behind::Open => return,
+                FaceVerdict::Beyond => 0,
+                FaceVerdict::Meets => 1,
+                FaceVerdict::Nearest(_) => 2,
+                FaceVerdict::Open => return,
             }] += 1;
         });
         assert!(cfg!(miri) || seen.iter().all(|count| *count > 20) && deep > 20, "{seen:?} {deep}");

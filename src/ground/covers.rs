@@ -1,8 +1,8 @@
 //! What lies on the rims of a ground: where triangles overlap, or a side meets the middle of another (a T-junction), or two grounds
 //! were made one along a seam, a side has no twin and still the surface does not end there.
 
-use super::tree::{Bounds, Tree, Visit};
-use super::triangles::{NONE, Triangles, next, previous};
+use super::tree::{GroundTree, NodeBounds, Visit};
+use super::triangles::{GroundTriangles, NONE, next, previous};
 use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::{copied, push};
@@ -20,7 +20,7 @@ pub(super) struct Covers {
 impl Covers {
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn new(triangles: &Triangles, tree: &Tree) -> Result<Covers> {
+    pub fn new(triangles: &GroundTriangles, tree: &GroundTree) -> Result<Covers> {
         let (mut covers, mut around) = (Covers::default(), Vec::new());
         for half_edge in 0..3 * triangles.records.len() as u32 {
             if triangles.twin(half_edge) != NONE || triangles.normal(half_edge / 3) == Vector::zeros() {
@@ -76,7 +76,7 @@ fn those_of(all: &[(u32, u32)], half_edge: u32) -> &[(u32, u32)] {
 
 /// A search for the triangles on which a point lies.
 struct Holding<'a> {
-    triangles: &'a Triangles,
+    triangles: &'a GroundTriangles,
     key: u32,
     /// Those that do not count.
     own: &'a [u32],
@@ -86,8 +86,8 @@ struct Holding<'a> {
 }
 
 impl Holding<'_> {
-    fn find(mut self, tree: &Tree) -> Result<()> {
-        tree.walk(&Bounds { lower: self.point, upper: self.point }, &mut self)
+    fn find(mut self, tree: &GroundTree) -> Result<()> {
+        tree.walk(&NodeBounds { lower: self.point, upper: self.point }, &mut self)
     }
 
     fn holds(&self, triangle: u32) -> bool {
@@ -101,7 +101,7 @@ impl Holding<'_> {
 }
 
 impl Visit for Holding<'_> {
-    fn goes_to(&mut self, _: &Bounds, gap: f64) -> bool {
+    fn goes_to(&mut self, _: &NodeBounds, gap: f64) -> bool {
         gap <= self.near
     }
 

@@ -1,8 +1,8 @@
 //! How far a body is from a ground: the least over its triangles, each answered by the pair layer.
 
 use super::PlacedGround;
-use super::reach::Reach;
-use super::tree::{Bounds, Visit};
+use super::reach::GroundReach;
+use super::tree::{NodeBounds, Visit};
 use crate::base::error::{Error, Result};
 use crate::base::simd::environment::with_default;
 use crate::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed, Query};
@@ -44,10 +44,10 @@ pub fn ground_distance(
         ground.pose.check()?;
         let is_verdict = query == Query::Intersection && config.max_distance == f64::INFINITY;
         let count = ground.ground.triangle_count() as u32;
-        let reach = Reach::new(body, ground)?;
+        let reach = GroundReach::new(body, ground)?;
         let bounds = reach.bounds;
         let unsaid = PairAnswer { outcome: Outcome::Separated, upper: f64::INFINITY, ..PairAnswer::UNSAID };
-        let mut least = Least {
+        let mut least = LeastToGround {
             ask,
             body,
             ground,
@@ -67,11 +67,11 @@ pub fn ground_distance(
 type Ask = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
 
 /// The least distance of the triangles that a walk has reached.
-struct Least<'a> {
+struct LeastToGround<'a> {
     ask: Ask,
     body: Placed<'a>,
     ground: PlacedGround<'a>,
-    reach: Reach,
+    reach: GroundReach,
     config: PairConfig,
     scratch: TriangleShape,
     nearest: GroundDistance,
@@ -82,8 +82,8 @@ struct Least<'a> {
     is_verdict: bool,
 }
 
-impl Visit for Least<'_> {
-    fn goes_to(&mut self, bounds: &Bounds, gap: f64) -> bool {
+impl Visit for LeastToGround<'_> {
+    fn goes_to(&mut self, bounds: &NodeBounds, gap: f64) -> bool {
         let mut gap = gap * self.reach.stretch;
         // From far away, all triangles are about as far.
         if gap <= self.enough && gap > self.body.shape.polyhedron().radius {
@@ -98,7 +98,7 @@ impl Visit for Least<'_> {
 
     fn triangle(&mut self, triangle: u32) -> Result<bool> {
         let own = self.ground.ground.triangle(triangle);
-        let bounds = Bounds::of(&own.corners);
+        let bounds = NodeBounds::of(&own.corners);
         if !self.goes_to(&bounds, bounds.gap(&self.reach.bounds)) {
             return Ok(true);
         }
@@ -128,7 +128,7 @@ impl Visit for Least<'_> {
     }
 }
 
-impl Least<'_> {
+impl LeastToGround<'_> {
     fn is_found(&self) -> bool {
         self.nearest.triangle < self.ground.ground.triangle_count() as u32
     }

@@ -2,7 +2,7 @@
 
 use super::answer::{GroundContact, GroundContacts};
 use super::normals::TILT;
-use super::room::{Grouping, Joined, Room, Touch};
+use super::room::{Grouping, Joined, Room, TriangleTouch};
 use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::{extend, push};
@@ -44,7 +44,7 @@ pub(super) fn group(found: &mut GroundContacts, reduces: bool, size: f64) -> Res
 }
 
 /// Joins contacts with one normal, the deepest first; all their points stay.
-fn join(touches: &mut [Touch], points: &[ManifoldPoint], grouping: &mut Grouping) -> Result<()> {
+fn join(touches: &mut [TriangleTouch], points: &[ManifoldPoint], grouping: &mut Grouping) -> Result<()> {
     let Grouping { is_taken, own, ids, joined, gathered, stays, .. } = grouping;
     touches.sort_unstable_by(|a, b| a.manifold.lower.total_cmp(&b.manifold.lower).then(a.triangle.cmp(&b.triangle)));
     is_taken.clear();
@@ -55,7 +55,7 @@ fn join(touches: &mut [Touch], points: &[ManifoldPoint], grouping: &mut Grouping
         if is_taken[leader] {
             continue;
         }
-        let Touch { triangle, mut manifold, mut beside, .. } = touches[leader];
+        let TriangleTouch { triangle, mut manifold, mut beside, .. } = touches[leader];
         let normal = Vector::from(manifold.normal);
         own.clear();
         ids.clear();

@@ -1,7 +1,7 @@
 //! Whether a point is inside a solid ground, and which triangle is nearest to it.
 
 use super::surface::Ground;
-use super::tree::{Bounds, Visit};
+use super::tree::{NodeBounds, Visit};
 use super::triangles::NONE;
 use crate::base::error::Result;
 use crate::base::math::Vector;
@@ -12,8 +12,13 @@ const AS_NEAR: f64 = 1.0 / (1_u64 << 40) as f64;
 /// The triangle nearest to a point, if the point is behind it and all others that are as near, and not beside a rim, by at most the
 /// thickness of the ground. The nearest point of a surface around a solid is never on a convex edge.
 pub(super) fn triangle_over(ground: &Ground, point: &Vector) -> Result<Option<u32>> {
-    let mut nearest =
-        Nearest { ground, point, square: ground.thickness() * ground.thickness(), triangle: NONE, is_behind: false };
+    let mut nearest = NearestSurface {
+        ground,
+        point,
+        square: ground.thickness() * ground.thickness(),
+        triangle: NONE,
+        is_behind: false,
+    };
     let bounds = ground.tree().bounds();
     // Inside of what is closed is inside of the box.
     if ground.thickness() == f64::INFINITY
@@ -21,11 +26,11 @@ pub(super) fn triangle_over(ground: &Ground, point: &Vector) -> Result<Option<u3
     {
         return Ok(None);
     }
-    ground.tree().walk(&Bounds { lower: *point, upper: *point }, &mut nearest)?;
+    ground.tree().walk(&NodeBounds { lower: *point, upper: *point }, &mut nearest)?;
     Ok(nearest.is_behind.then_some(nearest.triangle))
 }
 
-struct Nearest<'a> {
+struct NearestSurface<'a> {
     ground: &'a Ground,
     point: &'a Vector,
     /// The square of the distance that was found, or of the largest that counts.
@@ -34,8 +39,8 @@ struct Nearest<'a> {
     is_behind: bool,
 }
 
-impl Visit for Nearest<'_> {
-    fn goes_to(&mut self, _: &Bounds, gap: f64) -> bool {
+impl Visit for NearestSurface<'_> {
+    fn goes_to(&mut self, _: &NodeBounds, gap: f64) -> bool {
         gap * gap <= self.square * (1.0 + AS_NEAR)
     }
 

@@ -3,7 +3,7 @@
 
 use super::PlacedGround;
 use super::marks::Marks;
-use super::reach::Reach;
+use super::reach::GroundReach;
 use super::vertices::Vertices;
 use crate::answer::Radii;
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp, is_unit};
@@ -28,7 +28,7 @@ impl PlacedTriangle {
     /// A point that is placed is right to 6u of its translation and of twice its local length, the difference of two to u of
     /// both, the product with a direction to 4u of it, the length of the direction to 4u, the order of two heights to 8u, and the
     /// direction inside the body to 7u of twice its radius: all in all less than 64u of those lengths.
-    pub fn new(own: Triangle, ground: PlacedGround, reach: &Reach) -> PlacedTriangle {
+    pub fn new(own: Triangle, ground: PlacedGround, reach: &GroundReach) -> PlacedTriangle {
         let corners = own.corners.map(|corner| ground.pose.transform(&corner));
         let lengths = own.corners.iter().map(|corner| corner.lp_norm(1)).sum::<f64>();
         let (marks, up) = (ground.ground.marks(own.label), reach.world_normal(&own.normal));
@@ -71,7 +71,7 @@ impl Lowest {
         &self,
         body: Placed,
         triangle: &Triangle,
-        reach: &Reach,
+        reach: &GroundReach,
         limit: Limit,
         inside: f64,
     ) -> Option<SignedDistance> {

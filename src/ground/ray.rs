@@ -2,7 +2,7 @@
 
 use super::PlacedGround;
 use super::reach::ROUNDING;
-use super::tree::{Bounds, Visit};
+use super::tree::{NodeBounds, Visit};
 use crate::base::error::{Error, Result};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::environment::with_default;
@@ -30,12 +30,19 @@ impl PlacedGround<'_> {
         with_default(|| {
             ray.check()?;
             self.pose.check()?;
-            let slabs = Slabs::new(self, ray)?;
-            let start = Bounds { lower: slabs.point, upper: slabs.point };
+            let slabs = BoxSlabs::new(self, ray)?;
+            let start = NodeBounds { lower: slabs.point, upper: slabs.point };
             let miss = RayAnswer { outcome: RayOutcome::Miss, ..RayAnswer::default() };
             let found = GroundRayAnswer { answer: miss, triangle: self.ground.triangle_count() as u32 };
-            let mut first =
-                First { ground: *self, ray, slabs, scratch: None, found, entry: f64::INFINITY, enough: f64::INFINITY };
+            let mut first = FirstRayHit {
+                ground: *self,
+                ray,
+                slabs,
+                scratch: None,
+                found,
+                entry: f64::INFINITY,
+                enough: f64::INFINITY,
+            };
             self.ground.tree().walk(&start, &mut first)?;
             if first.found.answer.outcome == RayOutcome::Hit {
                 first.found.answer.entry[0] = first.entry;
@@ -46,10 +53,10 @@ impl PlacedGround<'_> {
 }
 
 /// The first hit of the triangles that a walk has reached.
-struct First<'a> {
+struct FirstRayHit<'a> {
     ground: PlacedGround<'a>,
     ray: &'a Ray,
-    slabs: Slabs,
+    slabs: BoxSlabs,
     /// Made on first need.
     scratch: Option<TriangleShape>,
     found: GroundRayAnswer,
@@ -59,15 +66,15 @@ struct First<'a> {
     enough: f64,
 }
 
-impl Visit for First<'_> {
-    fn goes_to(&mut self, bounds: &Bounds, _: f64) -> bool {
+impl Visit for FirstRayHit<'_> {
+    fn goes_to(&mut self, bounds: &NodeBounds, _: f64) -> bool {
         let entry = self.slabs.entry(bounds);
         entry <= self.enough && entry < f64::INFINITY
     }
 
     fn triangle(&mut self, triangle: u32) -> Result<bool> {
         let own = self.ground.ground.triangle(triangle);
-        if !self.goes_to(&Bounds::of(&own.corners), 0.0) {
+        if !self.goes_to(&NodeBounds::of(&own.corners), 0.0) {
             return Ok(true);
         }
         let answer = match self.rounded(&own) {
@@ -103,7 +110,7 @@ impl Visit for First<'_> {
 /// An interval no wider than this, relative to 1 and to its place, is as good as that of [`cast_ray`].
 const NARROW: f64 = f64::from_bits((1023 - 40) << 52);
 
-impl First<'_> {
+impl FirstRayHit<'_> {
     /// The answer of a triangle that the ray certainly misses, or certainly goes through from one side to the other; `None` of one
     /// near a side, a plane along the ray, or an end of it.
     ///
@@ -170,7 +177,7 @@ impl First<'_> {
 }
 
 /// The ray in the frame of a ground.
-struct Slabs {
+struct BoxSlabs {
     point: Vector,
     /// None of a direction so long or short that turning it might overflow or lose digits: no box is ruled out then.
     direction: Option<Vector>,
@@ -178,25 +185,25 @@ struct Slabs {
     slack: f64,
 }
 
-impl Slabs {
+impl BoxSlabs {
     /// Products with R⁻¹ are off by [`ROUNDING`] of the lengths that go in. Where the ray is in the box of all triangles, t·d is no
     /// longer than the way there and the box: the slack holds the error of both. Half of `ROUNDING` would do.
-    fn new(ground: &PlacedGround, ray: &Ray) -> Result<Slabs> {
+    fn new(ground: &PlacedGround, ray: &Ray) -> Result<BoxSlabs> {
         const PLAIN: std::ops::RangeInclusive<f64> = 1e-290..=1e290;
         let Some(inverse) = ground.pose.rotation().try_inverse() else {
             return Err(Error::Bug("a rotation that was accepted has no inverse".into()));
         };
         let (origin, translation) = (ray.origin(), ground.pose.translation());
-        let Bounds { lower, upper } = ground.ground.tree().bounds();
+        let NodeBounds { lower, upper } = ground.ground.tree().bounds();
         let size = origin.lp_norm(1) + translation.lp_norm(1) + lower.lp_norm(1) + upper.lp_norm(1);
         let slack = 8.0 * ROUNDING * size + f64::MIN_POSITIVE;
         let is_plain = PLAIN.contains(&ray.direction().amax()) && slack.is_finite();
         let direction = is_plain.then(|| inverse * ray.direction());
-        Ok(Slabs { point: inverse * (origin - translation), direction, t_max: ray.t_max, slack })
+        Ok(BoxSlabs { point: inverse * (origin - translation), direction, t_max: ray.t_max, slack })
     }
 
     /// No point of the ray before this is in a box; infinite where none is.
-    fn entry(&self, bounds: &Bounds) -> f64 {
+    fn entry(&self, bounds: &NodeBounds) -> f64 {
         let Some(direction) = &self.direction else { return 0.0 };
         let ways =
             |k: usize| [bounds.lower[k] - self.slack - self.point[k], bounds.upper[k] + self.slack - self.point[k]];

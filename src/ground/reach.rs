@@ -1,7 +1,7 @@
 //! The pose of a body in the frame of a ground.
 
 use super::PlacedGround;
-use super::tree::Bounds;
+use super::tree::NodeBounds;
 use crate::base::error::{Error, Result};
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF, Vector, is_unit};
 use crate::distance::certificate::of_vertex;
@@ -23,7 +23,7 @@ const RIGID: f64 = 16.0 * UNIT_ROUNDOFF;
 impl PlacedGround<'_> {
     /// A box in the world around all that the ground acts on, a little larger than it need be: its least and its greatest corner.
     pub(crate) fn world_box(&self) -> [Vector; 2] {
-        let Bounds { lower, upper } = *self.ground.tree().bounds();
+        let NodeBounds { lower, upper } = *self.ground.tree().bounds();
         let (middle, half) = (0.5 * lower + 0.5 * upper, 0.5 * upper - 0.5 * lower);
         let at = self.pose.transform(&middle);
         let size = self.pose.translation().lp_norm(1) + 2.0 * (middle.lp_norm(1) + half.lp_norm(1));
@@ -36,7 +36,7 @@ impl PlacedGround<'_> {
 }
 
 /// The body's own box and its ball, in the frame of the ground.
-struct Own {
+struct OwnReach {
     /// The middle of the box, its axes in columns, and half its sides.
     middle: Vector,
     axes: Matrix,
@@ -55,14 +55,14 @@ struct Own {
 const SHORTER: f64 = 1.0 - 32.0 * UNIT_ROUNDOFF;
 
 /// A body beside a ground.
-pub(super) struct Reach {
-    own: Own,
+pub(super) struct GroundReach {
+    own: OwnReach,
     /// The ground's rotation, its inverse, and where its origin is.
     turn: Matrix,
     inverse: Matrix,
     origin: Vector,
     /// A box around the body, in the frame of the ground, a little larger than it need be.
-    pub bounds: Bounds,
+    pub bounds: NodeBounds,
     /// Its centre of mass there, and in the world.
     pub centre: Vector,
     pub centre_in_world: Vector,
@@ -74,12 +74,12 @@ pub(super) struct Reach {
     pub stretch: f64,
 }
 
-impl Reach {
+impl GroundReach {
     /// For poses that are accepted.
     ///
     /// # Errors
     /// [`Error::Argument`] for a curved body; [`Error::Bug`].
-    pub fn new(body: Placed, ground: PlacedGround) -> Result<Reach> {
+    pub fn new(body: Placed, ground: PlacedGround) -> Result<GroundReach> {
         body.shape.refuse_deviation("grounds")?;
         let (polyhedron, pose) = (body.shape.polyhedron(), body.pose);
         let (turn, origin) = (ground.pose.rotation(), ground.pose.translation());
@@ -95,7 +95,7 @@ impl Reach {
         let stretch = least_stretch(ground.pose);
         let beyond = body.shape.swept_radius() / stretch + ROUNDING * size;
         let (axes, ends) = (inverse * pose.rotation(), ground.ground.tree().bounds());
-        let own = Own {
+        let own = OwnReach {
             middle: at,
             axes,
             half: *half,
@@ -107,12 +107,12 @@ impl Reach {
         };
         let half = (axes.abs() * half).add_scalar(beyond);
         let centre_in_world = pose.transform(&polyhedron.mass.centre_of_mass);
-        Ok(Reach {
+        Ok(GroundReach {
             own,
             turn,
             inverse,
             origin,
-            bounds: Bounds { lower: at - half, upper: at + half },
+            bounds: NodeBounds { lower: at - half, upper: at + half },
             centre: inverse * (centre_in_world - origin),
             centre_in_world,
             size: pose.translation().lp_norm(1)
@@ -129,7 +129,7 @@ impl Reach {
     /// Placed points are off by less than `slack`, the products with the triangle's normal and corners included; lengths along a
     /// vector of length 1 + 4u.
     pub fn is_over(&self, normal: &Vector, corner: &Vector, enough: f64) -> bool {
-        let Own { middle, axes, half, centre, radius, slack, .. } = &self.own;
+        let OwnReach { middle, axes, half, centre, radius, slack, .. } = &self.own;
         let [x, y, z] = [0, 1, 2].map(|k| axes.column(k).dot(normal).abs() * half[k]);
         let of_box = normal.dot(&(middle - corner)) - (x + y + z);
         let of_ball = normal.dot(&(centre - corner)) - radius;
@@ -138,8 +138,8 @@ impl Reach {
 
     /// Whether a triangle is farther than `enough` from the body's ball, or beside its box along one of its axes.
     pub fn is_beside(&self, corners: &[Vector; 3], enough: f64) -> bool {
-        let Own { middle, axes, along, lengths, centre, radius, slack, .. } = &self.own;
-        let bounds = Bounds::of(corners);
+        let OwnReach { middle, axes, along, lengths, centre, radius, slack, .. } = &self.own;
+        let bounds = NodeBounds::of(corners);
         let outside = (bounds.lower - centre).sup(&(centre - bounds.upper)).sup(&Vector::zeros());
         let far = (enough / SHORTER + radius + slack).max(0.0);
         if outside.norm_squared() * SHORTER > far * far {
@@ -175,7 +175,7 @@ impl Reach {
     ///
     /// The products are right to 4u, their factors to 8u, for the ends of the box as for the points that
     /// [`Lowest`](super::lowest::Lowest) bounds.
-    pub fn gap_along_way(&self, body: Placed, other: &Bounds) -> f64 {
+    pub fn gap_along_way(&self, body: Placed, other: &NodeBounds) -> f64 {
         let (polyhedron, pose) = (body.shape.polyhedron(), body.pose);
         let way = self.turn * other.way_to(&self.bounds);
         let length = way.norm();

@@ -12,7 +12,7 @@ pub(super) struct Room {
     /// The body's vertices.
     pub vertices: Vec<PointBlock>,
     /// The touches that a walk has found, triangle by triangle …
-    pub touches: Vec<Touch>,
+    pub touches: Vec<TriangleTouch>,
     /// … and the points of it.
     pub points: Vec<ManifoldPoint>,
     pub grouping: Grouping,
@@ -20,7 +20,7 @@ pub(super) struct Room {
 
 /// A contact of one triangle, with its points behind each other.
 #[derive(Debug)]
-pub(super) struct Touch {
+pub(super) struct TriangleTouch {
     pub triangle: u32,
     pub manifold: Manifold,
     pub first_point: usize,
@@ -28,7 +28,7 @@ pub(super) struct Touch {
     pub beside: Option<ManifoldPoint>,
 }
 
-impl Touch {
+impl TriangleTouch {
     /// The least gap of its points, or of the body's lowest, as an interval.
     pub fn least_gap(&self) -> [f64; 2] {
         let Manifold { lower, upper, .. } = self.manifold;

@@ -2,7 +2,7 @@
 //! that neither the lowest vertex nor a face decides.
 
 use super::lowest::{Limit, Lowest, PlacedTriangle, local_point};
-use super::reach::Reach;
+use super::reach::GroundReach;
 use super::vertices::Vertices;
 use crate::answer::{feature_of_vertices, label};
 use crate::base::math::Vector;
@@ -12,7 +12,7 @@ use crate::pair::{Feature, FeatureKind, SignedDistance};
 const MOST_STEPS: usize = 32;
 
 /// What a search tells.
-pub(super) enum Nearest {
+pub(super) enum NearestOfTriangle {
     /// The triangle is farther from the body than `max_distance`.
     Beyond,
     Apart(SignedDistance),
@@ -24,7 +24,7 @@ pub(super) enum Nearest {
 
 /// Differences of vertices of the body and corners of the triangle, and the weights of those that make the point nearest to the
 /// origin.
-struct Simplex {
+struct TriangleSimplex {
     points: [Vector; 4],
     pairs: [(u32, usize); 4],
     weights: [f64; 4],
@@ -37,22 +37,26 @@ struct Simplex {
 /// direction that is tried, and the point of the simplex is one of the differences of both up to that.
 pub(super) fn nearest(
     body: &Vertices,
-    reach: &Reach,
+    reach: &GroundReach,
     triangle: &PlacedTriangle,
     lowest: &Lowest,
     limit: Limit,
-) -> Nearest {
+) -> NearestOfTriangle {
     let PlacedTriangle { corners, error, .. } = *triangle;
     let square = |k: usize| (lowest.world - corners[k]).norm_squared();
     let first = (1..3).fold(0, |best, k| if square(k) < square(best) { k } else { best });
     let mut nearest = lowest.world - corners[first];
-    let mut simplex =
-        Simplex { points: [nearest; 4], pairs: [(lowest.vertex, first); 4], weights: [1.0, 0.0, 0.0, 0.0], count: 1 };
+    let mut simplex = TriangleSimplex {
+        points: [nearest; 4],
+        pairs: [(lowest.vertex, first); 4],
+        weights: [1.0, 0.0, 0.0, 0.0],
+        count: 1,
+    };
     for _ in 0..MOST_STEPS {
         let distance = nearest.norm();
         // False for a NaN.
         if !(distance > 32.0 * error) {
-            return Nearest::Open;
+            return NearestOfTriangle::Open;
         }
         let up = nearest / distance;
         let vertex = body.lowest(&up, simplex.pairs[0].0);
@@ -61,30 +65,30 @@ pub(super) fn nearest(
         let corner = (1..3).fold(0, |best, k| if height(k) < height(best) { k } else { best });
         let lower = height(corner) - body.excess(vertex, &up) - error;
         if limit.is_beyond(lower) {
-            return Nearest::Beyond;
+            return NearestOfTriangle::Beyond;
         }
         let upper = distance + error;
         let is_known = simplex.pairs[..simplex.count].contains(&(vertex, corner));
         if is_known || upper - lower <= 4.0 * error {
             if !(lower > 0.0 && upper - lower <= 16.0 * error) {
-                return Nearest::Open;
+                return NearestOfTriangle::Open;
             }
             return match limit.distance([lower, upper], distance) {
-                Some(found) => Nearest::Apart(simplex.contact(body, reach, triangle, &up, limit, found)),
-                None => Nearest::Open,
+                Some(found) => NearestOfTriangle::Apart(simplex.contact(body, reach, triangle, &up, limit, found)),
+                None => NearestOfTriangle::Open,
             };
         }
         (simplex.points[simplex.count], simplex.pairs[simplex.count]) = (world - corners[corner], (vertex, corner));
         simplex.count += 1;
         match simplex.reduce(error) {
             Some(point) => nearest = point,
-            None => return Nearest::Meeting,
+            None => return NearestOfTriangle::Meeting,
         }
     }
-    Nearest::Open
+    NearestOfTriangle::Open
 }
 
-impl Simplex {
+impl TriangleSimplex {
     /// Keeps what makes the point nearest to the origin. `None` if the origin is certainly in the simplex, and then in the
     /// difference of both: a ball about it of more than the error of the points is.
     fn reduce(&mut self, error: f64) -> Option<Vector> {
@@ -139,7 +143,7 @@ impl Simplex {
     fn contact(
         &self,
         body: &Vertices,
-        reach: &Reach,
+        reach: &GroundReach,
         triangle: &PlacedTriangle,
         up: &Vector,
         limit: Limit,
@@ -255,9 +259,9 @@ mod tests {
             let mut truth = PairAnswer::default();
             pair::distance(bodies, &mut PairCache::default(), &PairConfig::default(), &mut truth).unwrap();
             match found {
-                Nearest::Beyond => assert!(truth.upper > limit.max_distance),
-                Nearest::Meeting => assert_eq!(truth.outcome, Outcome::Intersecting),
-                Nearest::Apart(contact) => {
+                NearestOfTriangle::Beyond => assert!(truth.upper > limit.max_distance),
+                NearestOfTriangle::Meeting => assert_eq!(truth.outcome, Outcome::Intersecting),
+                NearestOfTriangle::Apart(contact) => {
                     assert_eq!(truth.outcome, Outcome::Separated);
                     assert!(contact.lower <= truth.upper && truth.lower <= contact.upper);
                     let [one, other] = [contact.world1, contact.world2].map(Vector::from);
@@ -265,13 +269,13 @@ mod tests {
                     assert!((one - other - normal * contact.distance).norm() < 1e-12);
                     assert!((normal - Vector::from(truth.normal)).norm() < 1e-6);
                 }
-                Nearest::Open => {}
+                NearestOfTriangle::Open => {}
             }
             seen[match found {
-                Nearest::Beyond => 0,
-                Nearest::Meeting => 1,
-                Nearest::Apart(_) => 2,
-                Nearest::Open => 3,
+                NearestOfTriangle::Beyond => 0,
+                NearestOfTriangle::Meeting => 1,
+                NearestOfTriangle::Apart(_) => 2,
+                NearestOfTriangle::Open => 3,
             }] += 1;
         });
         assert!(cfg!(miri) || seen[..3].iter().all(|count| *count > 50) && seen[3] == 0, "{seen:?}");

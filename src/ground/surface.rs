@@ -5,8 +5,8 @@ use std::sync::Arc;
 use super::PlacedGround;
 use super::covers::Covers;
 use super::marks::Marks;
-use super::tree::{Bounds, Tree};
-use super::triangles::{NONE, Record, Triangles, find_twins};
+use super::tree::{GroundTree, NodeBounds};
+use super::triangles::{GroundTriangles, NONE, TriangleRecord, find_twins};
 use crate::base::error::{Error, Result, check_range};
 use crate::base::mark::Mark;
 use crate::base::math::Vector;
@@ -23,8 +23,8 @@ const MOST_TRIANGLES: usize = 1 << 30;
 /// counter-clockwise.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ground {
-    triangles: Triangles,
-    tree: Tree,
+    triangles: GroundTriangles,
+    tree: GroundTree,
     covers: Covers,
     marks: Vec<Marks>,
     thickness: f64,
@@ -126,17 +126,17 @@ impl Ground {
             let extent = (b - a).amax().max((c - a).amax());
             let is_left_out = extent < 2.0 * SMALLEST;
             let normal = if is_left_out { Vector::zeros() } else { normal_of(&area_vector(&a, &b, &c), &a, &b, &c) };
-            records.push(Record { corners, twins: [NONE; 3], normal });
+            records.push(TriangleRecord { corners, twins: [NONE; 3], normal });
         }
         find_twins(&vertices, &mut records)?;
         let boxes = records.iter().map(|record| {
             let [a, b, c] = record.corners.map(|v| vertices[v as usize]);
-            (record.normal != Vector::zeros()).then(|| Bounds::of(&[a, b, c]))
+            (record.normal != Vector::zeros()).then(|| NodeBounds::of(&[a, b, c]))
         });
-        let Some(tree) = Tree::new(boxes)? else {
+        let Some(tree) = GroundTree::new(boxes)? else {
             return Err(Error::Mesh(format!("none of the {} triangles of the ground has an area", records.len())));
         };
-        let triangles = Triangles { vertices, records };
+        let triangles = GroundTriangles { vertices, records };
         let covers = Covers::new(&triangles, &tree)?;
         let shape = Arc::new(TriangleShape::new()?);
         let mut ground =
@@ -217,13 +217,13 @@ impl Ground {
         size_of::<Ground>() + shape.shown().bytes() + lists
     }
 
-    pub(super) fn tree(&self) -> &Tree {
+    pub(super) fn tree(&self) -> &GroundTree {
         &self.tree
     }
 
     /// A triangle, as the pair layer takes it.
     pub(super) fn triangle(&self, triangle: u32) -> Triangle {
-        let Record { corners, normal, .. } = self.triangles.records[triangle as usize];
+        let TriangleRecord { corners, normal, .. } = self.triangles.records[triangle as usize];
         Triangle {
             corners: corners.map(|v| self.triangles.vertices[v as usize]),
             normal,

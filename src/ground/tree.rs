@@ -12,42 +12,45 @@ const DEEPEST: usize = 64;
 
 /// A closed box along the axes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Bounds {
+pub(super) struct NodeBounds {
     pub lower: Vector,
     pub upper: Vector,
 }
 
-impl Bounds {
+impl NodeBounds {
     /// The bounds of a triangle.
-    pub fn of([a, b, c]: &[Vector; 3]) -> Bounds {
+    pub fn of([a, b, c]: &[Vector; 3]) -> NodeBounds {
         let [lower, upper] = [f64::min, f64::max].map(|pick| a.zip_map(b, pick).zip_map(c, pick));
-        Bounds { lower, upper }
+        NodeBounds { lower, upper }
     }
 
-    pub fn union(&self, other: &Bounds) -> Bounds {
-        Bounds { lower: self.lower.zip_map(&other.lower, f64::min), upper: self.upper.zip_map(&other.upper, f64::max) }
+    pub fn union(&self, other: &NodeBounds) -> NodeBounds {
+        NodeBounds {
+            lower: self.lower.zip_map(&other.lower, f64::min),
+            upper: self.upper.zip_map(&other.upper, f64::max),
+        }
     }
 
     /// Whether two boxes have points in common. Not branched on axis by axis (rule R4).
-    pub fn meets(&self, other: &Bounds) -> bool {
+    pub fn meets(&self, other: &NodeBounds) -> bool {
         let is_along = |k: usize| (self.lower[k] <= other.upper[k]) & (other.lower[k] <= self.upper[k]);
         is_along(0) & is_along(1) & is_along(2)
     }
 
     /// A box that reaches so much farther each way, rounded outward.
-    pub fn grown(&self, by: f64) -> Bounds {
+    pub fn grown(&self, by: f64) -> NodeBounds {
         debug_assert!(by >= 0.0);
-        Bounds { lower: self.lower.map(|x| (x - by).next_down()), upper: self.upper.map(|x| (x + by).next_up()) }
+        NodeBounds { lower: self.lower.map(|x| (x - by).next_down()), upper: self.upper.map(|x| (x + by).next_up()) }
     }
 
     /// How far two boxes are apart, at least: differences of ends are right to u, the norm of them to 5u more. It is finite: a
     /// square or a difference beyond the doubles leaves a length that may be one.
-    pub fn gap(&self, other: &Bounds) -> f64 {
+    pub fn gap(&self, other: &NodeBounds) -> f64 {
         (length(&self.way_to(other)) * (1.0 - 8.0 * f64::EPSILON)).min(f64::MAX)
     }
 
     /// The shortest way to another box.
-    pub fn way_to(&self, other: &Bounds) -> Vector {
+    pub fn way_to(&self, other: &NodeBounds) -> Vector {
         let between = |lower: f64, upper: f64| (lower - upper).max(0.0);
         Vector::from_fn(|k, _| between(other.lower[k], self.upper[k]) - between(self.lower[k], other.upper[k]))
     }
@@ -55,8 +58,8 @@ impl Bounds {
 
 /// A node; the first child of an inner one is the next node.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Node {
-    bounds: Bounds,
+struct GroundNode {
+    bounds: NodeBounds,
     /// The second child of an inner node; the place of the first triangle of a leaf.
     at: u32,
     /// How many triangles a leaf has; 0 of an inner node.
@@ -65,8 +68,8 @@ struct Node {
 
 /// The tree.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Tree {
-    nodes: Vec<Node>,
+pub(super) struct GroundTree {
+    nodes: Vec<GroundNode>,
     /// The triangles in the order of leaves.
     triangles: Vec<u32>,
 }
@@ -74,7 +77,7 @@ pub(super) struct Tree {
 /// The actions of a walk at what it comes to.
 pub(super) trait Visit {
     /// Whether to go to the triangles in a box that is so far from the body's.
-    fn goes_to(&mut self, bounds: &Bounds, gap: f64) -> bool;
+    fn goes_to(&mut self, bounds: &NodeBounds, gap: f64) -> bool;
     /// Comes to a triangle; `false` ends the walk.
     ///
     /// # Errors
@@ -82,12 +85,12 @@ pub(super) trait Visit {
     fn triangle(&mut self, triangle: u32) -> Result<bool>;
 }
 
-impl Tree {
+impl GroundTree {
     /// From the boxes of triangles; those without one are left out. `None` if all are.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn new(boxes: impl Iterator<Item = Option<Bounds>>) -> Result<Option<Tree>> {
+    pub fn new(boxes: impl Iterator<Item = Option<NodeBounds>>) -> Result<Option<GroundTree>> {
         let mut items = Vec::new();
         for (triangle, bounds) in (0..).zip(boxes) {
             if let Some(bounds) = bounds {
@@ -99,17 +102,20 @@ impl Tree {
         }
         let mut nodes = with_capacity(items.len().next_power_of_two())?;
         grow(&mut nodes, &mut items, 0)?;
-        Ok(Some(Tree { nodes: copied(&nodes)?, triangles: collected(items.iter().map(|(triangle, _)| *triangle))? }))
+        Ok(Some(GroundTree {
+            nodes: copied(&nodes)?,
+            triangles: collected(items.iter().map(|(triangle, _)| *triangle))?,
+        }))
     }
 
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn try_clone(&self) -> Result<Tree> {
-        Ok(Tree { nodes: copied(&self.nodes)?, triangles: copied(&self.triangles)? })
+    pub fn try_clone(&self) -> Result<GroundTree> {
+        Ok(GroundTree { nodes: copied(&self.nodes)?, triangles: copied(&self.triangles)? })
     }
 
     /// The box of all triangles.
-    pub fn bounds(&self) -> &Bounds {
+    pub fn bounds(&self) -> &NodeBounds {
         &self.nodes[0].bounds
     }
 
@@ -122,7 +128,7 @@ impl Tree {
     ///
     /// # Errors
     /// Those of `visit`.
-    pub fn overlapping(&self, body: &Bounds, mut visit: impl FnMut(u32) -> Result<()>) -> Result<()> {
+    pub fn overlapping(&self, body: &NodeBounds, mut visit: impl FnMut(u32) -> Result<()>) -> Result<()> {
         let mut stack = [0_u32; DEEPEST];
         let mut depth = 1;
         while depth > 0 {
@@ -148,7 +154,7 @@ impl Tree {
     ///
     /// # Errors
     /// Those of `visit`.
-    pub fn walk(&self, body: &Bounds, visit: &mut impl Visit) -> Result<()> {
+    pub fn walk(&self, body: &NodeBounds, visit: &mut impl Visit) -> Result<()> {
         let mut stack = [(0_u32, 0.0_f64); DEEPEST];
         let mut depth = 1;
         stack[0] = (0, self.nodes[0].bounds.gap(body));
@@ -178,17 +184,17 @@ impl Tree {
 }
 
 /// Adds the node of some triangles, the first of which has this place, and those below it.
-fn grow(nodes: &mut Vec<Node>, items: &mut [(u32, Bounds)], first: usize) -> Result<()> {
+fn grow(nodes: &mut Vec<GroundNode>, items: &mut [(u32, NodeBounds)], first: usize) -> Result<()> {
     debug_assert!(!items.is_empty());
     let all = items.iter().map(|(_, bounds)| *bounds).reduce(|a, b| a.union(&b));
     let Some(bounds) = all else { return Ok(()) };
     let number = nodes.len();
     let count = if items.len() <= LEAF { items.len() as u32 } else { 0 };
-    push(nodes, Node { bounds, at: first as u32, count })?;
+    push(nodes, GroundNode { bounds, at: first as u32, count })?;
     if count > 0 {
         return Ok(());
     }
-    let middle = |bounds: &Bounds, axis: usize| bounds.lower[axis] + bounds.upper[axis];
+    let middle = |bounds: &NodeBounds, axis: usize| bounds.lower[axis] + bounds.upper[axis];
     let axis = (bounds.upper - bounds.lower).imax();
     let half = items.len() / 2;
     items.select_nth_unstable_by(half, |(t1, b1), (t2, b2)| {

@@ -9,7 +9,7 @@ pub(super) const NONE: u32 = u32::MAX;
 
 /// A triangle, in 48 bytes.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(super) struct Record {
+pub(super) struct TriangleRecord {
     pub corners: [u32; 3],
     /// The twins of the half-edges 3t + k, from corner k to the next, or [`NONE`].
     pub twins: [u32; 3],
@@ -19,12 +19,12 @@ pub(super) struct Record {
 
 /// Vertices and the triangles over them.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Triangles {
+pub(super) struct GroundTriangles {
     pub vertices: Vec<Vector>,
-    pub records: Vec<Record>,
+    pub records: Vec<TriangleRecord>,
 }
 
-impl Triangles {
+impl GroundTriangles {
     /// The unit normal of a triangle, out of its front.
     pub fn normal(&self, triangle: u32) -> Vector {
         self.records[triangle as usize].normal
@@ -47,8 +47,8 @@ impl Triangles {
 
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn try_clone(&self) -> Result<Triangles> {
-        Ok(Triangles { vertices: copied(&self.vertices)?, records: copied(&self.records)? })
+    pub fn try_clone(&self) -> Result<GroundTriangles> {
+        Ok(GroundTriangles { vertices: copied(&self.vertices)?, records: copied(&self.records)? })
     }
 }
 
@@ -64,7 +64,7 @@ pub(super) fn previous(half_edge: u32) -> u32 {
 
 /// A side of a triangle between two places.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Side {
+struct TriangleSide {
     /// The lesser place first.
     ends: [u32; 2],
     half_edge: u32,
@@ -73,10 +73,11 @@ struct Side {
 
 /// Joins sides whose ends are at equal places and that go opposite ways, and leaves out triangles that stand there before: their
 /// normals become 0. At a side of several triangles two are neighbours that have nothing before their fronts but each other.
-pub(super) fn find_twins(vertices: &[Vector], records: &mut [Record]) -> Result<()> {
+pub(super) fn find_twins(vertices: &[Vector], records: &mut [TriangleRecord]) -> Result<()> {
     let place_of = first_at_same_place(vertices)?;
     let mut sides = sides_of(&place_of, records)?;
-    let is_plain = |same: &[Side]| matches!(same, [_]) || matches!(same, [a, b] if a.is_upwards != b.is_upwards);
+    let is_plain =
+        |same: &[TriangleSide]| matches!(same, [_]) || matches!(same, [a, b] if a.is_upwards != b.is_upwards);
     if !sides.chunk_by(|one, other| one.ends == other.ends).all(is_plain) {
         leave_out_copies(&place_of, records)?;
         sides = sides_of(&place_of, records)?;
@@ -106,16 +107,16 @@ pub(super) fn find_twins(vertices: &[Vector], records: &mut [Record]) -> Result<
     Ok(())
 }
 
-fn join(records: &mut [Record], one: &Side, other: &Side) {
+fn join(records: &mut [TriangleRecord], one: &TriangleSide, other: &TriangleSide) {
     records[one.half_edge as usize / 3].twins[one.half_edge as usize % 3] = other.half_edge;
     records[other.half_edge as usize / 3].twins[other.half_edge as usize % 3] = one.half_edge;
 }
 
 /// The angle of a triangle around a side, from the first of those there, the way to which triangles that go upwards face.
-fn angle(vertices: &[Vector], records: &[Record], several: &[Side], side: &Side) -> f64 {
+fn angle(vertices: &[Vector], records: &[TriangleRecord], several: &[TriangleSide], side: &TriangleSide) -> f64 {
     // Towards the inside, along the normal, for a half-edge that goes upwards.
-    let axes = |side: &Side| {
-        let Record { corners, normal, .. } = records[side.half_edge as usize / 3];
+    let axes = |side: &TriangleSide| {
+        let TriangleRecord { corners, normal, .. } = records[side.half_edge as usize / 3];
         let k = side.half_edge as usize % 3;
         let along = vertices[corners[(k + 1) % 3] as usize] - vertices[corners[k] as usize];
         let inward = normal.cross(&along);
@@ -129,13 +130,13 @@ fn angle(vertices: &[Vector], records: &[Record], several: &[Side], side: &Side)
 }
 
 /// The sides of all triangles that are not left out, those between two places together.
-fn sides_of(place_of: &[u32], records: &[Record]) -> Result<Vec<Side>> {
+fn sides_of(place_of: &[u32], records: &[TriangleRecord]) -> Result<Vec<TriangleSide>> {
     let mut sides = with_capacity(3 * records.len())?;
     for (t, record) in records.iter().enumerate().filter(|(_, record)| record.normal != Vector::zeros()) {
         let places = record.corners.map(|v| place_of[v as usize]);
         for k in 0..3 {
             let [from, to] = [places[k], places[(k + 1) % 3]];
-            sides.push(Side {
+            sides.push(TriangleSide {
                 ends: [from.min(to), from.max(to)],
                 half_edge: (3 * t + k) as u32,
                 is_upwards: from < to,
@@ -147,7 +148,7 @@ fn sides_of(place_of: &[u32], records: &[Record]) -> Result<Vec<Side>> {
 }
 
 /// Leaves out all but the first of triangles with equal corners in the same turn.
-fn leave_out_copies(place_of: &[u32], records: &mut [Record]) -> Result<()> {
+fn leave_out_copies(place_of: &[u32], records: &mut [TriangleRecord]) -> Result<()> {
     let mut turned = with_capacity(records.len())?;
     for (t, record) in (0_u32..).zip(&*records).filter(|(_, record)| record.normal != Vector::zeros()) {
         let mut places = record.corners.map(|v| place_of[v as usize]);

@@ -26,7 +26,7 @@ impl<'a> Vertices<'a> {
         room.clear();
         let polyhedron = body.shape.polyhedron();
         reserve(room, polyhedron.vertex_blocks.len())?;
-        simd::dispatch(&mut Place {
+        simd::dispatch(&mut PlacedVertices {
             blocks: &polyhedron.vertex_blocks,
             centre: &polyhedron.centre,
             pose: body.pose,
@@ -78,14 +78,14 @@ fn point(body: Placed, vertex: u32) -> Vector {
 }
 
 /// Places blocks of vertices.
-struct Place<'a> {
+struct PlacedVertices<'a> {
     blocks: &'a [PointBlock],
     centre: &'a Vector,
     pose: &'a Pose,
     room: &'a mut Vec<PointBlock>,
 }
 
-impl Kernel for Place<'_> {
+impl Kernel for PlacedVertices<'_> {
     type Output = ();
 
     #[inline(always)]

@@ -93,7 +93,7 @@ impl Kernel for AtRest<'_, '_> {
         // In no closure: that would be compiled without vector units (R2).
         let found = match choose_patches(self.bodies, &frame, &proved, &self.cache.reference) {
             Some(patches) => {
-                let along = Along { direction: proved.direction, upper: answer.upper };
+                let along = ContactNormal { direction: proved.direction, upper: answer.upper };
                 let reference = &mut self.cache.reference;
                 Writing { reference, config: self.config, points: self.points }.clip(&frame, &along, &patches)
             }
@@ -171,7 +171,7 @@ fn is_steep<L: Lanes>(frame: &Frame<L>, i: usize, towards: L) -> bool {
 }
 
 /// The normal of a contact.
-pub struct Along<L> {
+pub struct ContactNormal<L> {
     /// The unit vector out of body 1.
     direction: L,
     /// The distance along it is at most this.
@@ -218,8 +218,8 @@ impl<const F: usize> Slid<F> {
     fn fill<L: Lanes>(
         &mut self,
         frame: &Frame<L>,
-        (body, plane): (usize, &Corners),
-        corners: &Corners,
+        (body, plane): (usize, &PatchCorners),
+        corners: &PatchCorners,
         out: L,
         doubt: f64,
     ) -> Option<()> {
@@ -296,7 +296,7 @@ fn combined<L: Lanes>(row: &[L; 4], place: &[L; 3]) -> L {
 }
 
 /// The corners of a patch.
-struct Corners<'a> {
+struct PatchCorners<'a> {
     polyhedron: &'a Polyhedron,
     patch: Patch,
     /// The plane, positive outside.
@@ -311,10 +311,10 @@ struct Corners<'a> {
     count: usize,
 }
 
-impl<'a> Corners<'a> {
+impl<'a> PatchCorners<'a> {
     /// `None` of patches of many corners, and of bodies that have no outlines.
     #[inline(always)]
-    fn of(polyhedron: &'a Polyhedron, facing: Option<Facing>) -> Option<Corners<'a>> {
+    fn of(polyhedron: &'a Polyhedron, facing: Option<Facing>) -> Option<PatchCorners<'a>> {
         let patch = facing?.patch;
         let (count, normal) = (patch.corner_count(polyhedron), patch.normal(polyhedron));
         let (blocks, vertices) = polyhedron.outlines.corners(patch.number(polyhedron));
@@ -330,7 +330,7 @@ impl<'a> Corners<'a> {
             }
         };
         let fits = count <= MOST && blocks.len() == count.div_ceil(4) && vertices.len() == blocks.len();
-        fits.then_some(Corners { polyhedron, patch, normal, offset, slack, thickness, blocks, vertices, count })
+        fits.then_some(PatchCorners { polyhedron, patch, normal, offset, slack, thickness, blocks, vertices, count })
     }
 
     /// The plane of a side, inside positive.
@@ -382,7 +382,7 @@ impl<'a> Corners<'a> {
 
 /// A corner of the common part.
 #[derive(Clone, Copy)]
-struct Spot {
+struct RestSpot {
     /// Coordinates across the normal; set where one of many is to be chosen.
     across: [f64; 2],
     gap: f64,
@@ -390,19 +390,19 @@ struct Spot {
     error: f64,
     /// A crossing's place along its side of the incident face.
     share: f64,
-    corner: Corner,
+    corner: SpotOrigin,
 }
 
 /// The origin of a spot.
 #[derive(Clone, Copy)]
-enum Corner {
+enum SpotOrigin {
     /// A corner of a body's face.
     Of(u8, u8),
     /// Two sides.
     Crossing(u8, u8),
 }
 
-impl Place for Spot {
+impl Place for RestSpot {
     fn across(&self) -> [f64; 2] {
         self.across
     }
@@ -417,8 +417,8 @@ impl Place for Spot {
 
     fn key(&self) -> u32 {
         match self.corner {
-            Corner::Of(body, corner) => key_of_vertex(body.into(), corner.into()),
-            Corner::Crossing(first, second) => key_of_crossing([first.into(), second.into()]),
+            SpotOrigin::Of(body, corner) => key_of_vertex(body.into(), corner.into()),
+            SpotOrigin::Crossing(first, second) => key_of_crossing([first.into(), second.into()]),
         }
     }
 }
@@ -426,7 +426,7 @@ impl Place for Spot {
 /// The corners of a common part.
 struct Spots<const F: usize> {
     /// A common part has as many corners as both faces.
-    spots: [[Spot; 8]; F],
+    spots: [[RestSpot; 8]; F],
     count: usize,
     /// Whether one may be as deep as the bodies.
     is_deep: bool,
@@ -437,17 +437,17 @@ struct Spots<const F: usize> {
 impl<const F: usize> Spots<F> {
     /// Adds one whose gap is at most `max_distance`. `None` where there is no room.
     #[inline(always)]
-    fn push(&mut self, gap: f64, error: f64, share: f64, corner: Corner) -> Option<()> {
+    fn push(&mut self, gap: f64, error: f64, share: f64, corner: SpotOrigin) -> Option<()> {
         if !(error.is_finite() && gap - error <= self.max_distance) {
             return Some(());
         }
         self.is_deep |= gap - error <= self.deepest;
-        *self.spots.as_flattened_mut().get_mut(self.count)? = Spot { across: [0.0; 2], gap, error, share, corner };
+        *self.spots.as_flattened_mut().get_mut(self.count)? = RestSpot { across: [0.0; 2], gap, error, share, corner };
         self.count += 1;
         Some(())
     }
 
-    fn all(&mut self) -> &mut [Spot] {
+    fn all(&mut self) -> &mut [RestSpot] {
         &mut self.spots.as_flattened_mut()[..self.count]
     }
 }
@@ -456,10 +456,10 @@ impl Writing<'_, '_> {
     /// Writes the points that both patches have in common, and how many there are. `None`, and nothing is written, where the sweep
     /// must tell.
     #[inline(always)]
-    fn clip<L: Lanes>(&mut self, frame: &Frame<L>, along: &Along<L>, patches: &Patches) -> Option<usize> {
+    fn clip<L: Lanes>(&mut self, frame: &Frame<L>, along: &ContactNormal<L>, patches: &Patches) -> Option<usize> {
         let Patches { facing, reference } = *patches;
         let polyhedra = frame.polyhedra();
-        let corners = [Corners::of(polyhedra[0], facing[0])?, Corners::of(polyhedra[1], facing[1])?];
+        let corners = [PatchCorners::of(polyhedra[0], facing[0])?, PatchCorners::of(polyhedra[1], facing[1])?];
         let size = frame.size + frame.separation;
         let coincident = (2.0 * (corners[0].thickness + corners[1].thickness)).max(COINCIDENT * size);
         // The sweep makes one of corners that are nearer. Seen along the normal, a side is no shorter than by the cosine of its
@@ -495,7 +495,7 @@ impl Writing<'_, '_> {
         if !is_inside {
             slid[incident].fill(frame, (incident, &corners[incident]), &corners[reference], out.negate(), doubt)?;
         }
-        let none = Spot { across: [0.0; 2], gap: 0.0, error: 0.0, share: 0.0, corner: Corner::Of(0, 0) };
+        let none = RestSpot { across: [0.0; 2], gap: 0.0, error: 0.0, share: 0.0, corner: SpotOrigin::Of(0, 0) };
         let (max_distance, deepest) = (self.config.max_distance, seen.upper + rounding);
         let mut spots = Spots::<F> { spots: [[none; 8]; F], count: 0, is_deep: false, max_distance, deepest };
         for body in 0..2 {
@@ -508,7 +508,7 @@ impl Writing<'_, '_> {
             while inside != 0 {
                 let corner = inside.trailing_zeros() as usize;
                 inside &= inside - 1;
-                spots.push(slid.gap(corner), error, 0.0, Corner::Of(body as u8, corner as u8))?;
+                spots.push(slid.gap(corner), error, 0.0, SpotOrigin::Of(body as u8, corner as u8))?;
             }
         }
         if !is_inside {
@@ -600,7 +600,7 @@ impl<L: Lanes, const F: usize> Work for Crossing<'_, L, F> {
                 let off = (2.0 * rounding / (before - after).abs()).min(1.0);
                 let error = seen.error(reference, on.stretch, rounding) + off * rise.abs();
                 let gap = on.gap(edge) + rise * share;
-                self.spots.push(gap, error, share, Corner::Crossing(first as u8, second as u8))?;
+                self.spots.push(gap, error, share, SpotOrigin::Crossing(first as u8, second as u8))?;
             }
         }
         Some(())
@@ -613,7 +613,7 @@ struct Filling<'a, L, const F: usize> {
     frame: &'a Frame<'a, L>,
     /// Labels of both patches.
     labels: [u32; 2],
-    spot: &'a Spot,
+    spot: &'a RestSpot,
     point: &'a mut ManifoldPoint,
 }
 
@@ -628,7 +628,7 @@ impl<L: Lanes, const F: usize> Work for Filling<'_, L, F> {
 
 /// Two faces that are seen along the normal.
 struct Seen<'a, L> {
-    corners: [Corners<'a>; 2],
+    corners: [PatchCorners<'a>; 2],
     reference: usize,
     /// The normal, out of the reference's body.
     out: L,
@@ -636,7 +636,7 @@ struct Seen<'a, L> {
     size: f64,
     /// Points nearer to each other than this count as one place.
     coincident: f64,
-    /// See [`Along`].
+    /// See [`ContactNormal`].
     upper: f64,
 }
 
@@ -676,14 +676,14 @@ struct Found<'a, L, const F: usize> {
 impl<L: Lanes, const F: usize> Found<'_, L, F> {
     /// The place of a spot in the axes of the reference's body, along the normal.
     #[inline(always)]
-    fn seen(&self, spot: &Spot) -> L {
+    fn seen(&self, spot: &RestSpot) -> L {
         let on = &self.slid[self.seen.reference];
         match spot.corner {
-            Corner::Of(body, corner) if usize::from(body) == self.seen.reference => {
+            SpotOrigin::Of(body, corner) if usize::from(body) == self.seen.reference => {
                 L::from_vector(&self.seen.corners[self.seen.reference].position(corner.into()))
             }
-            Corner::Of(_, corner) => L::from_vector(&on.place(corner.into())),
-            Corner::Crossing(first, second) => {
+            SpotOrigin::Of(_, corner) => L::from_vector(&on.place(corner.into())),
+            SpotOrigin::Crossing(first, second) => {
                 let edge = usize::from(if self.seen.reference == 0 { second } else { first });
                 let from = L::from_vector(&on.place(edge));
                 let to = L::from_vector(&on.place(self.seen.corners[1 - self.seen.reference].next(edge)));
@@ -709,11 +709,11 @@ impl<L: Lanes, const F: usize> Found<'_, L, F> {
 
     /// Says all of a point.
     #[inline(always)]
-    fn fill(&self, frame: &Frame<L>, labels: [u32; 2], spot: &Spot, point: &mut ManifoldPoint) {
+    fn fill(&self, frame: &Frame<L>, labels: [u32; 2], spot: &RestSpot, point: &mut ManifoldPoint) {
         let face = |body: usize| Feature { kind: FeatureKind::Face, ids: [labels[body], 0] };
         let (mut places, features);
         match spot.corner {
-            Corner::Of(body, corner) => {
+            SpotOrigin::Of(body, corner) => {
                 let (body, corner) = (usize::from(body), usize::from(corner));
                 let own = &self.seen.corners[body];
                 let vertex = own.vertex(corner) as usize;
@@ -725,7 +725,7 @@ impl<L: Lanes, const F: usize> Found<'_, L, F> {
                     places = [places[1], places[0]];
                 }
             }
-            Corner::Crossing(first, second) => {
+            SpotOrigin::Crossing(first, second) => {
                 let incident = &self.seen.corners[1 - self.seen.reference];
                 let edge = usize::from(if self.seen.reference == 0 { second } else { first });
                 let from = L::from_vector(&incident.position(edge));
@@ -778,7 +778,7 @@ mod tests {
                 return None;
             }
             let direction = L::from_vector(&self.contact.normal.into()).negate();
-            let along = Along { direction, upper: self.contact.upper };
+            let along = ContactNormal { direction, upper: self.contact.upper };
             self.writing.clip(&frame, &along, self.patches)
         }
     }

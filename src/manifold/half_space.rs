@@ -113,11 +113,11 @@ fn make(body: Placed, half_space: &HalfSpace, config: &ManifoldConfig, points: &
 struct Plane<'a> {
     body: Placed<'a>,
     radii: Radii,
-    heights: Heights,
+    heights: VertexHeights,
 }
 
 /// How far vertices are over a plane: rounded, of the polyhedron.
-enum Heights {
+enum VertexHeights {
     Rounded(RoundedPlane),
     /// Of all corners of the outline, less the swept radius, by integers: doubles are too small or too large to tell.
     Exact(Vec<[f64; 2]>),
@@ -179,7 +179,7 @@ impl<'a> Plane<'a> {
     fn new(body: Placed<'a>, half_space: &HalfSpace, outline: &Outline) -> Result<Plane<'a>> {
         let radii = Radii::of_one(body.shape.swept_radius(), body.shape.deviation());
         let heights = match RoundedPlane::new(body, half_space) {
-            Some(plane) => Heights::Rounded(plane),
+            Some(plane) => VertexHeights::Rounded(plane),
             None => {
                 let &HalfSpace { normal, offset } = half_space;
                 let mut heights = with_capacity(outline.count)?;
@@ -188,7 +188,7 @@ impl<'a> Plane<'a> {
                     let height = |corner| over.height(outline.vertex(corner));
                     heights.extend((0..outline.count).map(|corner| above_plane(&height(corner), &radii).1));
                 })?;
-                Heights::Exact(heights)
+                VertexHeights::Exact(heights)
             }
         };
         Ok(Plane { body, radii, heights })
@@ -197,8 +197,8 @@ impl<'a> Plane<'a> {
     /// How far a corner is over the plane, less the swept radius.
     fn gap(&self, outline: &Outline, corner: usize) -> [f64; 2] {
         match &self.heights {
-            Heights::Rounded(plane) => self.radii.off(plane.height(self.body, outline.vertex(corner))),
-            Heights::Exact(heights) => heights[corner],
+            VertexHeights::Rounded(plane) => self.radii.off(plane.height(self.body, outline.vertex(corner))),
+            VertexHeights::Exact(heights) => heights[corner],
         }
     }
 

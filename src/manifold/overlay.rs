@@ -116,7 +116,7 @@ impl Overlay {
         if !view.outlines.iter().all(are_few) {
             return None;
         }
-        simd::dispatch_to_avx2(&mut Filling { overlay: self, view })
+        simd::dispatch_to_avx2(&mut OverlayFilling { overlay: self, view })
     }
 
     /// Adds one that is near; whether it may be as deep as the witness points. `None` where there is no room, for instance for
@@ -137,12 +137,12 @@ impl Overlay {
     }
 }
 
-struct Filling<'a> {
+struct OverlayFilling<'a> {
     overlay: &'a mut Overlay,
     view: &'a View<'a>,
 }
 
-impl Kernel for Filling<'_> {
+impl Kernel for OverlayFilling<'_> {
     type Output = Option<()>;
 
     #[inline(always)]

@@ -6,7 +6,7 @@ use super::carried::{Carried, Moving};
 use super::config::CastConfig;
 use super::looks::{MOST_LOOKS, Shown, Way, look_ahead};
 use super::moving::{Moment, MovingPair};
-use super::sweep::{Ahead, Sweep, Wanted, upper_bound};
+use super::sweep::{Ahead, Sweep, SweepGoal, upper_bound};
 use crate::base::error::Result;
 use crate::base::simd::environment::with_default;
 use crate::pair::{Outcome, PairAnswer, PairCache};
@@ -126,8 +126,8 @@ fn run_from<'a>(
 }
 
 /// A cast's steps; those of its check are to find them, too.
-pub(super) fn wanted(config: &CastConfig) -> Wanted {
-    Wanted { max_distance: config.max_distance, with_slack: true, shortest: config.time_tolerance }
+pub(super) fn wanted(config: &CastConfig) -> SweepGoal {
+    SweepGoal { max_distance: config.max_distance, with_slack: true, shortest: config.time_tolerance }
 }
 
 /// Farther apart than `max_distance` by that much, beyond all slack.

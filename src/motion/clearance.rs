@@ -3,7 +3,7 @@
 use super::carried::Moving;
 use super::config::{check_times, shortest_step};
 use super::moving::{Moment, MovingPair};
-use super::sweep::{Ahead, Sweep, Wanted, upper_bound};
+use super::sweep::{Ahead, Sweep, SweepGoal, upper_bound};
 use crate::answer::check_accuracy;
 use crate::base::error::Result;
 use crate::base::simd::environment::with_default;
@@ -72,7 +72,7 @@ pub fn clearance(
         check_times(range)?;
         check_accuracy(config.absolute_error, config.relative_error, config.step_budget)?;
         let pair = MovingPair::new(bodies, range)?;
-        let mut search = Search {
+        let mut search = ClearanceSearch {
             pair: &pair,
             sweep: Sweep::new(&pair, cache),
             config,
@@ -95,7 +95,7 @@ const ROUNDS: u32 = 10;
 /// Doublings of the error where nothing better can be proved.
 const MOST_RELAXATIONS: u32 = 40;
 
-struct Search<'a> {
+struct ClearanceSearch<'a> {
     pair: &'a MovingPair<'a>,
     sweep: Sweep<'a>,
     config: &'a ClearanceConfig,
@@ -106,7 +106,7 @@ struct Search<'a> {
     error: f64,
 }
 
-impl Search<'_> {
+impl ClearanceSearch<'_> {
     fn run(&mut self) -> Result<Clearance> {
         let [begin, end] = self.pair.range();
         self.look_around(begin, end)?;
@@ -191,7 +191,7 @@ impl Search<'_> {
             if !(max_distance > 0.0) || self.sweep.queries >= self.config.step_budget {
                 return Ok(0.0);
             }
-            let wanted = Wanted { max_distance, with_slack: false, shortest: shortest_step(self.pair.range()) };
+            let wanted = SweepGoal { max_distance, with_slack: false, shortest: shortest_step(self.pair.range()) };
             match self.sweep.on(&here, &near, end, &wanted)? {
                 Ahead::Free(step) => {
                     proved = proved.min(step.least);

@@ -47,7 +47,7 @@ impl Touch<'_> {
         let [pose1, pose2] = &self.here.poses;
         let towards = [-pose1.rotate_back(self.direction), pose2.rotate_back(self.direction)];
         let tie = TIE * (body1.radius + body2.radius);
-        let mut search = Search { polyhedra: self.polyhedra, towards, tie, found: [Tied::default(); 4] };
+        let mut search = TieSearch { polyhedra: self.polyhedra, towards, tie, found: [Tied::default(); 4] };
         simd::dispatch(&mut search);
         let [tied1, tied2, behind1, behind2] = search.found;
         let (tied1, tied2) = (tied1.vertices()?, tied2.vertices()?);
@@ -131,14 +131,14 @@ impl Tied {
 }
 
 /// The vertices that tie towards the other body, of both, and then those farthest from it.
-struct Search<'a> {
+struct TieSearch<'a> {
     polyhedra: [&'a Polyhedron; 2],
     towards: [Vector; 2],
     tie: f64,
     found: [Tied; 4],
 }
 
-impl Kernel for Search<'_> {
+impl Kernel for TieSearch<'_> {
     type Output = ();
 
     #[inline(always)]

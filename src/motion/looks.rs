@@ -79,7 +79,7 @@ impl Shown {
 }
 
 /// The outcome of a proof of the way between looks.
-enum Proof {
+enum WayProof {
     /// All of it.
     Whole,
     /// A look between found contact: what is behind it was dropped.
@@ -167,9 +167,9 @@ impl Looks<'_, '_> {
                 break;
             }
             match self.prove()? {
-                Proof::Whole => {}
-                Proof::Dropped => continue,
-                Proof::Stuck => break,
+                WayProof::Whole => {}
+                WayProof::Dropped => continue,
+                WayProof::Stuck => break,
             }
             let Next::Contact(root) = next else {
                 return Ok(Way::Free { least: self.tail.map_or(self.least, |tail| self.least.min(tail)) });
@@ -353,7 +353,7 @@ impl Looks<'_, '_> {
     }
 
     /// Proves the way from what is proved to the last look.
-    fn prove(&mut self) -> Result<Proof> {
+    fn prove(&mut self) -> Result<WayProof> {
         // The looks that steps are still to end at, the nearest last.
         let (mut ends, mut open) = ([0; MOST_KNOTS], 1);
         ends[0] = self.count - 1;
@@ -376,7 +376,7 @@ impl Looks<'_, '_> {
             let [from, until] = [self.proved, to].map(|k| self.knot(k));
             let length = until.moment.time - from.moment.time;
             if length < 0.5 * self.config.time_tolerance || self.is_exhausted() {
-                return Ok(Proof::Stuck);
+                return Ok(WayProof::Stuck);
             }
             // Where they come nearest, if that is between.
             let part = if from.speed < 0.0 && until.speed > 0.0 {
@@ -388,7 +388,7 @@ impl Looks<'_, '_> {
             self.move_to(between)?;
             if !self.look()? {
                 (self.count, self.contact_by, self.before) = (to, Some(between), None);
-                return Ok(Proof::Dropped);
+                return Ok(WayProof::Dropped);
             }
             self.knots[to..=self.count].rotate_right(1);
             self.count += 1;
@@ -396,7 +396,7 @@ impl Looks<'_, '_> {
             ends[open] = to;
             open += 1;
         }
-        Ok(Proof::Whole)
+        Ok(WayProof::Whole)
     }
 
     /// One step from what is proved to a later look: by how much it is free.

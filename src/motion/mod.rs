@@ -36,6 +36,6 @@ pub use clearance::{Clearance, ClearanceConfig, clearance};
 pub use config::CastConfig;
 pub(crate) use frame::{MovingFrame, Stop};
 pub use kinds::{Callback, Motion, Screw};
-pub(crate) use swept::{Place, Swept};
+pub(crate) use swept::{PartEnd, Swept};
 pub(crate) use verify::verify_carried;
 pub use verify::verify_cast;

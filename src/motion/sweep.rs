@@ -26,7 +26,7 @@ const MOST_DOUBLINGS_OF_CURVED: i32 = 30;
 
 /// The goal of a sweep.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Wanted {
+pub(super) struct SweepGoal {
     /// Farther apart than this.
     pub max_distance: f64,
     /// Whether gaps are to exceed `max_distance` by [`MovingPair::slack`].
@@ -127,7 +127,7 @@ impl<'a> Sweep<'a> {
 
     /// To the end along the line of centres, of bodies that are far apart: by how much they stay farther apart than asked, without
     /// a query. Keeps the moment there, if it was computed.
-    pub fn far(&self, here: &Moment, end: f64, wanted: &Wanted, at_end: &mut Option<Moment>) -> Result<Option<f64>> {
+    pub fn far(&self, here: &Moment, end: f64, wanted: &SweepGoal, at_end: &mut Option<Moment>) -> Result<Option<f64>> {
         debug_assert!(wanted.with_slack);
         let Some(direction) = self.pair.between_spheres(here) else { return Ok(None) };
         let there = at_end.insert(self.pair.at(end)?);
@@ -143,7 +143,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// On from a moment, whose distance is known, to `end` at most.
-    pub fn on(&mut self, here: &Moment, near: &PairAnswer, end: f64, wanted: &Wanted) -> Result<Ahead> {
+    pub fn on(&mut self, here: &Moment, near: &PairAnswer, end: f64, wanted: &SweepGoal) -> Result<Ahead> {
         if near.outcome == Outcome::Separated && near.lower > wanted.max_distance {
             if let Some(step) = self.step(here, near, end, wanted)? {
                 return Ok(Ahead::Free(step));
@@ -155,7 +155,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// The longest step that is found: along the normal of the distance, or from there to the normal at its end.
-    fn step(&mut self, here: &Moment, near: &PairAnswer, end: f64, wanted: &Wanted) -> Result<Option<FreeStep>> {
+    fn step(&mut self, here: &Moment, near: &PairAnswer, end: f64, wanted: &SweepGoal) -> Result<Option<FreeStep>> {
         let direction = Vector::from(near.normal);
         let trial = match self.sight_at(here.time).map(|sight| sight.gap) {
             Some(gap) => Trial::with_gap(self.pair, here, direction, gap, wanted),
@@ -225,7 +225,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// Contact within some time tolerances; or a step along the axis that separates the bodies at the first of these.
-    fn contact_ahead(&mut self, here: &Moment, end: f64, wanted: &Wanted) -> Result<Ahead> {
+    fn contact_ahead(&mut self, here: &Moment, end: f64, wanted: &SweepGoal) -> Result<Ahead> {
         let most = if self.pair.deviation() > 0.0 { MOST_DOUBLINGS_OF_CURVED } else { MOST_DOUBLINGS };
         for doubling in 0..=most {
             let time = after(here.time, wanted.shortest * f64::from(1 << doubling)).min(end);
@@ -284,7 +284,7 @@ impl<'a> Sweep<'a> {
     }
 
     /// Where objects that are in contact, and move apart along the contact's normal, are provably apart along it: soon, or `None`.
-    pub fn parted(&mut self, start: &Moment, end: f64, wanted: &Wanted) -> Result<Option<Moment>> {
+    pub fn parted(&mut self, start: &Moment, end: f64, wanted: &SweepGoal) -> Result<Option<Moment>> {
         let needed = wanted.max_distance + self.pair.slack(start);
         let touch = self.contact(start)?;
         let normal = Vector::from(touch.normal);
@@ -377,14 +377,14 @@ impl<'a> Trial<'a> {
         pair: &'a MovingPair<'a>,
         here: &Moment,
         direction: Vector,
-        wanted: &Wanted,
+        wanted: &SweepGoal,
         vertices: &mut Option<[u32; 2]>,
     ) -> Trial<'a> {
         let gap = pair.gap(here, &direction, vertices);
         Trial::with_gap(pair, here, direction, gap, wanted)
     }
 
-    fn with_gap(pair: &'a MovingPair<'a>, here: &Moment, direction: Vector, gap: f64, wanted: &Wanted) -> Trial<'a> {
+    fn with_gap(pair: &'a MovingPair<'a>, here: &Moment, direction: Vector, gap: f64, wanted: &SweepGoal) -> Trial<'a> {
         let slack = if wanted.with_slack { pair.slack(here) } else { 0.0 };
         let acceleration = pair.acceleration(&direction);
         Trial { pair, here: *here, direction, gap, acceleration, slack, needed: wanted.max_distance + slack }

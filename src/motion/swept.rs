@@ -28,7 +28,7 @@ pub(crate) struct Swept<'a> {
 }
 
 /// The place of an object at one end of a part.
-pub(crate) struct Place {
+pub(crate) struct PartEnd {
     pub time: f64,
     pub pose: Pose,
     /// No point of the motion, in the parts that end here, is farther from the hull of both ends' poses.
@@ -64,13 +64,13 @@ impl<'a> Swept<'a> {
     ///
     /// # Errors
     /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that no query accepts.
-    pub fn places(&self) -> impl Iterator<Item = Result<Place>> {
+    pub fn places(&self) -> impl Iterator<Item = Result<PartEnd>> {
         let [begin, end] = self.range;
         (0..=self.parts).map(move |k| {
             let time =
                 if k == self.parts { end } else { begin + (end - begin) * (f64::from(k) / f64::from(self.parts)) };
             let pose = self.body.pose(&self.path, time)?;
-            Ok(Place { time, pose, off: (self.sag + rounding_of_place(&self.body, &pose)).next_up() })
+            Ok(PartEnd { time, pose, off: (self.sag + rounding_of_place(&self.body, &pose)).next_up() })
         })
     }
 }

@@ -6,7 +6,7 @@ use super::carried::{Carried, Moving};
 use super::cast::wanted;
 use super::config::{CastConfig, shortest_step};
 use super::moving::{Moment, MovingPair};
-use super::sweep::{Ahead, FreeStep, MOST_DOUBLINGS, Sweep, Wanted, after, depth_at, is_contact, upper_bound};
+use super::sweep::{Ahead, FreeStep, MOST_DOUBLINGS, Sweep, SweepGoal, after, depth_at, is_contact, upper_bound};
 use crate::answer::sum_above;
 use crate::base::error::{Error, Result};
 use crate::pair::{DepthCache, Outcome, PairAnswer, PairCache, PairConfig, contact};
@@ -113,7 +113,7 @@ fn prove_free_before(pair: &MovingPair, config: &CastConfig, end: f64) -> Result
 /// Farther apart than `max_distance` from the beginning to `end`: by the steps of a cast, else by any.
 fn prove_free(pair: &MovingPair, config: &CastConfig, end: f64, max_distance: f64) -> Result<()> {
     let of_cast = wanted(config);
-    let any = Wanted { max_distance, with_slack: false, shortest: shortest_step(pair.range()) };
+    let any = SweepGoal { max_distance, with_slack: false, shortest: shortest_step(pair.range()) };
     match prove_steps(pair, &of_cast, end, max_distance) {
         Err(Error::Unverified(_)) => prove_steps(pair, &any, end, max_distance),
         proved => proved,
@@ -121,7 +121,7 @@ fn prove_free(pair: &MovingPair, config: &CastConfig, end: f64, max_distance: f6
 }
 
 /// Farther apart than `max_distance` in each step of a sweep to `end`.
-fn prove_steps(pair: &MovingPair, wanted: &Wanted, end: f64, max_distance: f64) -> Result<()> {
+fn prove_steps(pair: &MovingPair, wanted: &SweepGoal, end: f64, max_distance: f64) -> Result<()> {
     let mut sweep = Sweep::new(pair, &PairCache::default());
     let mut here = pair.at(pair.range()[0])?;
     for _ in 0..MOST_STEPS {

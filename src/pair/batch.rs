@@ -36,15 +36,15 @@ pub fn batch(
     if pairs.len() != answers.len() {
         return Err(Error::Argument(format!("{} answers for {} pairs", answers.len(), pairs.len())));
     }
-    let all = Part { query, config, first: 0, pairs, answers };
+    let all = BatchPart { query, config, first: 0, pairs, answers };
     match workers.filter(|workers| workers.share(all.pairs.len())) {
         None => all.ask(),
-        Some(workers) => workers.map(all.cut(workers), Part::ask)?.into_iter().collect(),
+        Some(workers) => workers.map(all.cut(workers), BatchPart::ask)?.into_iter().collect(),
     }
 }
 
 /// Some of the pairs; number `first` is the first of them.
-struct Part<'a, 'b> {
+struct BatchPart<'a, 'b> {
     query: Query,
     config: &'a PairConfig,
     first: usize,
@@ -52,12 +52,12 @@ struct Part<'a, 'b> {
     answers: &'a mut [PairAnswer],
 }
 
-impl<'a, 'b> Part<'a, 'b> {
-    fn cut(self, workers: &Workers) -> impl Iterator<Item = Part<'a, 'b>> {
-        let Part { query, config, first, pairs, answers } = self;
+impl<'a, 'b> BatchPart<'a, 'b> {
+    fn cut(self, workers: &Workers) -> impl Iterator<Item = BatchPart<'a, 'b>> {
+        let BatchPart { query, config, first, pairs, answers } = self;
         let size = workers.part_size(pairs.len());
         let parts = pairs.chunks_mut(size).zip(answers.chunks_mut(size));
-        (first..).step_by(size).zip(parts).map(move |(first, (pairs, answers))| Part {
+        (first..).step_by(size).zip(parts).map(move |(first, (pairs, answers))| BatchPart {
             query,
             config,
             first,

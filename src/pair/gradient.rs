@@ -77,7 +77,7 @@ pub fn gradient(bodies: [Placed; 2], answer: &SignedDistance, references: [Optio
 const PARALLEL: f64 = f64::from_bits((1023 - 40) << 52);
 
 /// Vertices that are as near along the normal, up to rounding and to what the interval leaves open.
-enum Nearest {
+enum NearestPoints {
     Point,
     /// A line, along a direction of the world.
     Line(Vector),
@@ -96,8 +96,8 @@ fn has_one_pair(bodies: [Placed; 2], normal: &Vector, width: f64) -> bool {
         nearest(polyhedra[i], &towards, within)
     });
     match nearest {
-        [Nearest::Point, _] | [_, Nearest::Point] => true,
-        [Nearest::Line(first), Nearest::Line(second)] => {
+        [NearestPoints::Point, _] | [_, NearestPoints::Point] => true,
+        [NearestPoints::Line(first), NearestPoints::Line(second)] => {
             let [first, second] = [bodies[0].pose.rotate(&first), bodies[1].pose.rotate(&second)];
             first.cross(&second).norm() > PARALLEL * first.norm() * second.norm()
         }
@@ -106,21 +106,21 @@ fn has_one_pair(bodies: [Placed; 2], normal: &Vector, width: f64) -> bool {
 }
 
 /// The vertices of a body that are farthest along a direction of its own frame, up to `within`; the line is in that frame.
-fn nearest(polyhedron: &Polyhedron, towards: &Vector, within: f64) -> Nearest {
+fn nearest(polyhedron: &Polyhedron, towards: &Vector, within: f64) -> NearestPoints {
     let positions = || polyhedron.vertices.iter().map(|vertex| vertex.position);
     let highest = positions().map(|p| p.dot(towards)).fold(f64::NEG_INFINITY, f64::max);
     let near = || positions().filter(|p| p.dot(towards) >= highest - within);
-    let Some(first) = near().next() else { return Nearest::Plane };
+    let Some(first) = near().next() else { return NearestPoints::Plane };
     let along = near().map(|p| p - first).fold(Vector::zeros(), |a, b| if b.norm() > a.norm() { b } else { a });
     let length = along.norm();
     if length == 0.0 {
-        return Nearest::Point;
+        return NearestPoints::Point;
     }
     // Differences of positions err by u of the radius, products by 3u.
     let off_line = |p: Vector| (p - first).cross(&(along / length)).norm();
     if near().map(off_line).fold(0.0, f64::max) <= 16.0 * U * polyhedron.radius {
-        Nearest::Line(along / length)
+        NearestPoints::Line(along / length)
     } else {
-        Nearest::Plane
+        NearestPoints::Plane
     }
 }

@@ -45,7 +45,7 @@ pub(super) struct Round<'a> {
 }
 
 /// The place of the answer, which stays as it is where nothing is proved.
-pub(super) enum Place<'a> {
+pub(super) enum AnswerPlace<'a> {
     /// To a query.
     Pair(Query, &'a mut PairAnswer),
     /// For a signed distance.
@@ -55,7 +55,7 @@ pub(super) enum Place<'a> {
 impl Round<'_> {
     /// Whether doubles answer.
     #[inline(always)]
-    pub(super) fn answers(&self, place: Place) -> bool {
+    pub(super) fn answers(&self, place: AnswerPlace) -> bool {
         let polyhedra = [self.bodies[0].shape.polyhedron(), self.bodies[1].shape.polyhedron()];
         let is_simple = polyhedra[0].simple & polyhedra[1].simple;
         let mut rigid = OfRigid { round: self, polyhedra, place };
@@ -68,7 +68,7 @@ impl Round<'_> {
     /// The same for poses that are not rigid, and bodies whose centres are not their origins.
     #[cold]
     #[inline(never)]
-    fn answers_any(&self, polyhedra: [&Polyhedron; 2], place: Place) -> bool {
+    fn answers_any(&self, polyhedra: [&Polyhedron; 2], place: AnswerPlace) -> bool {
         let poses = self.poses();
         let frame = Frame::<Portable>::new(&Pair { polyhedra, poses });
         // A point has no size that could be out of range: all errors are in proportion to the distance.
@@ -81,11 +81,11 @@ impl Round<'_> {
     }
 
     #[inline(always)]
-    fn is_filled<L: Lanes>(&self, frame: &Frame<L>, place: Place) -> bool {
-        let nearest = Nearest::of(frame);
+    fn is_filled<L: Lanes>(&self, frame: &Frame<L>, place: AnswerPlace) -> bool {
+        let nearest = NearestOfRound::of(frame);
         let [lower, upper] = self.radii.off([nearest.interval.lower, nearest.interval.upper]);
         // Of bodies in each other a query says no more than that.
-        let is_met = (upper < 0.0) & matches!(place, Place::Pair(..));
+        let is_met = (upper < 0.0) & matches!(place, AnswerPlace::Pair(..));
         if !is_met && !nearest.interval.is_tight(frame.size) {
             return false;
         }
@@ -102,8 +102,8 @@ impl Round<'_> {
         };
         match place {
             // The common point of a contact is made of the nearest points of the polyhedra.
-            Place::Pair(Query::Contact, _) if outcome == Outcome::Intersecting => return false,
-            Place::Pair(query, answer) => {
+            AnswerPlace::Pair(Query::Contact, _) if outcome == Outcome::Intersecting => return false,
+            AnswerPlace::Pair(query, answer) => {
                 answer.outcome = outcome;
                 answer.decided_by = DecidedBy::Marching;
                 answer.statistics = Statistics { marching_steps: 1, ..Statistics::default() };
@@ -123,7 +123,7 @@ impl Round<'_> {
                 }
                 fill_surfaces!(self, frame, nearest, answer);
             }
-            Place::Signed(answer) => {
+            AnswerPlace::Signed(answer) => {
                 if outcome == Outcome::Beyond {
                     let mut beyond =
                         SignedDistance { outcome, distance: lower, lower, upper: f64::INFINITY, ..Default::default() };
@@ -144,7 +144,7 @@ impl Round<'_> {
     fn fill<L: Lanes>(
         &self,
         frame: &Frame<L>,
-        nearest: &Nearest<L>,
+        nearest: &NearestOfRound<L>,
         i: usize,
         out: f64,
         local: &mut [f64; 3],
@@ -167,7 +167,7 @@ impl Round<'_> {
 struct OfRigid<'a, 'b> {
     round: &'a Round<'a>,
     polyhedra: [&'a Polyhedron; 2],
-    place: Place<'b>,
+    place: AnswerPlace<'b>,
 }
 
 impl Kernel for OfRigid<'_, '_> {
@@ -178,15 +178,15 @@ impl Kernel for OfRigid<'_, '_> {
     fn run<L: Lanes>(&mut self) -> Option<bool> {
         let frame = Frame::<L>::of_rigid(&Pair { polyhedra: self.polyhedra, poses: self.round.poses() });
         let place = match &mut self.place {
-            Place::Pair(query, answer) => Place::Pair(*query, answer),
-            Place::Signed(answer) => Place::Signed(answer),
+            AnswerPlace::Pair(query, answer) => AnswerPlace::Pair(*query, answer),
+            AnswerPlace::Signed(answer) => AnswerPlace::Signed(answer),
         };
         frame.in_range.then(|| self.round.is_filled(&frame, place))
     }
 }
 
 /// Nearest points of two placed points or segments, and what they prove.
-struct Nearest<L> {
+struct NearestOfRound<L> {
     /// In centred local coordinates.
     points: [L; 2],
     /// Mapped by their bodies' rotations.
@@ -203,10 +203,10 @@ struct Nearest<L> {
 /// Square of the sine below which segments are parallel for a cross product: above, it has all but three of its digits.
 const PARALLEL: f64 = 1e-6;
 
-impl<L: Lanes> Nearest<L> {
+impl<L: Lanes> NearestOfRound<L> {
     /// Any weights s and t of the ends make points of the bodies, and any direction a gap: what rounding makes of both costs width.
     #[inline(always)]
-    fn of(frame: &Frame<L>) -> Nearest<L> {
+    fn of(frame: &Frame<L>) -> NearestOfRound<L> {
         let [body1, body2] = &frame.bodies;
         let [ends1, ends2] = [&body1.polyhedron.vertices, &body2.polyhedron.vertices];
         let (tail1, tail2) = (L::from_vector(&ends1[0].position), L::from_vector(&ends2[0].position));
@@ -266,7 +266,7 @@ impl<L: Lanes> Nearest<L> {
             }
         }
         let interval = interval(distance, least * inverse, frame.size, frame.separation);
-        Nearest {
+        NearestOfRound {
             points: [between(ends1, tail1, s), between(ends2, tail2, t)],
             rotated: [way1.mul_add(L::splat(s), rotated1), way2.mul_add(L::splat(t), rotated2)],
             normal,

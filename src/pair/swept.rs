@@ -3,7 +3,7 @@
 
 use super::cache::PairCache;
 use super::ladder::{self, Glances};
-use super::round::{Place, Round, are_round};
+use super::round::{AnswerPlace, Round, are_round};
 use super::signed_distance::{SignedDistance, SignedDistanceCache, of_polyhedra};
 use crate::answer::{
     DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, PairConfig, PlacedPoints, Query, Radii, fill_nothing,
@@ -43,7 +43,7 @@ pub(super) fn query(
     if are_round(bodies) {
         // Here a verdict costs no more than a distance.
         let round = Round { bodies, radii, tolerance: config.max_distance };
-        if round.answers(Place::Pair(query, answer)) {
+        if round.answers(AnswerPlace::Pair(query, answer)) {
             return Ok(());
         }
     }
@@ -187,7 +187,7 @@ pub(super) fn depth(
     let mut signed = SignedDistance::default();
     if are_round(&bodies) {
         let round = Round { bodies: &bodies, radii, tolerance: 0.0 };
-        if round.answers(Place::Signed(&mut signed)) {
+        if round.answers(AnswerPlace::Signed(&mut signed)) {
             fill_depth(answer, &signed, DepthEnding::Narrow, DepthStatistics::default());
             return Ok(());
         }
@@ -255,7 +255,7 @@ pub(super) fn signed_distance(
     config.check(Query::Distance)?;
     if are_round(bodies) {
         let round = Round { bodies, radii, tolerance: config.max_distance };
-        if round.answers(Place::Signed(answer)) {
+        if round.answers(AnswerPlace::Signed(answer)) {
             return Ok(());
         }
     }

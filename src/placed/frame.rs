@@ -356,9 +356,9 @@ impl<L: Lanes> PoseInLanes<L> {
 }
 
 /// A look at one pose.
-struct Look<'a>(&'a Pose);
+struct PoseLook<'a>(&'a Pose);
 
-impl Kernel for Look<'_> {
+impl Kernel for PoseLook<'_> {
     type Output = bool;
 
     #[inline(always)]
@@ -370,7 +370,7 @@ impl Kernel for Look<'_> {
 /// Whether a pose is rigid up to rounding and within range, so that [`Pose::check`] accepts it; quicker than that.
 #[inline(always)]
 pub fn is_rigid_in_range(pose: &Pose) -> bool {
-    let is_rigid = simd::dispatch(&mut Look(pose));
+    let is_rigid = simd::dispatch(&mut PoseLook(pose));
     debug_assert!(!is_rigid || pose.check().is_ok());
     is_rigid
 }

@@ -3,7 +3,7 @@
 //! Like all of marching it proposes: rounding may lead it one side astray, and no answer rests on that.
 
 use crate::base::math::Vector;
-use crate::body::polyhedron::{Face, Polyhedron};
+use crate::body::polyhedron::{MergedFace, Polyhedron};
 
 /// Sides from which on bisection is faster than a look at all; it takes some forty products for each doubling.
 pub const MANY_SIDES: u32 = 128;
@@ -13,8 +13,8 @@ const MOST_SHORTENINGS: u32 = 32;
 
 /// The side of a face whose plane a point violates most, if any is violated by more than the tolerance.
 #[inline(never)]
-pub fn most_violated_side(polyhedron: &Polyhedron, face: &Face, point: &Vector, tolerance: f64) -> Option<u32> {
-    let polygon = Polygon::new(polyhedron, face);
+pub fn most_violated_side(polyhedron: &Polyhedron, face: &MergedFace, point: &Vector, tolerance: f64) -> Option<u32> {
+    let polygon = SidePolygon::new(polyhedron, face);
     let side = polygon.side_towards(point);
     if polygon.value(side, point) >= 0.0 {
         return None;
@@ -26,8 +26,13 @@ pub fn most_violated_side(polyhedron: &Polyhedron, face: &Face, point: &Vector, 
 /// The point where the way from a point inside a face's prism to another leaves it: the fraction of the way and the side, or (1,
 /// None). `skip` is an edge whose side does not count.
 #[inline(never)]
-pub fn exit_of_prism(polyhedron: &Polyhedron, face: &Face, [from, to]: [&Vector; 2], skip: u32) -> (f64, Option<u32>) {
-    let polygon = Polygon::new(polyhedron, face);
+pub fn exit_of_prism(
+    polyhedron: &Polyhedron,
+    face: &MergedFace,
+    [from, to]: [&Vector; 2],
+    skip: u32,
+) -> (f64, Option<u32>) {
+    let polygon = SidePolygon::new(polyhedron, face);
     let mut exit = (1.0, None);
     // Every side that the end of the way lies beyond shortens it; the last one that does is where it leaves.
     for _ in 0..MOST_SHORTENINGS {
@@ -48,17 +53,17 @@ pub fn exit_of_prism(polyhedron: &Polyhedron, face: &Face, [from, to]: [&Vector;
 }
 
 /// A face seen as a polygon, its corners counter-clockwise about a point inside.
-struct Polygon<'a> {
+struct SidePolygon<'a> {
     polyhedron: &'a Polyhedron,
-    face: &'a Face,
+    face: &'a MergedFace,
     centre: Vector,
     /// From the centre to the end of the last side.
     first: Vector,
 }
 
-impl<'a> Polygon<'a> {
-    fn new(polyhedron: &'a Polyhedron, face: &'a Face) -> Polygon<'a> {
-        let mut polygon = Polygon { polyhedron, face, centre: Vector::zeros(), first: Vector::zeros() };
+impl<'a> SidePolygon<'a> {
+    fn new(polyhedron: &'a Polyhedron, face: &'a MergedFace) -> SidePolygon<'a> {
+        let mut polygon = SidePolygon { polyhedron, face, centre: Vector::zeros(), first: Vector::zeros() };
         let count = face.side_count;
         let corners = [count - 1, count / 3, 2 * count / 3].map(|side| polygon.spoke(side));
         polygon.centre = (corners[0] + corners[1] + corners[2]) / 3.0;
@@ -144,7 +149,7 @@ mod tests {
         build(&(0..sides).flat_map(corner).collect::<Vec<_>>(), None).unwrap()
     }
 
-    fn values(polygon: &Polygon, point: &Vector) -> Vec<f64> {
+    fn values(polygon: &SidePolygon, point: &Vector) -> Vec<f64> {
         (0..polygon.face.side_count).map(|side| polygon.value(side, point)).collect()
     }
 
@@ -162,10 +167,11 @@ mod tests {
         // Miri takes a thousand times as long.
         for &(sides, width) in if cfg!(miri) { &prisms[..1] } else { &prisms } {
             let polyhedron = prism(sides, width);
-            let caps: Vec<&Face> = polyhedron.faces.iter().filter(|face| face.side_count as usize == sides).collect();
+            let caps: Vec<&MergedFace> =
+                polyhedron.faces.iter().filter(|face| face.side_count as usize == sides).collect();
             assert_eq!(caps.len(), 2);
             for face in caps {
-                let polygon = Polygon::new(&polyhedron, face);
+                let polygon = SidePolygon::new(&polyhedron, face);
                 let mut inside = Vec::new();
                 for point in points().map(|p| Vector::new(p.x, p.y * width, p.z)) {
                     let values = values(&polygon, &point);

@@ -16,7 +16,7 @@ pub enum FeatureId {
 /// The states of V-Clip (Mirtich 1998, §3): the kinds of the features of body 1 and body 2.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(u32)]
-pub enum Kind {
+pub enum StateKind {
     /// A vertex and a vertex.
     VertexVertex = 1,
     /// A vertex of body 1 and an edge of body 2.
@@ -36,7 +36,7 @@ pub enum Kind {
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct State {
     /// The kind of the features.
-    pub kind: Kind,
+    pub kind: StateKind,
     /// The index of body 1's feature.
     pub first: u32,
     /// That of body 2's.
@@ -45,7 +45,7 @@ pub struct State {
 
 impl State {
     #[inline(always)]
-    fn new(kind: Kind, [first, second]: [u32; 2]) -> State {
+    fn new(kind: StateKind, [first, second]: [u32; 2]) -> State {
         State { kind, first, second }
     }
 
@@ -58,26 +58,26 @@ impl State {
     /// A vertex of each body.
     #[inline(always)]
     pub fn vertex_vertex(indices: [u32; 2]) -> State {
-        State::new(Kind::VertexVertex, indices)
+        State::new(StateKind::VertexVertex, indices)
     }
 
     /// An edge of each body.
     #[inline(always)]
     pub fn edge_edge(indices: [u32; 2]) -> State {
-        State::new(Kind::EdgeEdge, indices)
+        State::new(StateKind::EdgeEdge, indices)
     }
 
     /// A vertex of body `near` (0 or 1) and an edge of the other.
     #[inline(always)]
     pub fn vertex_edge(near: usize, vertex: u32, edge: u32) -> State {
-        let kind = if near == 0 { Kind::VertexEdge } else { Kind::EdgeVertex };
+        let kind = if near == 0 { StateKind::VertexEdge } else { StateKind::EdgeVertex };
         State::new(kind, ordered(near, vertex, edge))
     }
 
     /// A vertex of body `near` (0 or 1) and a face of the other.
     #[inline(always)]
     pub fn vertex_face(near: usize, vertex: u32, face: u32) -> State {
-        let kind = if near == 0 { Kind::VertexFace } else { Kind::FaceVertex };
+        let kind = if near == 0 { StateKind::VertexFace } else { StateKind::FaceVertex };
         State::new(kind, ordered(near, vertex, face))
     }
 
@@ -85,8 +85,8 @@ impl State {
     /// across the others. Looked up (R4).
     #[inline(always)]
     pub fn across_edge(near: usize, vertex: u32, lane: usize, across: u32) -> State {
-        use Kind::{FaceVertex, VertexFace, VertexVertex};
-        const KINDS: [[Kind; 4]; 2] = [
+        use StateKind::{FaceVertex, VertexFace, VertexVertex};
+        const KINDS: [[StateKind; 4]; 2] = [
             [VertexVertex, VertexVertex, VertexFace, VertexFace],
             [VertexVertex, VertexVertex, FaceVertex, FaceVertex],
         ];
@@ -99,12 +99,12 @@ impl State {
         use FeatureId::{Edge, Face, Vertex};
         let State { first, second, .. } = self;
         match self.kind {
-            Kind::VertexVertex => [Vertex(first), Vertex(second)],
-            Kind::VertexEdge => [Vertex(first), Edge(second)],
-            Kind::EdgeVertex => [Edge(first), Vertex(second)],
-            Kind::VertexFace => [Vertex(first), Face(second)],
-            Kind::FaceVertex => [Face(first), Vertex(second)],
-            Kind::EdgeEdge => [Edge(first), Edge(second)],
+            StateKind::VertexVertex => [Vertex(first), Vertex(second)],
+            StateKind::VertexEdge => [Vertex(first), Edge(second)],
+            StateKind::EdgeVertex => [Edge(first), Vertex(second)],
+            StateKind::VertexFace => [Vertex(first), Face(second)],
+            StateKind::FaceVertex => [Face(first), Vertex(second)],
+            StateKind::EdgeEdge => [Edge(first), Edge(second)],
         }
     }
 
@@ -125,7 +125,7 @@ impl State {
     /// A state from the number of its kind, and of indices that may be anything.
     #[inline(always)]
     pub fn unchecked(kind: u32, indices: [u32; 2]) -> Option<State> {
-        use Kind::{EdgeEdge, EdgeVertex, FaceVertex, VertexEdge, VertexFace, VertexVertex};
+        use StateKind::{EdgeEdge, EdgeVertex, FaceVertex, VertexEdge, VertexFace, VertexVertex};
         let kind = match kind {
             1 => VertexVertex,
             2 => VertexEdge,

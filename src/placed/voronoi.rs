@@ -2,7 +2,9 @@
 
 use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::base::simd::Lanes;
-use crate::body::polyhedron::{Face, NONE, NeighbourBlock, PlaneBlock, Polyhedron, Steepest, Vertex, clear_slope};
+use crate::body::polyhedron::{
+    MergedFace, NONE, NeighbourBlock, PlaneBlock, Polyhedron, Steepest, Vertex, clear_slope,
+};
 use crate::placed::side_search::{self, MANY_SIDES};
 
 /// Across which plane to go on where several are violated.
@@ -210,7 +212,7 @@ pub fn edge_direction(planes: &PlaneBlock) -> Vector {
 pub fn violated_side<L: Lanes>(
     rule: Rule,
     polyhedron: &Polyhedron,
-    face: &Face,
+    face: &MergedFace,
     [point, first]: [L; 2],
     tolerance: f64,
 ) -> Option<u32> {
@@ -239,7 +241,7 @@ pub fn violated_side<L: Lanes>(
 #[inline(always)]
 pub fn exit_of_prism<L: Lanes>(
     polyhedron: &Polyhedron,
-    face: &Face,
+    face: &MergedFace,
     [from, to]: [L; 2],
     [from_first, to_first]: [L; 2],
     skip: u32,

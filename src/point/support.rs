@@ -12,7 +12,7 @@ use crate::body::polyhedron::{LARGEST, Polyhedron, SMALLEST};
 use crate::depth::polytope::farthest;
 use crate::pair::Placed;
 use crate::placed::Pair;
-use crate::placed::exact::body::Body;
+use crate::placed::exact::body::ExactBody;
 use crate::placed::exact::dyadic::DyadicVector;
 
 /// The support vertex of a body along a direction of the world, of any length but 0: guaranteed, whatever the magnitudes. For a
@@ -68,7 +68,7 @@ fn climb(polyhedron: &Polyhedron, pose: &Pose, direction: &Vector) -> (u32, bool
 #[cold]
 #[inline(never)]
 fn climb_exactly(polyhedron: &Polyhedron, pose: &Pose, direction: [f64; 3], from: u32) -> u32 {
-    let body = Body::new(polyhedron, pose);
+    let body = ExactBody::new(polyhedron, pose);
     let towards = body.local_direction(&DyadicVector::from_doubles(direction).components);
     body.support(from, &towards)
 }

@@ -9,12 +9,12 @@ use std::cmp::Ordering;
 
 use dashu_int::IBig;
 
-use super::line::{Line, Side};
+use super::line::{Line, LineSide};
 use super::{Ray, RayAnswer, RayOutcome};
 use crate::answer::{label, normalised};
 use crate::base::math::{Pose, Vector};
 use crate::body::polyhedron::Polyhedron;
-use crate::placed::exact::body::Body;
+use crate::placed::exact::body::ExactBody;
 use crate::placed::exact::dyadic::{
     DyadicVector, IntVector, bounds_of_quotient_by_root, cross, decode, dot, leading_bits,
 };
@@ -22,32 +22,32 @@ use crate::placed::state::FeatureId;
 
 /// A place on the line: numerator / denominator · 2^exponent, with a positive denominator.
 #[derive(Debug, Clone)]
-struct Place {
+struct RayPlace {
     numerator: IBig,
     denominator: IBig,
     exponent: i32,
 }
 
 /// The part of the line in the body.
-struct Part {
-    entry: Place,
-    exit: Place,
+struct RayPart {
+    entry: RayPlace,
+    exit: RayPlace,
     /// The feature that it enters through.
     feature: FeatureId,
 }
 
 /// Casts the ray anew; `line` tells signs where doubles do.
 pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray, line: Option<&Line>, answer: &mut RayAnswer) {
-    let cast = Cast {
+    let cast = ExactCast {
         polyhedron,
-        body: Body::new(polyhedron, pose),
+        body: ExactBody::new(polyhedron, pose),
         origin: DyadicVector::from_doubles(ray.origin),
         direction: DyadicVector::from_doubles(ray.direction),
         line,
     };
     answer.exact = 1;
     answer.outcome = RayOutcome::Miss;
-    let Some(Part { entry, exit, feature }) = cast.part() else { return };
+    let Some(RayPart { entry, exit, feature }) = cast.part() else { return };
     if exit.is_negative() || entry.compare(ray.t_max).is_gt() {
         return;
     }
@@ -63,9 +63,9 @@ pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray, line: Option
     answer.feature = label(polyhedron, feature, &point(polyhedron, pose, ray, answer.entry[0]));
 }
 
-struct Cast<'a> {
+struct ExactCast<'a> {
     polyhedron: &'a Polyhedron,
-    body: Body<'a>,
+    body: ExactBody<'a>,
     origin: DyadicVector,
     direction: DyadicVector,
     line: Option<&'a Line<'a>>,
@@ -82,7 +82,7 @@ enum Met {
     No,
 }
 
-impl Cast<'_> {
+impl ExactCast<'_> {
     /// A vertex relative to the ray's origin.
     fn vertex(&self, vertex: u32) -> DyadicVector {
         self.body.world_vertex(vertex).difference(self.origin.clone())
@@ -96,21 +96,21 @@ impl Cast<'_> {
         (all.map(|v| v.components), exponent)
     }
 
-    fn part(&self) -> Option<Part> {
+    fn part(&self) -> Option<RayPart> {
         match self.polyhedron.dimension {
             0 => self.at_point(),
             1 => {
                 let places = self.on_segment([0, 1]);
                 let places = || places.iter().flatten();
                 let (entry, exit) = (places().min_by(order)?.clone(), places().max_by(order)?.clone());
-                Some(Part { entry, exit, feature: FeatureId::Edge(0) })
+                Some(RayPart { entry, exit, feature: FeatureId::Edge(0) })
             }
             _ => self.through_triangles().or_else(|| self.in_plane()),
         }
     }
 
     /// Between the triangles that it comes in and goes out through.
-    fn through_triangles(&self) -> Option<Part> {
+    fn through_triangles(&self) -> Option<RayPart> {
         let (mut entering, mut leaving) = (None, None);
         for (triangle, &corners) in (0..).zip(&self.polyhedron.triangles) {
             match self.meets(corners) {
@@ -120,7 +120,7 @@ impl Cast<'_> {
             }
             if let (Some(entering), Some(leaving)) = (entering, leaving) {
                 let face = self.polyhedron.face_of_triangle[entering as usize];
-                return Some(Part {
+                return Some(RayPart {
                     entry: self.on_plane(entering),
                     exit: self.on_plane(leaving),
                     feature: FeatureId::Face(face),
@@ -135,8 +135,8 @@ impl Cast<'_> {
         let (mut lefts, mut rights) = (0, 0);
         for side in [[a, b], [b, c], [c, a]] {
             match self.side(side) {
-                Some(Side::Left) => lefts += 1,
-                Some(Side::Right) => rights += 1,
+                Some(LineSide::Left) => lefts += 1,
+                Some(LineSide::Right) => rights += 1,
                 None => {}
             }
             if lefts > 0 && rights > 0 {
@@ -151,36 +151,36 @@ impl Cast<'_> {
     }
 
     /// On which side the line passes by another; none where both are in one plane.
-    fn side(&self, [tail, head]: [u32; 2]) -> Option<Side> {
+    fn side(&self, [tail, head]: [u32; 2]) -> Option<LineSide> {
         if let Some(side) = self.line.and_then(|line| line.side([tail, head])) {
             return Some(side);
         }
         let ([from, to], _) = self.vertices([tail, head]);
         // The head relative to the tail or to the origin: across the tail it is the same.
         match dot(&self.direction.components, &cross(&to, &from)).cmp(&IBig::ZERO) {
-            Ordering::Greater => Some(Side::Left),
-            Ordering::Less => Some(Side::Right),
+            Ordering::Greater => Some(LineSide::Left),
+            Ordering::Less => Some(LineSide::Right),
             Ordering::Equal => None,
         }
     }
 
     /// The line's crossing with the plane of a triangle that is not along it.
-    fn on_plane(&self, triangle: u32) -> Place {
+    fn on_plane(&self, triangle: u32) -> RayPlace {
         let ([a, b, c], exponent) = self.vertices(self.polyhedron.triangles[triangle as usize]);
         let normal = cross(&minus(&b, &a), &minus(&c, &a));
         self.place(dot(&normal, &a), dot(&normal, &self.direction.components), exponent)
     }
 
     /// The part of a line that may be in the plane of a flat body, from where it meets the sides of the body's triangles.
-    fn in_plane(&self) -> Option<Part> {
+    fn in_plane(&self) -> Option<RayPart> {
         if self.polyhedron.dimension != 2 {
             return None;
         }
-        let mut part: Option<Part> = None;
+        let mut part: Option<RayPart> = None;
         for (&[a, b, c], &face) in self.polyhedron.triangles.iter().zip(&self.polyhedron.face_of_triangle) {
             for place in [[a, b], [b, c], [c, a]].into_iter().flat_map(|side| self.on_segment(side)).flatten() {
                 match &mut part {
-                    None => part = Some(Part { entry: place.clone(), exit: place, feature: FeatureId::Face(face) }),
+                    None => part = Some(RayPart { entry: place.clone(), exit: place, feature: FeatureId::Face(face) }),
                     Some(part) if order(&&place, &&part.entry).is_lt() => {
                         (part.entry, part.feature) = (place, FeatureId::Face(face));
                     }
@@ -193,7 +193,7 @@ impl Cast<'_> {
     }
 
     /// The line's meeting with a segment: nowhere, in a point, or from one end to the other.
-    fn on_segment(&self, ends: [u32; 2]) -> [Option<Place>; 2] {
+    fn on_segment(&self, ends: [u32; 2]) -> [Option<RayPlace>; 2] {
         // Far from most segments.
         if self.line.is_some_and(|line| line.side(ends).is_some()) {
             return [None, None];
@@ -221,22 +221,22 @@ impl Cast<'_> {
         [Some(self.place(dot(&cross(&from, &along), &across), square, exponent)), None]
     }
 
-    fn at_point(&self) -> Option<Part> {
+    fn at_point(&self) -> Option<RayPart> {
         let ([vertex], exponent) = self.vertices([0]);
         let direction = &self.direction.components;
         if !is_zero(&cross(&vertex, direction)) {
             return None;
         }
         let place = self.place(dot(&vertex, direction), dot(direction, direction), exponent);
-        Some(Part { entry: place.clone(), exit: place, feature: FeatureId::Vertex(0) })
+        Some(RayPart { entry: place.clone(), exit: place, feature: FeatureId::Vertex(0) })
     }
 
     /// The place t with t·denominator = numerator; `exponent` is that of the vertices in the numerator.
-    fn place(&self, numerator: IBig, denominator: IBig, exponent: i32) -> Place {
+    fn place(&self, numerator: IBig, denominator: IBig, exponent: i32) -> RayPlace {
         let exponent = exponent - self.direction.exponent;
         match denominator < IBig::ZERO {
-            true => Place { numerator: -numerator, denominator: -denominator, exponent },
-            false => Place { numerator, denominator, exponent },
+            true => RayPlace { numerator: -numerator, denominator: -denominator, exponent },
+            false => RayPlace { numerator, denominator, exponent },
         }
     }
 
@@ -262,7 +262,7 @@ impl Cast<'_> {
     }
 }
 
-impl Place {
+impl RayPlace {
     fn is_negative(&self) -> bool {
         self.numerator < IBig::ZERO
     }
@@ -300,7 +300,7 @@ impl Place {
     }
 }
 
-fn order(a: &&Place, b: &&Place) -> Ordering {
+fn order(a: &&RayPlace, b: &&RayPlace) -> Ordering {
     a.compare_products(&b.numerator, &b.denominator, b.exponent)
 }
 

@@ -4,7 +4,7 @@
 use super::Ray;
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector, is_unit};
 use crate::base::scalar::determinant;
-use crate::body::polyhedron::{Face, LARGEST, Polyhedron, SMALLEST};
+use crate::body::polyhedron::{LARGEST, MergedFace, Polyhedron, SMALLEST};
 
 /// No rotation that is accepted lengthens a vector by more: |RᵀR − I| ≤ 3·10⁻² as a norm.
 const LARGEST_STRETCH: f64 = 1.02;
@@ -33,14 +33,14 @@ pub(super) struct Line<'a> {
 
 /// Position of a line relative to a directed one that it passes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(super) enum Side {
+pub(super) enum LineSide {
     Left,
     Right,
 }
 
 /// The line's stretch on a plane: between these.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Crossing {
+pub(super) struct PlaneCrossing {
     /// Nothing of the body is on the line before the lower end if the plane faces it, or after the upper end if not. The points of
     /// the plane's face are between both.
     pub at: [f64; 2],
@@ -131,13 +131,13 @@ impl<'a> Line<'a> {
     }
 
     /// The crossing with the plane of a face, see [`Line::crossing`]; none where rounding hides which way.
-    pub fn crossing_of(&self, face: &Face) -> Option<Crossing> {
+    pub fn crossing_of(&self, face: &MergedFace) -> Option<PlaneCrossing> {
         self.crossing(&face.normal, face.slack, face.vertex)
     }
 
     /// The crossing with the plane through a vertex whose unit outward normal n is given in the body's axes. The body lies behind
     /// that plane, up to its slack.
-    pub fn crossing(&self, normal: &Vector, slack: f64, vertex: u32) -> Option<Crossing> {
+    pub fn crossing(&self, normal: &Vector, slack: f64, vertex: u32) -> Option<PlaneCrossing> {
         debug_assert!(slack >= 0.0);
         // For any U, and g = RᵀU = n + r: the largest U·(R·p + T) over the body is less than that of the vertex plus the slack
         // plus 2ρ|r|. The computed r is off by 8u.
@@ -151,7 +151,7 @@ impl<'a> Line<'a> {
 
     /// The crossing with the plane that supports the body with its ball along a unit vector, rounded, of the world. `vertex` is
     /// the polyhedron's support vertex, up to an excess.
-    pub fn crossing_of_support(&self, normal: &Vector, vertex: u32, excess: f64) -> Option<Crossing> {
+    pub fn crossing_of_support(&self, normal: &Vector, vertex: u32, excess: f64) -> Option<PlaneCrossing> {
         let [height, error] = self.support(normal, vertex, excess);
         self.crossing_at(*normal, height, error)
     }
@@ -177,14 +177,14 @@ impl<'a> Line<'a> {
     }
 
     /// The crossing with a plane of a normal of about unit length, the height of which is off by at most an error.
-    fn crossing_at(&self, normal: Vector, height: f64, error: f64) -> Option<Crossing> {
+    fn crossing_at(&self, normal: Vector, height: f64, error: f64) -> Option<PlaneCrossing> {
         let along = normal.dot(&self.direction);
         let along_error = 4.0 * U * self.length;
         if !(along.abs() > along_error) {
             return None;
         }
         let at = quotient([height - error, height + error], [along - along_error, along + along_error]);
-        Some(Crossing { at, faces: along < 0.0, normal })
+        Some(PlaneCrossing { at, faces: along < 0.0, normal })
     }
 
     /// How it passes the ball around a point of the polyhedron, computed from vertices with convex weights; `norm` is that of its
@@ -216,18 +216,18 @@ impl<'a> Line<'a> {
     /// winds around the line, which is then in the hull of the corners, whether these are in one plane or not.
     pub fn passes_through(&self, corners: &[u32], faces: bool) -> bool {
         debug_assert!(corners.len() >= 3);
-        let inner = if faces { Side::Left } else { Side::Right };
+        let inner = if faces { LineSide::Left } else { LineSide::Right };
         (0..corners.len()).all(|k| self.side([corners[k], corners[(k + 1) % corners.len()]]) == Some(inner))
     }
 
     /// On which side it passes by the line from one vertex to another, seen along its direction; none where rounding hides it.
-    pub fn side(&self, [tail, head]: [u32; 2]) -> Option<Side> {
+    pub fn side(&self, [tail, head]: [u32; 2]) -> Option<LineSide> {
         let [from, to] = [tail, head].map(|v| &self.polyhedron.vertices[v as usize].position);
         let side = self.pose.rotate(&(to - from));
         let volume = determinant([self.direction.into(), side.into(), self.vertex(tail).into()]);
         let error = SIDE * self.length * norm1(&side) * self.reach + UNDERFLOW_GUARD;
         if volume.abs() > error {
-            return Some(if volume > 0.0 { Side::Left } else { Side::Right });
+            return Some(if volume > 0.0 { LineSide::Left } else { LineSide::Right });
         }
         None
     }

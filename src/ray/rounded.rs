@@ -8,14 +8,14 @@ use crate::base::math::{Vector, is_unit};
 
 /// A vertex in the world, relative to the ray's origin.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Corner {
+pub(super) struct RoundedCorner {
     pub vertex: u32,
     pub place: Vector,
 }
 
 /// The first touch of a line with a hull of corners with a ball.
 #[derive(Debug, Clone, Copy)]
-pub(super) struct Touch {
+pub(super) struct RoundedTouch {
     /// How far along the line.
     pub at: f64,
     /// What of the corners holds the nearest point of the hull.
@@ -36,7 +36,7 @@ pub(super) struct Members {
 }
 
 /// The first touch that the first of some corners has a part in, if it is sooner than another.
-pub(super) fn sooner_touch(along: &Vector, radius: f64, corners: &[Corner], than: f64) -> Option<Touch> {
+pub(super) fn sooner_touch(along: &Vector, radius: f64, corners: &[RoundedCorner], than: f64) -> Option<RoundedTouch> {
     debug_assert!(is_unit(along) && radius > 0.0 && corners.len() <= 4);
     let place = |k: usize| &corners[k].place;
     let mut first = of_point(along, radius, place(0)).unwrap_or(f64::INFINITY);
@@ -71,7 +71,7 @@ pub(super) fn sooner_touch(along: &Vector, radius: f64, corners: &[Corner], than
             if across.dot(along) > 0.0 { -across } else { across }
         }
     };
-    Some(Touch { at: first, members, weights, foot, normal: normal * (1.0 / normal.norm()) })
+    Some(RoundedTouch { at: first, members, weights, foot, normal: normal * (1.0 / normal.norm()) })
 }
 
 /// The feature of some corners that is nearest to the line, seen along it.
@@ -84,8 +84,8 @@ pub(super) struct Beside {
 }
 
 /// The nearest to a line that the first of some corners has a part in; the line does not pass between them.
-pub(super) fn nearest_beside(along: &Vector, corners: &[Corner]) -> Beside {
-    let seen = |corner: &Corner| corner.place - along * corner.place.dot(along);
+pub(super) fn nearest_beside(along: &Vector, corners: &[RoundedCorner]) -> Beside {
+    let seen = |corner: &RoundedCorner| corner.place - along * corner.place.dot(along);
     let from = seen(&corners[0]);
     let mut nearest = Beside { members: Members { indices: [0; 3], count: 1 }, across: from };
     for (k, corner) in corners.iter().enumerate().skip(1) {

@@ -1,6 +1,6 @@
 //! A ray cast: a walk to both ends, the proofs of them by doubles, and integers where they do not.
 
-use super::line::{Crossing, Line};
+use super::line::{Line, PlaneCrossing};
 use super::walk::{End, Ended, LocalLine};
 use super::{Ray, RayAnswer, RayOutcome, exact};
 use crate::answer::{label, normalised};
@@ -14,13 +14,13 @@ use crate::placed::state::FeatureId;
 const MOST_CORNERS: usize = 8;
 
 /// The result that doubles prove.
-enum Proved {
+enum ProvedHit {
     Miss,
     /// The line passes through the body: through this face, between these, and goes out between those.
     Passes {
         face: u32,
-        entry: Crossing,
-        exit: Crossing,
+        entry: PlaneCrossing,
+        exit: PlaneCrossing,
     },
     Nothing,
 }
@@ -31,11 +31,11 @@ pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray) -> Result<Ra
     let line = Line::new(polyhedron, pose, ray, 0.0);
     if let Some(line) = &line {
         match prove(line, ray, &mut answer.steps) {
-            Proved::Miss => {
+            ProvedHit::Miss => {
                 answer.outcome = RayOutcome::Miss;
                 return Ok(answer);
             }
-            Proved::Passes { face, entry, exit } => {
+            ProvedHit::Passes { face, entry, exit } => {
                 if fill(&mut answer, line, ray, entry.at, exit.at) {
                     if answer.outcome == RayOutcome::Hit {
                         answer.normal = normalised(&entry.normal);
@@ -45,7 +45,7 @@ pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray) -> Result<Ra
                     return Ok(answer);
                 }
             }
-            Proved::Nothing => {}
+            ProvedHit::Nothing => {}
         }
     }
     in_integers(|| exact::cast(polyhedron, pose, ray, line.as_ref(), &mut answer))?;
@@ -60,40 +60,40 @@ pub(super) fn cast_in_integers(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray) 
     Ok(answer)
 }
 
-fn prove(line: &Line, ray: &Ray, steps: &mut u32) -> Proved {
+fn prove(line: &Line, ray: &Ray, steps: &mut u32) -> ProvedHit {
     if line.passes_sphere() {
-        return Proved::Miss;
+        return ProvedHit::Miss;
     }
     let polyhedron = line.polyhedron;
     if polyhedron.faces.is_empty() {
-        return Proved::Nothing;
+        return ProvedHit::Nothing;
     }
     let local = LocalLine::new(line);
     let entering = match local.walk(End::Entry, steps) {
         Ended::At(face) => face,
-        Ended::Beside(edge) => return if passes_edge(line, ray, edge) { Proved::Miss } else { Proved::Nothing },
-        Ended::Lost => return Proved::Nothing,
+        Ended::Beside(edge) => return if passes_edge(line, ray, edge) { ProvedHit::Miss } else { ProvedHit::Nothing },
+        Ended::Lost => return ProvedHit::Nothing,
     };
-    let Some(entry) = line.crossing_of(&polyhedron.faces[entering as usize]) else { return Proved::Nothing };
+    let Some(entry) = line.crossing_of(&polyhedron.faces[entering as usize]) else { return ProvedHit::Nothing };
     if entry.faces && entry.at[0] > ray.t_max {
-        return Proved::Miss;
+        return ProvedHit::Miss;
     }
-    let Ended::At(leaving) = local.walk(End::Exit, steps) else { return Proved::Nothing };
-    let Some(exit) = line.crossing_of(&polyhedron.faces[leaving as usize]) else { return Proved::Nothing };
+    let Ended::At(leaving) = local.walk(End::Exit, steps) else { return ProvedHit::Nothing };
+    let Some(exit) = line.crossing_of(&polyhedron.faces[leaving as usize]) else { return ProvedHit::Nothing };
     if !entry.faces || exit.faces {
-        return Proved::Nothing;
+        return ProvedHit::Nothing;
     }
     if exit.at[1] < 0.0 || entry.at[0] > exit.at[1] {
-        return Proved::Miss;
+        return ProvedHit::Miss;
     }
     let passes = |face: u32, faces: bool| {
         let (corners, count) = corners(polyhedron, face, &local);
         line.passes_through(&corners[..count], faces)
     };
     if passes(entering, true) && passes(leaving, false) {
-        return Proved::Passes { face: entering, entry, exit };
+        return ProvedHit::Passes { face: entering, entry, exit };
     }
-    Proved::Nothing
+    ProvedHit::Nothing
 }
 
 /// Whether the line, or all of the ray on it, provably misses the body by the planes at an edge.

@@ -10,7 +10,7 @@
 //! 1988).
 
 use super::line::{Chord, Line};
-use super::rounded::{Beside, Corner, Touch, nearest_beside, sooner_touch};
+use super::rounded::{Beside, RoundedCorner, RoundedTouch, nearest_beside, sooner_touch};
 use super::search::fill;
 use super::{Ray, RayAnswer, RayOutcome, swept_exact};
 use crate::answer::{feature_of_vertices, label};
@@ -60,12 +60,12 @@ fn prove(line: &Line, ray: &Ray, answer: &mut RayAnswer, guess: &mut [f64; 2]) -
     let norm = line.direction.norm();
     let along = line.direction * (1.0 / norm);
     let (touch, vertices, vertex, excess) = match first(line, &along, &mut answer.steps) {
-        Ended::At { touch, vertices, vertex, excess } => (touch, vertices, vertex, excess),
-        Ended::Beside { normal, vertex, excess } => {
+        SweptEnd::At { touch, vertices, vertex, excess } => (touch, vertices, vertex, excess),
+        SweptEnd::Beside { normal, vertex, excess } => {
             answer.outcome = RayOutcome::Miss;
             return line.is_in_front(&normal, vertex, excess, ray.t_max);
         }
-        Ended::Lost => return false,
+        SweptEnd::Lost => return false,
     };
     guess[0] = touch.at / norm;
     let Some(entry) = line.crossing_of_support(&touch.normal, vertex, excess) else { return false };
@@ -73,7 +73,9 @@ fn prove(line: &Line, ray: &Ray, answer: &mut RayAnswer, guess: &mut [f64; 2]) -
         answer.outcome = RayOutcome::Miss;
         return true;
     }
-    let Ended::At { touch: last, vertex, excess, .. } = first(line, &-along, &mut answer.steps) else { return false };
+    let SweptEnd::At { touch: last, vertex, excess, .. } = first(line, &-along, &mut answer.steps) else {
+        return false;
+    };
     guess[1] = -last.at / norm;
     let Some(exit) = line.crossing_of_support(&last.normal, vertex, excess) else { return false };
     if !entry.faces || exit.faces {
@@ -117,9 +119,9 @@ fn prove_ball(line: &Line, ray: &Ray, answer: &mut RayAnswer) -> bool {
 }
 
 /// How a search ended. The vertex is the farthest along the normal, up to an excess.
-enum Ended {
+enum SweptEnd {
     /// Where the line meets the body first, near these vertices.
-    At { touch: Touch, vertices: [u32; 3], vertex: u32, excess: f64 },
+    At { touch: RoundedTouch, vertices: [u32; 3], vertex: u32, excess: f64 },
     /// Next to the body, which the normal leads out of.
     Beside { normal: Vector, vertex: u32, excess: f64 },
     /// Nowhere.
@@ -129,7 +131,7 @@ enum Ended {
 /// Looks for where the line along a unit vector first meets the body.
 ///
 /// Each touch is sooner than the one before, and what is beside the line is nearer to it: nothing comes twice.
-fn first(line: &Line, along: &Vector, steps: &mut u32) -> Ended {
+fn first(line: &Line, along: &Vector, steps: &mut u32) -> SweptEnd {
     debug_assert!(is_unit(along));
     if line.polyhedron.dimension == 1 {
         return first_of_ends(line, along);
@@ -142,7 +144,7 @@ fn first(line: &Line, along: &Vector, steps: &mut u32) -> Ended {
     // The newest, and those that the search was at before.
     let (mut corners, mut count) = ([support(&line.towards_sphere(along), None).0; 4], 1);
     let (mut soonest, mut nearest) = (f64::INFINITY, f64::INFINITY);
-    let mut ended = Ended::Lost;
+    let mut ended = SweptEnd::Lost;
     for _ in 0..MOST_STEPS {
         *steps += 1;
         let touch = sooner_touch(along, line.swept_radius, &corners[..count], soonest);
@@ -166,8 +168,8 @@ fn first(line: &Line, along: &Vector, steps: &mut u32) -> Ended {
         let (farther, excess) = support(&normal, Some(corners[0].vertex));
         let vertex = farther.vertex;
         ended = match touch {
-            Some(touch) => Ended::At { touch, vertices: kept.map(|corner| corner.vertex), vertex, excess },
-            None => Ended::Beside { normal, vertex, excess },
+            Some(touch) => SweptEnd::At { touch, vertices: kept.map(|corner| corner.vertex), vertex, excess },
+            None => SweptEnd::Beside { normal, vertex, excess },
         };
         if !(normal.dot(&(farther.place - foot)) > tolerance) {
             return ended;
@@ -175,35 +177,35 @@ fn first(line: &Line, along: &Vector, steps: &mut u32) -> Ended {
         corners = [farther, kept[0], kept[1], kept[2]];
         count = 1 + members.count;
     }
-    Ended::Lost
+    SweptEnd::Lost
 }
 
 /// The same of a segment. The end that is farther as computed is the farthest up to the rounding of heights, which counts in any
 /// case.
-fn first_of_ends(line: &Line, along: &Vector) -> Ended {
+fn first_of_ends(line: &Line, along: &Vector) -> SweptEnd {
     let corners = [corner(line, 0), corner(line, 1)];
     let farther = |normal: &Vector| u32::from(normal.dot(&(corners[1].place - corners[0].place)) > 0.0);
     let touch = sooner_touch(along, line.swept_radius, &corners, f64::INFINITY);
     let soonest = touch.as_ref().map_or(f64::INFINITY, |touch| touch.at);
     if let Some(touch) = sooner_touch(along, line.swept_radius, &corners[1..], soonest) {
-        return Ended::At { vertices: [1; 3], vertex: farther(&touch.normal), touch, excess: 0.0 };
+        return SweptEnd::At { vertices: [1; 3], vertex: farther(&touch.normal), touch, excess: 0.0 };
     }
     if let Some(touch) = touch {
         let vertices = touch.members.indices.map(|k| k as u32);
-        return Ended::At { vertices, vertex: farther(&touch.normal), touch, excess: 0.0 };
+        return SweptEnd::At { vertices, vertex: farther(&touch.normal), touch, excess: 0.0 };
     }
     let sides = [nearest_beside(along, &corners).across, nearest_beside(along, &corners[1..]).across];
     let is_first = sides[0].norm_squared() < sides[1].norm_squared();
     let normal = -(if is_first { sides[0] } else { sides[1] }).normalize();
-    Ended::Beside { normal, vertex: farther(&normal), excess: 0.0 }
+    SweptEnd::Beside { normal, vertex: farther(&normal), excess: 0.0 }
 }
 
-fn corner(line: &Line, vertex: u32) -> Corner {
-    Corner { vertex, place: line.vertex(vertex) }
+fn corner(line: &Line, vertex: u32) -> RoundedCorner {
+    RoundedCorner { vertex, place: line.vertex(vertex) }
 }
 
 /// The surface where a ray comes in.
-fn fill_surface(answer: &mut RayAnswer, line: &Line, touch: &Touch, vertices: &[u32; 3]) {
+fn fill_surface(answer: &mut RayAnswer, line: &Line, touch: &RoundedTouch, vertices: &[u32; 3]) {
     let positions = vertices.map(|v| line.polyhedron.vertices[v as usize].position);
     let point: Vector = positions.iter().zip(touch.weights).map(|(position, weight)| position * weight).sum();
     let towards = line.rotate_back(&touch.normal);

@@ -14,7 +14,7 @@ use crate::base::math::{Pose, Vector};
 use crate::base::predicates::mantissa_and_exponent;
 use crate::body::polyhedron::Polyhedron;
 use crate::placed::exact::dyadic::bounds_of_quotient_by_root;
-use crate::placed::exact::{BesideLine, Place};
+use crate::placed::exact::{BesideLine, LinePlace};
 
 /// Casts the ray anew; `guess` is where doubles have both ends, or NaN.
 pub(super) fn cast(
@@ -26,14 +26,14 @@ pub(super) fn cast(
     answer: &mut RayAnswer,
 ) {
     debug_assert!(radius > 0.0);
-    let cast = Cast { line: BesideLine::new(polyhedron, pose, ray.origin, ray.direction), radius };
-    let end = if ray.t_max < f64::INFINITY { Step::of(ray.t_max) } else { beyond(polyhedron, pose, ray, radius) };
+    let cast = SweptCast { line: BesideLine::new(polyhedron, pose, ray.origin, ray.direction), radius };
+    let end = if ray.t_max < f64::INFINITY { CastStep::of(ray.t_max) } else { beyond(polyhedron, pose, ray, radius) };
     answer.exact = 1;
     answer.outcome = RayOutcome::Miss;
-    if cast.compare(Step::FIRST, end).is_gt() {
+    if cast.compare(CastStep::FIRST, end).is_gt() {
         return;
     }
-    let origin = cast.line.nearest([Step::FIRST.place(); 2]);
+    let origin = cast.line.nearest([CastStep::FIRST.place(); 2]);
     let at_origin = origin.compare(radius);
     // On the surface the slope tells whether the line comes in or goes out there, or grazes.
     let slope = if at_origin.is_eq() { origin.slope() } else { Ordering::Equal };
@@ -54,7 +54,7 @@ pub(super) fn cast(
     answer.outcome = RayOutcome::Hit;
     // Outside the body or on its surface, as near to where the ray comes in as doubles are.
     let at;
-    (at, answer.entry) = if at_origin.is_gt() { cast.entry(end, guess[0]) } else { (Step::FIRST, [0.0; 2]) };
+    (at, answer.entry) = if at_origin.is_gt() { cast.entry(end, guess[0]) } else { (CastStep::FIRST, [0.0; 2]) };
     let nearest = cast.line.nearest([at.place(); 2]).answer();
     let normal = -nearest.direction;
     answer.normal = normalised(&normal);
@@ -65,44 +65,46 @@ pub(super) fn cast(
     answer.feature = label(polyhedron, feature, &point);
 }
 
-struct Cast<'a> {
+struct SweptCast<'a> {
     line: BesideLine<'a>,
     radius: f64,
 }
 
-impl Cast<'_> {
+impl SweptCast<'_> {
     /// How far the stretch between two places is from the hull, against the radius.
-    fn compare(&self, from: Step, to: Step) -> Ordering {
-        self.line.nearest([from, to].map(Step::place)).compare(self.radius)
+    fn compare(&self, from: CastStep, to: CastStep) -> Ordering {
+        self.line.nearest([from, to].map(CastStep::place)).compare(self.radius)
     }
 
-    fn is_in(&self, place: Place) -> bool {
+    fn is_in(&self, place: LinePlace) -> bool {
         self.line.nearest([place; 2]).compare(self.radius).is_le()
     }
 
     /// The entry of a ray that begins outside: the last place before that is known, and an interval.
-    fn entry(&self, end: Step, guess: f64) -> (Step, [f64; 2]) {
-        let [outside, inside] = change([Step::FIRST, end], guess, |at| self.compare(Step::FIRST, at).is_le());
+    fn entry(&self, end: CastStep, guess: f64) -> (CastStep, [f64; 2]) {
+        let [outside, inside] = change([CastStep::FIRST, end], guess, |at| self.compare(CastStep::FIRST, at).is_le());
         // At the radius all along, and nearer right afterwards: it is there, as distances along a line are convex.
-        let is_there = self.compare(Step::FIRST, inside).is_eq() && self.compare(Step::FIRST, inside.next()).is_lt();
+        let is_there =
+            self.compare(CastStep::FIRST, inside).is_eq() && self.compare(CastStep::FIRST, inside.next()).is_lt();
         let from = if is_there { inside } else { outside };
         (from, [from.bounds()[0], inside.bounds()[1]])
     }
 
     /// The exit of a ray that ends outside.
-    fn exit(&self, end: Step, guess: f64) -> [f64; 2] {
-        let [inside, outside] = change([Step::FIRST, end], guess, |at| self.compare(at, end).is_gt());
-        let is_there =
-            inside != Step::FIRST && self.compare(inside, end).is_eq() && self.compare(inside.previous(), end).is_lt();
+    fn exit(&self, end: CastStep, guess: f64) -> [f64; 2] {
+        let [inside, outside] = change([CastStep::FIRST, end], guess, |at| self.compare(at, end).is_gt());
+        let is_there = inside != CastStep::FIRST
+            && self.compare(inside, end).is_eq()
+            && self.compare(inside.previous(), end).is_lt();
         [inside.bounds()[0], if is_there { inside } else { outside }.bounds()[1]]
     }
 }
 
 /// The neighbouring steps between which a test becomes true, given two of which the second passes it. A guess is tried first.
-fn change([mut before, mut after]: [Step; 2], guess: f64, test: impl Fn(Step) -> bool) -> [Step; 2] {
+fn change([mut before, mut after]: [CastStep; 2], guess: f64, test: impl Fn(CastStep) -> bool) -> [CastStep; 2] {
     debug_assert!(before < after);
     let mut stride = 1;
-    let mut at = if guess > 0.0 && guess < f64::INFINITY { Step::of(guess) } else { Step::FIRST };
+    let mut at = if guess > 0.0 && guess < f64::INFINITY { CastStep::of(guess) } else { CastStep::FIRST };
     let mut gallops_back = None;
     while before < at && at < after {
         let passes = test(at);
@@ -114,11 +116,11 @@ fn change([mut before, mut after]: [Step; 2], guess: f64, test: impl Fn(Step) ->
         if *gallops_back.get_or_insert(passes) != passes {
             break;
         }
-        at = if passes { Step(at.0.saturating_sub(stride)) } else { Step(at.0 + stride) };
+        at = if passes { CastStep(at.0.saturating_sub(stride)) } else { CastStep(at.0 + stride) };
         stride *= 2;
     }
     while before.next() < after {
-        let middle = Step(before.0 + (after.0 - before.0) / 2);
+        let middle = CastStep(before.0 + (after.0 - before.0) / 2);
         if test(middle) { after = middle } else { before = middle }
     }
     [before, after]
@@ -127,56 +129,56 @@ fn change([mut before, mut after]: [Step; 2], guess: f64, test: impl Fn(Step) ->
 /// Places from 0 on in order, as the bits of doubles are, with exponents that reach farther: a biased exponent, and 52 bits of the
 /// mantissa.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Step(u64);
+struct CastStep(u64);
 
 /// The biased exponent of 1: that of the least double and of the farthest place of a line in a body, 2^2110, fit in twelve bits.
 const BIAS: i32 = 1200;
 
 /// Nearer to 0 than any place but 0 at which a line that grazes a body begins to. With coordinates of 4,400 bits, over one power of
 /// two, that is a quotient of polynomials of at most the ninth degree in them: its denominator has less bits than this.
-const BEFORE: Place = Place { mantissa: -1, exponent: -65_536 };
+const BEFORE: LinePlace = LinePlace { mantissa: -1, exponent: -65_536 };
 
-impl Step {
-    const FIRST: Step = Step(0);
+impl CastStep {
+    const FIRST: CastStep = CastStep(0);
 
     /// The step of a double from 0 on; infinity is 2^1024, as its bits go on.
-    fn of(t: f64) -> Step {
+    fn of(t: f64) -> CastStep {
         debug_assert!(t >= 0.0);
         let (mantissa, exponent) = mantissa_and_exponent(t);
         if mantissa == 0 {
-            return Step::FIRST;
+            return CastStep::FIRST;
         }
         // So that bit 52 leads.
         let shift = mantissa.leading_zeros() - 11;
-        Step::new((mantissa as u64) << shift, exponent + 52 - shift as i32)
+        CastStep::new((mantissa as u64) << shift, exponent + 52 - shift as i32)
     }
 
     /// `mantissa`/2⁵² · 2^exponent, from 1 to 2 and no zero bits above.
-    fn new(mantissa: u64, exponent: i32) -> Step {
+    fn new(mantissa: u64, exponent: i32) -> CastStep {
         debug_assert!(mantissa >> 52 == 1 && (1..4096).contains(&(exponent + BIAS)), "{mantissa:x} {exponent}");
-        Step(((exponent + BIAS) as u64) << 52 | (mantissa & ((1 << 52) - 1)))
+        CastStep(((exponent + BIAS) as u64) << 52 | (mantissa & ((1 << 52) - 1)))
     }
 
-    fn place(self) -> Place {
-        if self == Step::FIRST {
-            return Place { mantissa: 0, exponent: 0 };
+    fn place(self) -> LinePlace {
+        if self == CastStep::FIRST {
+            return LinePlace { mantissa: 0, exponent: 0 };
         }
         let mantissa = self.0 & ((1 << 52) - 1) | 1 << 52;
-        Place { mantissa: mantissa as i64, exponent: (self.0 >> 52) as i32 - BIAS - 52 }
+        LinePlace { mantissa: mantissa as i64, exponent: (self.0 >> 52) as i32 - BIAS - 52 }
     }
 
-    fn next(self) -> Step {
-        Step(self.0 + 1)
+    fn next(self) -> CastStep {
+        CastStep(self.0 + 1)
     }
 
-    fn previous(self) -> Step {
-        debug_assert!(self > Step::FIRST);
-        Step(self.0 - 1)
+    fn previous(self) -> CastStep {
+        debug_assert!(self > CastStep::FIRST);
+        CastStep(self.0 - 1)
     }
 
     /// The doubles next to it, below and above; both itself where it is one.
     fn bounds(self) -> [f64; 2] {
-        let Place { mantissa, exponent } = self.place();
+        let LinePlace { mantissa, exponent } = self.place();
         if mantissa == 0 {
             return [0.0; 2];
         }
@@ -188,10 +190,10 @@ impl Step {
 /// A place from which on a ray is outside the body. No coordinate of the body is larger than 1.02·√3 times those of two vectors in
 /// its own axes, and of one in the world, and the radius: less than 8 times the largest. There, 16 times it are behind the ray. (A
 /// body's radius that overflows is less than 2^1025.)
-fn beyond(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray, radius: f64) -> Step {
+fn beyond(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray, radius: f64) -> CastStep {
     let lengths = [ray.origin().amax(), pose.translation().amax(), polyhedron.centre.amax(), polyhedron.radius, radius];
-    let largest = lengths.iter().map(|length| Step::of(*length)).max().unwrap_or(Step::FIRST);
-    let exponent = |step: Step| (step.0 >> 52) as i32 - BIAS;
+    let largest = lengths.iter().map(|length| CastStep::of(*length)).max().unwrap_or(CastStep::FIRST);
+    let exponent = |step: CastStep| (step.0 >> 52) as i32 - BIAS;
     // Less than twice the power of two with this exponent.
-    Step::new(1 << 52, exponent(largest).max(-1074) + 5 - exponent(Step::of(ray.direction().amax())))
+    CastStep::new(1 << 52, exponent(largest).max(-1074) + 5 - exponent(CastStep::of(ray.direction().amax())))
 }

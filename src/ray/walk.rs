@@ -3,7 +3,7 @@
 use super::line::Line;
 use crate::base::math::Vector;
 use crate::body::polyhedron::lookup::Table;
-use crate::body::polyhedron::{Edge, Face, NONE, PlaneBlock, Polyhedron};
+use crate::body::polyhedron::{Edge, MergedFace, NONE, PlaneBlock, Polyhedron};
 use crate::body::tables::table;
 
 /// Which of the two places is looked for.
@@ -51,7 +51,7 @@ impl<'a> LocalLine<'a> {
     }
 
     /// How far along the line that is, and the point.
-    fn on_plane(&self, face: &Face) -> (f64, Vector) {
+    fn on_plane(&self, face: &MergedFace) -> (f64, Vector) {
         let along = face.normal.dot(&self.direction);
         let at = -face.planes.value(0, &self.nearest) / along;
         (at, self.nearest + self.direction * at)
@@ -87,7 +87,7 @@ impl<'a> LocalLine<'a> {
     }
 
     /// The edge of the side that a point of the face's plane is farthest beyond, if it is beyond one.
-    fn side_beyond(&self, face: &Face, point: &Vector) -> Option<u32> {
+    fn side_beyond(&self, face: &MergedFace, point: &Vector) -> Option<u32> {
         let mut farthest = (0.0, NONE);
         let mut look = |block: &PlaneBlock, lane: usize, side: u32| {
             let value = block.value(lane, point);

@@ -31,9 +31,9 @@ impl Names for Themselves {
 
 /// In a recording: numbers, and of filters nothing.
 #[derive(Debug)]
-pub(crate) struct Numbers;
+pub(crate) struct RecordedNames;
 
-impl Names for Numbers {
+impl Names for RecordedNames {
     type Object = u32;
     type Shape = u32;
     type Filter = ();

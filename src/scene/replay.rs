@@ -10,11 +10,11 @@ use crate::base::files::open_to_read;
 use crate::base::locks::locked;
 use crate::base::memory::{lacking, push};
 use crate::pair::Query;
-use crate::scene::change::{Change, Numbers, Rename, Themselves};
+use crate::scene::change::{Change, RecordedNames, Rename, Themselves};
 use crate::scene::door::Scene;
 use crate::scene::recording::digest::Digest;
-use crate::scene::recording::format::{Decision, Record};
-use crate::scene::recording::reader::{Next, RecordReader};
+use crate::scene::recording::format::{Record, RecordedDecision};
+use crate::scene::recording::reader::{NextRecord, RecordReader};
 use crate::scene::search::query::{PlacedBody, SceneAnswer, SceneQuery, Subject};
 use crate::scene::world::object::ObjectId;
 use crate::scene::world::testing::PairFilter;
@@ -51,15 +51,15 @@ pub struct Replay {
     decisions: Arc<Mutex<Decisions>>,
     /// The changes of the step that was read, until it is done.
     changes: Vec<Record<'static>>,
-    decided: Vec<Decision>,
-    question: Option<Question>,
+    decided: Vec<RecordedDecision>,
+    question: Option<ReplayQuestion>,
     /// The first record of the next step.
     ahead: Option<Record<'static>>,
-    state: State,
+    state: ReplayState,
 }
 
 #[derive(Debug, Clone, PartialEq)]
-enum State {
+enum ReplayState {
     /// There may be more to read.
     Reading,
     /// The recording was ended.
@@ -71,7 +71,7 @@ enum State {
 }
 
 #[derive(Debug, Clone)]
-struct Question {
+struct ReplayQuestion {
     subject: Subject<'static, u32, u32>,
     kind: Query,
     query: SceneQuery,
@@ -142,9 +142,9 @@ impl Replay {
         let mut reader = RecordReader::new(source, name)?;
         let start = reader.position();
         let is_whole = match reader.next()? {
-            Next::Record(Record::Scene { is_whole }) => is_whole,
-            Next::Record(_) => return Err(reader.damaged(start, "the first one is not about the scene")),
-            Next::CutOff => return Err(reader.damaged(start, "it is cut off")),
+            NextRecord::Record(Record::Scene { is_whole }) => is_whole,
+            NextRecord::Record(_) => return Err(reader.damaged(start, "the first one is not about the scene")),
+            NextRecord::CutOff => return Err(reader.damaged(start, "it is cut off")),
         };
         Ok(Replay {
             reader,
@@ -157,7 +157,7 @@ impl Replay {
             decided: Vec::new(),
             question: None,
             ahead: None,
-            state: State::Reading,
+            state: ReplayState::Reading,
         })
     }
 
@@ -168,7 +168,7 @@ impl Replay {
 
     /// Whether the data ends before the recording was ended, for instance because the recorded program was.
     pub fn is_cut_off(&self) -> bool {
-        self.state == State::CutOff
+        self.state == ReplayState::CutOff
     }
 
     // --- Reading -----------------------------------------------------------------------------------------------------------------
@@ -183,18 +183,18 @@ impl Replay {
             return Err(Error::Argument("the step that was read before has not been done".into()));
         }
         self.question = None;
-        if let State::Failed(error) = &self.state {
+        if let ReplayState::Failed(error) = &self.state {
             return Err(error.clone());
         }
         if let Err(error) = self.read_step() {
             (self.changes, self.decided, self.question) = (Vec::new(), Vec::new(), None);
-            self.state = State::Failed(error.clone());
+            self.state = ReplayState::Failed(error.clone());
             return Err(error);
         }
         if self.changes.is_empty() && self.question.is_none() {
             return Ok(None);
         }
-        let is_asked = |question: &Question| !matches!(question.outcome, Recorded::Failure);
+        let is_asked = |question: &ReplayQuestion| !matches!(question.outcome, Recorded::Failure);
         let query = self
             .question
             .as_ref()
@@ -209,7 +209,7 @@ impl Replay {
             match (record, &mut self.question) {
                 (Record::Shape(shape), _) => push(&mut self.shapes, shape)?,
                 (Record::Question { subject, kind, query }, None) => {
-                    self.question = Some(Question { subject, kind, query, outcome: Recorded::Nothing });
+                    self.question = Some(ReplayQuestion { subject, kind, query, outcome: Recorded::Nothing });
                 }
                 (Record::Decisions(decisions), None) => push(&mut self.changes, Record::Decisions(decisions))?,
                 (Record::Decisions(decisions), Some(_)) => self.decided = decisions.into_owned(),
@@ -242,13 +242,13 @@ impl Replay {
         if let Some(record) = self.ahead.take() {
             return Ok(Some((start, record)));
         }
-        if self.state != State::Reading {
+        if self.state != ReplayState::Reading {
             return Ok(None);
         }
         match self.reader.next()? {
-            Next::Record(Record::End) => self.state = State::Ended,
-            Next::CutOff => self.state = State::CutOff,
-            Next::Record(record) => return Ok(Some((start, record))),
+            NextRecord::Record(Record::End) => self.state = ReplayState::Ended,
+            NextRecord::CutOff => self.state = ReplayState::CutOff,
+            NextRecord::Record(record) => return Ok(Some((start, record))),
         }
         Ok(None)
     }
@@ -266,7 +266,7 @@ impl Replay {
         let done = done.and_then(|()| self.learn(scene, &decided));
         done.map_err(|error| {
             let refused = error.unless_memory(|error| self.reader.refused(error));
-            self.state = State::Failed(refused.clone());
+            self.state = ReplayState::Failed(refused.clone());
             refused
         })
     }
@@ -278,7 +278,7 @@ impl Replay {
                     locked(&self.decisions).known.clear();
                 }
                 let Replay { shapes, ids, decisions, .. } = self;
-                let change = change.renamed(&mut Known { shapes, ids, decisions })?;
+                let change = change.renamed(&mut KnownObjects { shapes, ids, decisions })?;
                 scene.change(change)?.map_or(Ok(()), |id| push(&mut self.ids, id))
             }
             Record::Decisions(decisions) => self.learn(scene, &decisions),
@@ -293,9 +293,9 @@ impl Replay {
     }
 
     /// Takes the decisions of the recorded filter.
-    fn learn(&self, scene: &mut Scene, decisions: &[Decision]) -> Result<()> {
+    fn learn(&self, scene: &mut Scene, decisions: &[RecordedDecision]) -> Result<()> {
         let mut all = locked(&self.decisions);
-        for Decision { pair: [object1, object2], is_tested } in decisions {
+        for RecordedDecision { pair: [object1, object2], is_tested } in decisions {
             let pair = [id(&self.ids, *object1)?, id(&self.ids, *object2)?];
             let count = all.known.len() + 1;
             all.known.try_reserve(1).map_err(|e| lacking::<([ObjectId; 2], bool)>(count, &e))?;
@@ -316,7 +316,8 @@ impl Replay {
     /// Those of the query. [`Error::Argument`] if there is none, or the step is not done.
     pub fn ask<'a>(&mut self, scene: &'a mut Scene, tolerance: Option<f64>) -> Result<ReplayAnswer<'a>> {
         let is_open = self.changes.is_empty() && self.decided.is_empty();
-        let Some(Question { subject, kind, mut query, outcome }) = self.question.clone().filter(|_| is_open) else {
+        let Some(ReplayQuestion { subject, kind, mut query, outcome }) = self.question.clone().filter(|_| is_open)
+        else {
             return Err(Error::Argument("the step has no query, or has not been done".into()));
         };
         query.max_distance = tolerance.unwrap_or(query.max_distance);
@@ -358,13 +359,13 @@ impl Decisions {
 }
 
 /// The values that a replay has for the numbers of a recording.
-struct Known<'a> {
+struct KnownObjects<'a> {
     shapes: &'a [Arc<Shape>],
     ids: &'a [ObjectId],
     decisions: &'a Arc<Mutex<Decisions>>,
 }
 
-impl Rename<Numbers, Themselves> for Known<'_> {
+impl Rename<RecordedNames, Themselves> for KnownObjects<'_> {
     fn object(&mut self, object: u32) -> Result<ObjectId> {
         id(self.ids, object)
     }

@@ -61,7 +61,7 @@ impl Scene {
             if let Some(against) = against {
                 members::list(&self.world, against, Boxes::LeftOut, second)?;
             }
-            let question = nearest::Question {
+            let question = nearest::NearestQuestion {
                 world: &self.world,
                 members,
                 against: against.map_or(Against::Others(self.others(set)), |_| Against::Set(second)),
@@ -90,8 +90,8 @@ impl Scene {
     ) -> Result<FirstHit> {
         with_default(|| {
             let SetScratch { members, open, found, caches, .. } = scratch;
-            let question = first_hit::Question { others: self.others(set), poses, order, max_distance };
-            first_hit::first_hit(question, &mut first_hit::Room { members, open, found, caches })
+            let question = first_hit::FirstHitQuestion { others: self.others(set), poses, order, max_distance };
+            first_hit::first_hit(question, &mut first_hit::FirstHitRoom { members, open, found, caches })
         })
     }
 
@@ -110,8 +110,8 @@ impl Scene {
     ) -> Result<&'a [SceneRayHit]> {
         with_default(|| {
             let SetScratch { open, found, nearing, hits, .. } = scratch;
-            let question = rays::Question { others: self.others(&NOBODY), ray, hits: wanted, mask };
-            rays::cast(question, &mut rays::Room { open, found, nearing, hits })?;
+            let question = rays::RayQuestion { others: self.others(&NOBODY), ray, hits: wanted, mask };
+            rays::cast(question, &mut rays::RayRoom { open, found, nearing, hits })?;
             Ok(&hits[..])
         })
     }
@@ -135,8 +135,8 @@ impl Scene {
     ) -> Result<SceneCastAnswer> {
         with_default(|| {
             let SetScratch { movers, boxes, open, found, approaches, caches, .. } = scratch;
-            let question = casts::Question { others: self.others(set), motions, config };
-            casts::cast(question, &mut casts::Room { movers, boxes, open, found, approaches, caches })
+            let question = casts::CastQuestion { others: self.others(set), motions, config };
+            casts::cast(question, &mut casts::CastRoom { movers, boxes, open, found, approaches, caches })
         })
     }
 
@@ -216,8 +216,8 @@ impl Scene {
     ) -> Result<SceneGroundContacts<'a>> {
         with_default(|| {
             let SetScratch { members, open, found: rows, ground, contacts, .. } = scratch;
-            let question = grounds::Question { others: self.others(&NOBODY), set, floor, config, filter };
-            grounds::find(question, &mut grounds::Room { members, open, rows, ground, contacts })?;
+            let question = grounds::GroundQuestion { others: self.others(&NOBODY), set, floor, config, filter };
+            grounds::find(question, &mut grounds::SetGroundRoom { members, open, rows, ground, contacts })?;
             Ok(SceneGroundContacts { contacts: &contacts[..], points: &ground.points })
         })
     }

@@ -44,7 +44,7 @@ pub(crate) fn prove_apart(bodies: [Placed; 2], direction: [f64; 3], lower: f64) 
 }
 
 /// The proved part of an interval, and vertex pairs near where the objects are nearest.
-struct Proof {
+struct ApartProof {
     lower: bool,
     upper: bool,
     near: Vec<VertexPair>,
@@ -52,9 +52,9 @@ struct Proof {
 
 /// The interval of a disjoint pair that double-double arithmetic proves. The lower bound is the gap along the normal. The upper
 /// bound comes from the witness points if they are reported, else from the vertices that face each other.
-fn prove_interval(pair: &Pair, radii: &Radii, answer: &PairAnswer) -> Proof {
+fn prove_interval(pair: &Pair, radii: &Radii, answer: &PairAnswer) -> ApartProof {
     let most = sum_below(answer.upper, radii.lower);
-    let nothing = Proof { lower: false, upper: answer.upper == f64::INFINITY, near: Vec::new() };
+    let nothing = ApartProof { lower: false, upper: answer.upper == f64::INFINITY, near: Vec::new() };
     let Some(bounds) = Bounds::new(pair) else { return nothing };
     let normal = Vector::from(answer.normal);
     let gap = bounds.gap(&normal);
@@ -63,7 +63,7 @@ fn prove_interval(pair: &Pair, radii: &Radii, answer: &PairAnswer) -> Proof {
     let mut near: Vec<VertexPair> = listed(points[0].vertices.iter().flat_map(|&v| points[1].vertices.map(|w| [v, w])));
     near.sort_unstable();
     near.dedup();
-    Proof {
+    ApartProof {
         // A gap of 0 separates nothing.
         lower: answer.lower != 0.0 && bounds.prove_lower(&gap, &normal, sum_above(answer.lower, radii.upper)),
         upper: nothing.upper || (most >= 0.0 && bounds.prove_upper(&points, most)),

@@ -26,7 +26,7 @@ pub struct Bounds<'a> {
 }
 
 /// A gap along a normal.
-pub struct Gap {
+pub struct ProvedGap {
     value: DoubleDouble,
     /// Vertices that face each other across the gap.
     pub vertices: VertexPair,
@@ -65,12 +65,12 @@ impl<'a> Bounds<'a> {
     }
 
     /// The gap along a normal from body 2 to body 1: the lowest vertex of body 1 over the highest of body 2.
-    pub fn gap(&self, normal: &Vector) -> Gap {
+    pub fn gap(&self, normal: &Vector) -> ProvedGap {
         let wide = widen(normal);
         let (below1, vertex1) = self.highest(0, &widen(&-normal));
         let (above2, vertex2) = self.highest(1, &wide);
         let value = over_both(&wide, &self.between, below1, above2);
-        Gap { value, vertices: [vertex1, vertex2] }
+        ProvedGap { value, vertices: [vertex1, vertex2] }
     }
 
     /// The largest value of a world direction over all vertices of a body, about its centred origin, and a vertex that has it.
@@ -97,7 +97,7 @@ impl<'a> Bounds<'a> {
     }
 
     /// Whether the gap along a normal proves the distance to be at least `lower`: it is at least gap/|normal|.
-    pub fn prove_lower(&self, gap: &Gap, normal: &Vector, lower: f64) -> bool {
+    pub fn prove_lower(&self, gap: &ProvedGap, normal: &Vector, lower: f64) -> bool {
         let wide = widen(normal);
         // √(1 + x) ≤ 1 + x/2 for every x.
         let excess = (wide_dot(&wide, &wide) - 1.0.into()) * 0.5.into();
@@ -120,7 +120,7 @@ impl<'a> Bounds<'a> {
     }
 
     /// Whether a gap along a normal, which is then an overlap, proves the depth to be at most `upper`: it is at most −gap/|normal|.
-    pub fn prove_overlap(&self, gap: &Gap, normal: &Vector, upper: f64) -> bool {
+    pub fn prove_overlap(&self, gap: &ProvedGap, normal: &Vector, upper: f64) -> bool {
         let wide = widen(normal);
         // √(1 + x) ≥ 1 + x/2 − x² for every x from −1/2 on.
         let excess = wide_dot(&wide, &wide) - 1.0.into();
@@ -129,7 +129,7 @@ impl<'a> Bounds<'a> {
     }
 
     /// Whether a gap along a normal is provably one: the bodies are apart.
-    pub fn is_open(&self, gap: &Gap) -> bool {
+    pub fn is_open(&self, gap: &ProvedGap) -> bool {
         gap.value.hi > self.error
     }
 

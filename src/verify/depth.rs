@@ -18,7 +18,7 @@ use crate::base::memory::listed;
 use crate::base::scalar::determinant;
 use crate::depth::{DepthAnswer, DepthCache, PYRAMIDS, ProofFrom, proof};
 use crate::placed::Pair;
-use crate::placed::exact::{self, Differences, Position, Supports, VertexPair};
+use crate::placed::exact::{self, Differences, Position, SupportScope, VertexPair};
 use crate::shape::Placed;
 use std::cmp::Ordering;
 
@@ -206,7 +206,7 @@ fn check_swept_position(truth: &exact::ExactDistance, radii: &Radii, upper: f64)
 
 /// If the ends are 0, the position must be proved.
 fn check_position(pair: &Pair, upper: f64) -> Result<()> {
-    match exact::locate(pair, &[], Supports::OfAll) {
+    match exact::locate(pair, &[], SupportScope::OfAll) {
         Position::Separated(_) => Err(unverified("the objects have no common point".into())),
         Position::Touching { .. } if upper > 0.0 => Err(unverified("an overlap of objects that only touch".into())),
         Position::Overlapping(_) if upper == 0.0 => Err(unverified("no overlap of objects that overlap".into())),
@@ -247,7 +247,7 @@ fn check_upper(facts: &Facts, normal: &Vector, upper: f64, allowed: f64) -> Resu
     Err(unverified(format!("along the normal the objects overlap by {least:e}, not {upper:e}")))
 }
 
-type Triangle = [VertexPair; 3];
+type PairTriangle = [VertexPair; 3];
 
 /// Proves a depth of at least `lower` by a pyramid or the polytope of the cache, or by one that is searched for, as a query does or
 /// until it proves it; of small bodies else by all facets.
@@ -269,7 +269,7 @@ fn prove_lower(facts: &Facts, cache: &DepthCache, lower: f64) -> Result<()> {
 }
 
 /// Whether a polytope encloses the ball of a radius around the origin, or why it may not.
-fn encloses_ball(facts: &Facts, polytope: &[Triangle], radius: f64) -> std::result::Result<(), &'static str> {
+fn encloses_ball(facts: &Facts, polytope: &[PairTriangle], radius: f64) -> std::result::Result<(), &'static str> {
     if polytope.is_empty() {
         return Err("there is no polytope around the origin");
     }
@@ -286,7 +286,7 @@ fn encloses_ball(facts: &Facts, polytope: &[Triangle], radius: f64) -> std::resu
 }
 
 /// Every edge is walked as often one way as the other.
-fn is_closed(polytope: &[Triangle]) -> bool {
+fn is_closed(polytope: &[PairTriangle]) -> bool {
     let mut edges = listed(polytope.iter().flat_map(|triangle| {
         [0, 1, 2].map(|k| {
             let (tail, head) = (triangle[k], triangle[(k + 1) % 3]);
@@ -306,7 +306,7 @@ const RAYS: usize = 16;
 
 /// Whether the polytope's degree about the origin is not 0: the sum of the signs with which a ray crosses it. No triangle holds the
 /// origin.
-fn surrounds_origin(facts: &Facts, polytope: &[Triangle]) -> bool {
+fn surrounds_origin(facts: &Facts, polytope: &[PairTriangle]) -> bool {
     let crossing_of = |ray: &Vector| {
         let mut degree = 0;
         for triangle in polytope {
@@ -364,7 +364,7 @@ impl<'a> Facts<'a> {
     }
 
     /// Whether a triangle is at least so far from the origin.
-    fn is_beyond(&self, triangle: &Triangle, radius: f64) -> bool {
+    fn is_beyond(&self, triangle: &PairTriangle, radius: f64) -> bool {
         if self.bounds.as_ref().is_some_and(|bounds| plane_is_beyond(bounds, triangle, radius)) {
             return true;
         }
@@ -373,7 +373,7 @@ impl<'a> Facts<'a> {
 
     /// How a ray from the origin crosses a triangle: 1 from behind, −1 from before, 0 not at all; `None` if it meets its
     /// boundary, or the plane of it passes through the origin.
-    fn crossing(&self, triangle: &Triangle, ray: &Vector) -> Option<i32> {
+    fn crossing(&self, triangle: &PairTriangle, ray: &Vector) -> Option<i32> {
         let corners = triangle.map(|pair| self.position(pair));
         let [a, b, c] = &corners;
         let side = |p: &Vector, q: &Vector| self.clear_sign([ray, p, q]);
@@ -397,7 +397,7 @@ impl<'a> Facts<'a> {
 
 /// Whether the triangle's plane, or another through its nearest point, proves it to be so far from the origin: for any m that is
 /// at least min m·v/|m|.
-fn plane_is_beyond(bounds: &Bounds, triangle: &Triangle, radius: f64) -> bool {
+fn plane_is_beyond(bounds: &Bounds, triangle: &PairTriangle, radius: f64) -> bool {
     let corners = triangle.map(|pair| bounds.difference(pair));
     let edge = |k: usize| [0, 1, 2].map(|axis| corners[k][axis] - corners[0][axis]);
     let normal = narrow(&wide_cross(&edge(1), &edge(2)));

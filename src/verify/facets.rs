@@ -28,7 +28,7 @@ pub fn prove_lower(polyhedra: [&Polyhedron; 2], bounds: &Bounds, exact: &Differe
     if polyhedra.iter().any(|polyhedron| polyhedron.dimension < 3) || work(0) + work(1) > MOST_WORK {
         return false;
     }
-    let proof = Proof::new(polyhedra, bounds, exact, lower);
+    let proof = FacetProof::new(polyhedra, bounds, exact, lower);
     let Some(edges) = proof.open_edges(0).zip(proof.open_edges(1)) else { return false };
     let is_small = edges.0.len() * edges.1.len() <= MOST_PAIRS;
     is_small && edges.0.iter().all(|e| edges.1.iter().all(|g| proof.covers_crossing(*e, *g)))
@@ -50,7 +50,7 @@ pub fn prove_point(polyhedra: [&Polyhedron; 2], exact: &Differences, lower: f64)
         })
 }
 
-struct Proof<'a> {
+struct FacetProof<'a> {
     polyhedra: [&'a Polyhedron; 2],
     /// The vertices of both bodies in the world, relative to the first one of body 2, in units of the pair.
     points: [Vec<WideVector>; 2],
@@ -65,10 +65,10 @@ struct Proof<'a> {
 }
 
 /// An edge of a body: which body, its tail and head.
-type Edge = (usize, [u32; 2]);
+type BodyEdge = (usize, [u32; 2]);
 
 /// The edge of the Minkowski difference that an edge of a body is.
-fn pair_edge((body, [tail, head]): Edge) -> PairEdge {
+fn pair_edge((body, [tail, head]): BodyEdge) -> PairEdge {
     match body {
         0 => [[tail, 0], [head, 0]],
         _ => [[0, head], [0, tail]],
@@ -88,8 +88,8 @@ struct Direction {
     exact: OnceCell<Option<[Normal; 2]>>,
 }
 
-impl<'a> Proof<'a> {
-    fn new(polyhedra: [&'a Polyhedron; 2], bounds: &Bounds, exact: &'a Differences<'a>, lower: f64) -> Proof<'a> {
+impl<'a> FacetProof<'a> {
+    fn new(polyhedra: [&'a Polyhedron; 2], bounds: &Bounds, exact: &'a Differences<'a>, lower: f64) -> FacetProof<'a> {
         let first = bounds.difference([0, 0]);
         let of_first = (0..polyhedra[0].vertices.len() as u32).map(|v| bounds.difference([v, 0]));
         let of_second = (0..polyhedra[1].vertices.len() as u32).map(|w| difference(&first, &bounds.difference([0, w])));
@@ -97,13 +97,13 @@ impl<'a> Proof<'a> {
         let reach = |points: &[WideVector]| points.iter().map(|p| narrow(p).norm()).fold(0.0, f64::max);
         let longest = (reach(&points[0]) + reach(&points[1])) * (1.0 + 8.0 * U);
         let (needed, error) = (bounds.in_units(lower), 4.0 * bounds.error());
-        Proof { polyhedra, points, exact, lower, needed, error, longest }
+        FacetProof { polyhedra, points, exact, lower, needed, error, longest }
     }
 
     /// The direction across two edges, in double-double arithmetic. Edges are off by 2e in each coordinate, e the error of a
     /// point, their product by 8e(|a| + |b|) with its own rounding: it is turned by the part of its length that this is, and by
     /// as much longer or shorter. For edges that are nearly parallel the error is infinite.
-    fn across(&self, edges: [Edge; 2]) -> Direction {
+    fn across(&self, edges: [BodyEdge; 2]) -> Direction {
         let [a, b] = edges.map(|(body, [tail, head])| {
             difference(&self.points[body][head as usize], &self.points[body][tail as usize])
         });

@@ -2,15 +2,15 @@
 //! both surfaces, on the sides that face each other, and its gap is that of its two places.
 
 use super::apart::verify_disjoint;
-use super::bounds::{Bounds, Gap};
+use super::bounds::{Bounds, ProvedGap};
 use super::checks::{between_origins, in_default, too_large, unverified};
 use super::depth::prove_depth;
-use super::numbers::{Numbers, check_numbers};
+use super::numbers::{AnswerNumbers, check_numbers};
 use super::witness::{Witness, difference_of};
 use crate::answer::{FeatureKind, Outcome, PairAnswer, Radii, sum_above, sum_below};
 use crate::base::error::{Error, Result};
 use crate::base::math::{Vector, length};
-use crate::body::polyhedron::{Face, Polyhedron};
+use crate::body::polyhedron::{MergedFace, Polyhedron};
 use crate::manifold::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, id_of};
 use crate::placed::Pair;
 use crate::shape::Placed;
@@ -139,7 +139,7 @@ struct Check<'a> {
     /// How far a point may be out of each body.
     out: [f64; 2],
     /// The least gap of two points of the bodies along the normal, and minus the largest; `None` where double-doubles do not reach.
-    reach: Option<(Bounds<'a>, [Gap; 2])>,
+    reach: Option<(Bounds<'a>, [ProvedGap; 2])>,
 }
 
 impl<'a> Check<'a> {
@@ -169,7 +169,7 @@ impl<'a> Check<'a> {
 
     fn check_point(&self, point: &ManifoldPoint) -> Result<()> {
         let normal = Vector::from(self.manifold.normal);
-        check_numbers(&Numbers::of_point(point, &self.manifold.normal))?;
+        check_numbers(&AnswerNumbers::of_point(point, &self.manifold.normal))?;
         if point.id != id_of(&point.feature1, &point.feature2) {
             return Err(unverified(format!("the id {:#x} is not that of its features", point.id)));
         }
@@ -262,8 +262,9 @@ impl<'a> Check<'a> {
         // A needle so thin that faces around it are merged may have none that looks there; its faces prove nothing then.
         let is_told = facing.peek().is_some();
         let behind = self.near + width;
-        let is_on =
-            |(face, normal): (&Face, Vector)| face.planes.value(0, &point) + face.slack >= -behind * normal.norm();
+        let is_on = |(face, normal): (&MergedFace, Vector)| {
+            face.planes.value(0, &point) + face.slack >= -behind * normal.norm()
+        };
         if !is_told || facing.any(is_on) {
             return Ok(());
         }

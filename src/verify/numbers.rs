@@ -7,7 +7,7 @@ use crate::depth::DepthAnswer;
 use crate::manifold::ManifoldPoint;
 
 /// The numbers of an answer.
-pub struct Numbers {
+pub struct AnswerNumbers {
     /// Lower end, best estimate and upper end of the interval.
     interval: [f64; 3],
     /// Both local witness points, then both in the world.
@@ -16,9 +16,9 @@ pub struct Numbers {
     features: [Feature; 2],
 }
 
-impl From<&PairAnswer> for Numbers {
-    fn from(answer: &PairAnswer) -> Numbers {
-        Numbers {
+impl From<&PairAnswer> for AnswerNumbers {
+    fn from(answer: &PairAnswer) -> AnswerNumbers {
+        AnswerNumbers {
             interval: [answer.lower, answer.distance, answer.upper],
             points: [answer.local1, answer.local2, answer.world1, answer.world2],
             normal: answer.normal,
@@ -27,9 +27,9 @@ impl From<&PairAnswer> for Numbers {
     }
 }
 
-impl From<&DepthAnswer> for Numbers {
-    fn from(answer: &DepthAnswer) -> Numbers {
-        Numbers {
+impl From<&DepthAnswer> for AnswerNumbers {
+    fn from(answer: &DepthAnswer) -> AnswerNumbers {
+        AnswerNumbers {
             interval: [answer.lower, answer.depth, answer.upper],
             points: [answer.local1, answer.local2, answer.world1, answer.world2],
             normal: answer.normal,
@@ -38,10 +38,10 @@ impl From<&DepthAnswer> for Numbers {
     }
 }
 
-impl Numbers {
+impl AnswerNumbers {
     /// The numbers of a manifold point with this normal: the interval is that of its gap.
-    pub fn of_point(point: &ManifoldPoint, normal: &[f64; 3]) -> Numbers {
-        Numbers {
+    pub fn of_point(point: &ManifoldPoint, normal: &[f64; 3]) -> AnswerNumbers {
+        AnswerNumbers {
             interval: [point.gap_lower, point.gap_lower, point.gap_upper],
             points: [point.local1, point.local2, point.world1, point.world2],
             normal: *normal,
@@ -56,8 +56,8 @@ const POINTS: [&str; 4] =
 /// Refuses an answer with a number that is not finite. Three things may be: the upper end of an interval, and of a distance above
 /// all doubles the estimate, too; a coordinate in the world beyond them, which the comparison with its local point then judges; and
 /// what stays unset, which is NaN: the normal as a whole, the points with the features as a whole.
-pub fn check_numbers(numbers: &Numbers) -> Result<()> {
-    let Numbers { interval, points, normal, .. } = numbers;
+pub fn check_numbers(numbers: &AnswerNumbers) -> Result<()> {
+    let AnswerNumbers { interval, points, normal, .. } = numbers;
     let [lower, best, upper] = *interval;
     let is_number = |x: f64| x.is_finite() || x == f64::INFINITY;
     if !(lower.is_finite() && (best.is_finite() || (is_number(best) && lower == f64::MAX)) && is_number(upper)) {
@@ -80,6 +80,6 @@ pub fn check_numbers(numbers: &Numbers) -> Result<()> {
 }
 
 /// Whether any witness point or feature is reported.
-pub fn are_points_said(Numbers { points, features, .. }: &Numbers) -> bool {
+pub fn are_points_said(AnswerNumbers { points, features, .. }: &AnswerNumbers) -> bool {
     points.iter().flatten().any(|x| !x.is_nan()) || features.iter().any(|feature| feature.kind != FeatureKind::None)
 }

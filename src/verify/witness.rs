@@ -9,7 +9,7 @@ use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, STRETCH, UNIT_ROUNDOFF as U, Vector, length};
 use crate::base::memory::listed;
 use crate::body::build::assembly::build;
-use crate::body::polyhedron::{Face, Polyhedron};
+use crate::body::polyhedron::{MergedFace, Polyhedron};
 use crate::placed::Pair;
 use crate::placed::exact::{self, Differences};
 
@@ -103,7 +103,7 @@ impl<'a> Witness<'a> {
                     polyhedron.labels_of_face(*face).contains(&first)
                         && (beyond == f64::INFINITY || beyond_nearest(polyhedron, *face, first, &point) <= beyond)
                 });
-                let part = |(id, face): (u32, &Face)| {
+                let part = |(id, face): (u32, &MergedFace)| {
                     (listed((0..face.side_count).map(|side| polyhedron.corner(id, side))), face.slack)
                 };
                 let parts: Vec<_> = listed(own.map(part));

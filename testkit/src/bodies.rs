@@ -28,7 +28,7 @@ impl Body {
             let edge = &hull.edges[side as usize];
             hull.local_position(if edge.left() == face { edge.tail() } else { edge.head() })
         };
-        let polygon = |(id, face): (u32, &swiftprox::body::polyhedron::Face)| {
+        let polygon = |(id, face): (u32, &swiftprox::body::polyhedron::MergedFace)| {
             let sides = &hull.sides[face.first_side as usize..(face.first_side + face.side_count) as usize];
             sides.iter().map(|&side| corner(id, side)).collect()
         };

@@ -14,7 +14,7 @@ pub fn cache_of_words(words: [u32; WORDS]) -> PairCache {
     }
 }
 
-/// The cache of a pair of features: the number of their kinds, as `state::Kind` has it, and their indices.
+/// The cache of a pair of features: the number of their kinds, as `state::StateKind` has it, and their indices.
 pub fn cache_of_features(kind: u32, indices: [u32; 2]) -> PairCache {
     let mut words = [0; WORDS];
     (words[0], words[1], words[2]) = (kind, indices[0], indices[1]);

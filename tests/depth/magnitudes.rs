@@ -3,7 +3,7 @@
 use swiftprox::base::simd::Portable;
 use swiftprox::body::build::assembly::build;
 use swiftprox::body::polyhedron::Vertex;
-use swiftprox::depth::polytope::{Pyramid, Rounding};
+use swiftprox::depth::polytope::{PairRounding, Pyramid};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{DepthAnswer, DepthCache, Outcome};
 use swiftprox::placed::Pair;
@@ -110,7 +110,7 @@ fn pyramids_prove_nothing_out_of_scale() {
                 Frame::<Portable>::new(&Pair { polyhedra: [&bodies[0], &bodies[1]], poses: [&pose, &Pose::IDENTITY] });
             assert!(frame.in_range);
             let base = [pair([-1., -1., 1.]), pair([1., -1., 1.]), pair([1., 1., 1.]), pair([-1., 1., 1.])];
-            Pyramid::new(&base, pair([1., 1., -1.])).prove(&frame, &Rounding::of(&frame)).is_ok()
+            Pyramid::new(&base, pair([1., 1., -1.])).prove(&frame, &PairRounding::of(&frame)).is_ok()
         };
         // The sides are nearer than the base; and far enough.
         assert!(!prove([-0.1, -0.1, -1.0]), "{scale:e}");

@@ -3,7 +3,7 @@
 
 use swiftprox::base::simd::{Portable, Twins};
 use swiftprox::body::polyhedron::Polyhedron;
-use swiftprox::body::tables::support_map::{Choice, Grid, SupportMap};
+use swiftprox::body::tables::support_map::{Choice, MapGrid, SupportMap};
 use swiftprox::distance::support_search::look_up;
 use swiftprox::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector};
 use swiftprox::pair::{self, DecidedBy, Levels, Outcome, PairAnswer, PairCache, PairConfig};
@@ -65,7 +65,7 @@ fn a_look_up_bounds_the_body_and_names_a_point_of_it() {
     }
 }
 
-fn check_look_up(body: &Polyhedron, grid: &Grid, direction: &Vector) {
+fn check_look_up(body: &Polyhedron, grid: &MapGrid, direction: &Vector) {
     let [x, y, z] = direction.map(|x| x as f32).into();
     let both = [x, y, z, 0.0];
     let found = look_up::<Portable>([grid, grid], Twins::load(&both, &both));

@@ -5,6 +5,7 @@ mod cpp;
 mod headers;
 mod layout;
 mod links;
+mod names;
 mod parameters;
 mod symbols;
 mod workflow;

@@ -21,7 +21,7 @@ pub(super) struct Handover<T> {
 
 /// A thread's next step.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Hash)]
-pub(super) enum Next<T> {
+pub(super) enum NextTask<T> {
     Wait,
     Join(T),
     End,
@@ -41,14 +41,14 @@ impl<T: Clone> Handover<T> {
     }
 
     /// The next step of an idle thread.
-    pub fn next(&mut self) -> Next<T> {
+    pub fn next(&mut self) -> NextTask<T> {
         match &self.task {
-            _ if self.ended => Next::End,
+            _ if self.ended => NextTask::End,
             Some(task) => {
                 self.active += 1;
-                Next::Join(task.clone())
+                NextTask::Join(task.clone())
             }
-            None => Next::Wait,
+            None => NextTask::Wait,
         }
     }
 
@@ -115,7 +115,7 @@ mod tests {
     const PARTS: usize = 2;
 
     #[derive(Debug, Clone, PartialEq, Eq, Hash)]
-    struct World<const THREADS: usize> {
+    struct Interleaving<const THREADS: usize> {
         handover: Handover<usize>,
         caller: Caller,
         threads: [At; THREADS],
@@ -125,7 +125,7 @@ mod tests {
         lives: [bool; TASKS],
     }
 
-    impl<const THREADS: usize> World<THREADS> {
+    impl<const THREADS: usize> Interleaving<THREADS> {
         fn tell_all(&mut self) {
             for thread in &mut self.threads {
                 if *thread == At::Waiting {
@@ -190,9 +190,9 @@ mod tests {
             let mut world = self.clone();
             world.threads[k] = match self.threads[k] {
                 At::Looking => match world.handover.next() {
-                    Next::Wait => At::Waiting,
-                    Next::Join(task) => At::Taking(task),
-                    Next::End => At::Gone,
+                    NextTask::Wait => At::Waiting,
+                    NextTask::Join(task) => At::Taking(task),
+                    NextTask::End => At::Gone,
                 },
                 At::Taking(task) => match world.take(task) {
                     Some(part) => At::Working(task, part),
@@ -228,7 +228,7 @@ mod tests {
                     steps.push(world);
                 }
                 if let Caller::Waiting(task) = self.caller {
-                    steps.push(World { caller: Caller::TakingBack(task), ..self.clone() });
+                    steps.push(Interleaving { caller: Caller::TakingBack(task), ..self.clone() });
                 }
             }
             steps
@@ -238,7 +238,7 @@ mod tests {
     /// Every world that can be reached: in each somebody can go on or all is finished, tasks are used only while they live, and
     /// each part is done once. Without wakes by chance a lost notice would leave a world in which nobody can go on.
     fn explore<const THREADS: usize>(chance: bool) -> usize {
-        let first = World {
+        let first = Interleaving {
             handover: Handover::IDLE,
             caller: Caller::Offering(0),
             threads: [At::Looking; THREADS],
@@ -277,8 +277,8 @@ mod tests {
     #[test]
     fn there_is_no_other_task_before_one_is_taken_back() {
         let mut handover = Handover::IDLE;
-        assert!(handover.offer(1) && handover.next() == Next::Join(1) && handover.leave());
-        assert!(!handover.offer(2) && handover.next() == Next::Wait);
+        assert!(handover.offer(1) && handover.next() == NextTask::Join(1) && handover.leave());
+        assert!(!handover.offer(2) && handover.next() == NextTask::Wait);
         assert!(handover.take_back() && handover.offer(2));
     }
 }

@@ -19,7 +19,7 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::{Builder, JoinHandle};
 use std::time::{Duration, Instant};
 
-use super::handover::{Handover, Next};
+use super::handover::{Handover, NextTask};
 use crate::base::locks::locked;
 
 /// No more threads are started, whatever count is requested: more only wait for each other.
@@ -129,9 +129,9 @@ impl<T: Task> Parking<T> {
         let mut waits_since = None;
         loop {
             match handover.next() {
-                Next::End => return,
-                Next::Wait => handover = self.look_later(&self.posted, &mut waits_since, handover),
-                Next::Join(task) => {
+                NextTask::End => return,
+                NextTask::Wait => handover = self.look_later(&self.posted, &mut waits_since, handover),
+                NextTask::Join(task) => {
                     drop(handover);
                     self.take_parts_quietly(task);
                     handover = locked(&self.handover);

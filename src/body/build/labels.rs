@@ -12,7 +12,7 @@ use crate::base::progress::Progress;
 use crate::body::build::merge::merge_bound;
 use crate::body::build::spread::{Polygon, Spread, is_within};
 use crate::body::mesh::{Numbers, PolygonMesh};
-use crate::body::polyhedron::{Face, Polyhedron};
+use crate::body::polyhedron::{MergedFace, Polyhedron};
 
 /// Corners of a polygon whose faces are candidates for it.
 const MOST_CORNERS_TRIED: usize = 8;
@@ -395,7 +395,7 @@ fn add_links(
     face: u32,
     label: u32,
 ) -> Result<()> {
-    let Face { first_side, side_count, .. } = polyhedron.faces[face as usize];
+    let MergedFace { first_side, side_count, .. } = polyhedron.faces[face as usize];
     for side in &polyhedron.sides[first_side as usize..(first_side + side_count) as usize] {
         let edge = &polyhedron.edges[*side as usize];
         let face = if edge.left() == face { edge.right() } else { edge.left() };

@@ -4,7 +4,7 @@
 use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::{filled, push};
-use crate::body::polyhedron::{Face, NONE, Polyhedron};
+use crate::body::polyhedron::{MergedFace, NONE, Polyhedron};
 
 /// A face looks the way a polygon does if their normals have at least this cosine. A steeper face is another side of the body, or
 /// next to nothing of the polygon.
@@ -135,7 +135,7 @@ impl<'a> Spread<'a> {
         let mut face = start;
         // Rounding may lead round in a circle.
         for _ in 0..self.polyhedron.faces.len() {
-            let Face { normal, side_count, .. } = &self.polyhedron.faces[face as usize];
+            let MergedFace { normal, side_count, .. } = &self.polyhedron.faces[face as usize];
             if !(normal.dot(&seen.normal) > 0.0) {
                 break;
             }

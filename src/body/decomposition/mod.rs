@@ -24,8 +24,8 @@ use crate::base::memory::{collected, extend, filled, in_integers, push, with_cap
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
 use crate::body::mesh::PolygonMesh;
-use patch::Growth;
-use surface::Surface;
+use patch::PatchGrowth;
+use surface::MeshSurface;
 
 /// The triangles of a surface, piece by piece.
 #[derive(Debug, Clone, PartialEq)]
@@ -69,10 +69,10 @@ pub fn decompose(mesh: &PolygonMesh, tolerance: f64, progress: &mut Progress) ->
 fn decomposed(mesh: &PolygonMesh, tolerance: f64, progress: &mut Progress) -> Result<Decomposition> {
     check_range("tolerance", tolerance, 0.0..=1.0)?;
     let margin = if tolerance == 0.0 { 0.0 } else { (tolerance * diagonal(&mesh.vertices)).min(f64::MAX) };
-    let surface = Surface::new(mesh, margin, &mut progress.part(0.0, 0.1))?;
+    let surface = MeshSurface::new(mesh, margin, &mut progress.part(0.0, 0.1))?;
     let progress = &mut progress.part(0.1, 1.0);
     let count = surface.triangles.len();
-    let mut growth = Growth::new(&surface)?;
+    let mut growth = PatchGrowth::new(&surface)?;
     let mut decomposition =
         Decomposition { triangles: with_capacity(count)?, faces: with_capacity(count)?, starts: filled(0, 1)? };
     // Triangles without area come into the patches around them, as a rule.

@@ -6,20 +6,20 @@ use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::{collected, extend, filled, lacking, push};
 use crate::base::progress::Progress;
-use crate::body::decomposition::separation::{HullOfPatch, Line, Separation, near_separation};
-use crate::body::decomposition::surface::{NONE, Plane, Surface};
+use crate::body::decomposition::separation::{HullOfPatch, SeparatingLine, Separation, near_separation};
+use crate::body::decomposition::surface::{CutPlane, MeshSurface, NONE};
 
 /// A box along the axes.
 #[derive(Debug, Clone, Copy)]
-struct Bounds {
+struct PatchBounds {
     low: Vector,
     high: Vector,
 }
 
-impl Bounds {
-    fn of(surface: &Surface, vertices: &[u32]) -> Bounds {
+impl PatchBounds {
+    fn of(surface: &MeshSurface, vertices: &[u32]) -> PatchBounds {
         debug_assert!(!vertices.is_empty());
-        let mut bounds = Bounds { low: Vector::repeat(f64::INFINITY), high: Vector::repeat(f64::NEG_INFINITY) };
+        let mut bounds = PatchBounds { low: Vector::repeat(f64::INFINITY), high: Vector::repeat(f64::NEG_INFINITY) };
         vertices.iter().for_each(|v| bounds.take_in(&surface.position[*v as usize]));
         bounds
     }
@@ -28,12 +28,12 @@ impl Bounds {
         (self.low, self.high) = (self.low.inf(point), self.high.sup(point));
     }
 
-    fn contains(&self, other: &Bounds) -> bool {
+    fn contains(&self, other: &PatchBounds) -> bool {
         (0..3).all(|k| self.low[k] <= other.low[k] && other.high[k] <= self.high[k])
     }
 
     /// Whether the other box has a point in the inside of this one, relative to its plane where it is flat.
-    fn has_inside(&self, other: &Bounds) -> bool {
+    fn has_inside(&self, other: &PatchBounds) -> bool {
         (0..3).all(|k| match self.low[k] < self.high[k] {
             true => other.high[k] > self.low[k] && other.low[k] < self.high[k],
             false => other.high[k] >= self.low[k] && other.low[k] <= self.high[k],
@@ -41,9 +41,9 @@ impl Bounds {
     }
 
     /// Grown on all sides by its longest one.
-    fn grown(&self) -> Bounds {
+    fn grown(&self) -> PatchBounds {
         let longest = Vector::repeat((self.high - self.low).max());
-        Bounds { low: self.low - longest, high: self.high + longest }
+        PatchBounds { low: self.low - longest, high: self.high + longest }
     }
 }
 
@@ -77,30 +77,30 @@ impl<Thing, Kept> Obstacle<Thing, Kept> {
 #[derive(Debug, Clone, Copy)]
 struct Rim {
     ends: [u32; 2],
-    bounds: Bounds,
+    bounds: PatchBounds,
 }
 
 /// The patch that is growing.
-struct Patch {
+struct GrowingPatch {
     triangles: Vec<u32>,
     vertices: Vec<u32>,
     /// The planes of its triangles.
-    planes: Vec<Plane>,
+    planes: Vec<CutPlane>,
     /// The normal of its seed.
     normal: Vector,
     is_flat: bool,
     is_solid: bool,
-    bounds: Bounds,
+    bounds: PatchBounds,
     /// All obstacles and rims in it are listed.
-    region: Bounds,
+    region: PatchBounds,
     obstacles: Vec<Obstacle<u32, Separation>>,
-    rims: Vec<Obstacle<Rim, Line>>,
+    rims: Vec<Obstacle<Rim, SeparatingLine>>,
 }
 
 /// The triangles that patches have taken.
-pub struct Growth<'a> {
-    surface: &'a Surface,
-    bounds: Vec<Bounds>,
+pub struct PatchGrowth<'a> {
+    surface: &'a MeshSurface,
+    bounds: Vec<PatchBounds>,
     rims: Vec<Rim>,
     taken: Vec<bool>,
     /// The last seed from which each triangle was tried.
@@ -109,11 +109,11 @@ pub struct Growth<'a> {
     holder: Vec<u32>,
 }
 
-impl Growth<'_> {
-    pub fn new(surface: &Surface) -> Result<Growth<'_>> {
-        Ok(Growth {
+impl PatchGrowth<'_> {
+    pub fn new(surface: &MeshSurface) -> Result<PatchGrowth<'_>> {
+        Ok(PatchGrowth {
             surface,
-            bounds: collected(surface.triangles.iter().map(|corners| Bounds::of(surface, corners)))?,
+            bounds: collected(surface.triangles.iter().map(|corners| PatchBounds::of(surface, corners)))?,
             rims: rims(surface)?,
             taken: filled(false, surface.triangles.len())?,
             tried: filled(NONE, surface.triangles.len())?,
@@ -130,8 +130,8 @@ impl Growth<'_> {
         debug_assert!(!self.taken[seed as usize]);
         let surface = self.surface;
         let corners = surface.triangles[seed as usize];
-        let bounds = Bounds::of(surface, &corners);
-        let mut patch = Patch {
+        let bounds = PatchBounds::of(surface, &corners);
+        let mut patch = GrowingPatch {
             triangles: Vec::new(),
             vertices: Vec::new(),
             planes: Vec::new(),
@@ -163,7 +163,7 @@ impl Growth<'_> {
         Ok(patch.triangles)
     }
 
-    fn take(&mut self, t: u32, patch: &mut Patch, open: &mut VecDeque<u32>) -> Result<()> {
+    fn take(&mut self, t: u32, patch: &mut GrowingPatch, open: &mut VecDeque<u32>) -> Result<()> {
         debug_assert!(!self.taken[t as usize]);
         self.taken[t as usize] = true;
         push(&mut patch.triangles, t)?;
@@ -176,7 +176,7 @@ impl Growth<'_> {
     }
 
     /// Whether the patch may have a triangle at its border; if so it has its vertices then.
-    fn admits(&mut self, patch: &mut Patch, seed: u32, t: u32) -> Result<bool> {
+    fn admits(&mut self, patch: &mut GrowingPatch, seed: u32, t: u32) -> Result<bool> {
         let surface = self.surface;
         let corners = surface.triangles[t as usize];
         let fresh = corners.into_iter().find(|v| self.holder[*v as usize] != seed);
@@ -187,7 +187,7 @@ impl Growth<'_> {
             return Ok(false);
         }
         let plane = surface.plane(corners);
-        let rises = |plane: &Plane, v: u32| surface.side(plane, v) > 0.0;
+        let rises = |plane: &CutPlane, v: u32| surface.side(plane, v) > 0.0;
         let is_convex = !patch.vertices.iter().any(|v| rises(&plane, *v))
             && !fresh.is_some_and(|v| patch.planes.iter().any(|plane| rises(plane, v)));
         if !is_convex {
@@ -218,7 +218,7 @@ impl Growth<'_> {
     }
 
     /// All that is in the region of the patch.
-    fn list_obstacles(&self, patch: &mut Patch) -> Result<()> {
+    fn list_obstacles(&self, patch: &mut GrowingPatch) -> Result<()> {
         let near = (0..).zip(&self.bounds).filter(|(_, bounds)| patch.region.has_inside(bounds));
         patch.obstacles = collected(near.map(|(triangle, _)| Obstacle::new(triangle)))?;
         let near = self.rims.iter().filter(|rim| patch.region.has_inside(&rim.bounds));
@@ -228,9 +228,9 @@ impl Growth<'_> {
 
     /// Whether no triangle but those of the patch, and `t`, passes through its hull. A flat hull may lie on others of its plane:
     /// they are of the surface, as it is.
-    fn passes_obstacles(&self, patch: &mut Patch, t: u32, fresh: Option<u32>, stays_flat: bool) -> Result<bool> {
+    fn passes_obstacles(&self, patch: &mut GrowingPatch, t: u32, fresh: Option<u32>, stays_flat: bool) -> Result<bool> {
         let surface = self.surface;
-        let Patch { obstacles, vertices, planes, bounds, triangles, .. } = patch;
+        let GrowingPatch { obstacles, vertices, planes, bounds, triangles, .. } = patch;
         let seed = triangles[0];
         let mut hull = None;
         for obstacle in obstacles.iter_mut() {
@@ -261,9 +261,9 @@ impl Growth<'_> {
     }
 
     /// Whether the hull of a patch that stays flat passes over no rim.
-    fn passes_rims(&self, patch: &mut Patch, fresh: Option<u32>) -> Result<bool> {
+    fn passes_rims(&self, patch: &mut GrowingPatch, fresh: Option<u32>) -> Result<bool> {
         let surface = self.surface;
-        let Patch { rims, vertices, triangles, planes, normal, bounds, .. } = patch;
+        let GrowingPatch { rims, vertices, triangles, planes, normal, bounds, .. } = patch;
         for rim in rims.iter_mut() {
             let Rim { ends, bounds: of_rim } = rim.thing;
             let is_in_plane = || ends.iter().all(|v| surface.side(&planes[0], *v) == 0.0);
@@ -273,7 +273,7 @@ impl Growth<'_> {
             {
                 continue;
             }
-            let found = Line::between(surface, *normal, vertices, triangles, ends);
+            let found = SeparatingLine::between(surface, *normal, vertices, triangles, ends);
             if !rim.keep(found, vertices.len()) {
                 return Ok(false);
             }
@@ -284,7 +284,7 @@ impl Growth<'_> {
 
 /// The edges of triangles with area that have nothing beyond them, a triangle in the same plane that faces the other way, or one
 /// without area, for which neither is known.
-fn rims(surface: &Surface) -> Result<Vec<Rim>> {
+fn rims(surface: &MeshSurface) -> Result<Vec<Rim>> {
     let mut found = Vec::new();
     for (t, corners) in surface.triangles.iter().enumerate() {
         if surface.doubled_area(t) == 0.0 {
@@ -299,7 +299,7 @@ fn rims(surface: &Surface) -> Result<Vec<Rim>> {
             };
             if is_rim {
                 let ends = [corners[k], corners[(k + 1) % 3]];
-                push(&mut found, Rim { ends, bounds: Bounds::of(surface, &ends) })?;
+                push(&mut found, Rim { ends, bounds: PatchBounds::of(surface, &ends) })?;
             }
         }
     }

@@ -14,14 +14,14 @@ pub const NONE: u32 = u32::MAX;
 
 /// The plane of three points, with a margin in which other points count as on it.
 #[derive(Debug, Clone, Copy)]
-pub struct Plane {
+pub struct CutPlane {
     filtered: FilteredPlane,
     /// The margin times the length of the normal.
     slack: f64,
 }
 
 /// A surface of triangles, oriented and with at most two at an edge.
-pub struct Surface {
+pub struct MeshSurface {
     pub points: ExactPoints,
     pub position: Vec<Vector>,
     /// Their corners; among exactly equal vertices, the first.
@@ -36,18 +36,18 @@ pub struct Surface {
     margin: f64,
 }
 
-impl Surface {
+impl MeshSurface {
     /// From a mesh in the caller's numbering. `margin` is a length.
     ///
     /// # Errors
     /// Same as [`decompose`](crate::body::decomposition::decompose).
-    pub fn new(mesh: &PolygonMesh, margin: f64, progress: &mut Progress) -> Result<Surface> {
+    pub fn new(mesh: &PolygonMesh, margin: f64, progress: &mut Progress) -> Result<MeshSurface> {
         debug_assert!(margin >= 0.0);
         check_indices(mesh)?;
         let first = first_of_equal(&mesh.vertices, &mut progress.part(0.0, 0.3))?;
         let points = ExactPoints::new_in_steps(&mesh.vertices, &mut progress.part(0.3, 0.4))?;
         let (triangles, faces) = triangles_of(mesh, &first, &points, &mut progress.part(0.4, 0.8))?;
-        let mut surface = Surface {
+        let mut surface = MeshSurface {
             position: collected((0..points.len() as u32).map(|v| points.approximate(v)))?,
             margin: points.to_scaled(margin),
             across: across_edges(&triangles, &faces)?,
@@ -64,13 +64,13 @@ impl Surface {
     }
 
     /// The plane through three points.
-    pub fn plane(&self, corners: [u32; 3]) -> Plane {
+    pub fn plane(&self, corners: [u32; 3]) -> CutPlane {
         let slack = if self.margin == 0.0 { 0.0 } else { self.margin * self.normal(corners).norm() };
-        Plane { filtered: self.points.plane(corners), slack }
+        CutPlane { filtered: self.points.plane(corners), slack }
     }
 
     /// Positive above a plane, negative below, 0 on it. Exact where there is no margin.
-    pub fn side(&self, plane: &Plane, v: u32) -> f64 {
+    pub fn side(&self, plane: &CutPlane, v: u32) -> f64 {
         let height = self.points.height(&plane.filtered, v);
         if height.abs() <= plane.slack { 0.0 } else { height }
     }

@@ -133,7 +133,7 @@ pub struct Bevel {
 /// A face: all exactly or within rounding coplanar triangles merged, a convex polygon of any valence.
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C, align(64))]
-pub struct Face {
+pub struct MergedFace {
     /// Lane 0: the face's plane, positive outside. Lanes 1–3: its first three sides, each positive inside the polygon's
     /// prism (normal `n × direction` with the edge counter-clockwise). Further sides are in `more_sides`.
     pub planes: PlaneBlock,
@@ -200,7 +200,7 @@ pub struct Polyhedron {
     /// Whether it has faces, its centre is its origin, and its radius lies between [`SMALLEST`] and [`LARGEST`].
     pub simple: bool,
     /// Merged faces.
-    pub faces: Vec<Face>,
+    pub faces: Vec<MergedFace>,
     /// The centre, subtracted exactly from the stored vertices.
     pub centre: Vector,
     /// Volume, centre of mass, radius, box.
@@ -322,7 +322,7 @@ impl Polyhedron {
 
     /// The edge of a face's side; `side` is less than the face's `side_count`.
     #[inline(always)]
-    pub fn side(&self, face: &Face, side: u32) -> u32 {
+    pub fn side(&self, face: &MergedFace, side: u32) -> u32 {
         match face.first_sides.get(side as usize) {
             Some(&edge) => edge,
             None => self.sides[(face.first_side + side) as usize],
@@ -331,7 +331,7 @@ impl Polyhedron {
 
     /// The plane of a face's side, inside positive: its normal and offset; `side` is less than the face's `side_count`.
     #[inline(always)]
-    pub fn side_plane(&self, face: &Face, side: usize) -> [f64; 4] {
+    pub fn side_plane(&self, face: &MergedFace, side: usize) -> [f64; 4] {
         let (block, lane) = match side {
             0..3 => (&face.planes, 1 + side),
             _ => (&self.more_sides[face.first_more as usize + (side - 3) / 4], (side - 3) % 4),
@@ -470,7 +470,7 @@ impl Polyhedron {
 
     /// The plane blocks of a face's sides beyond the third.
     #[inline(always)]
-    pub fn further_sides(&self, face: &Face) -> &[PlaneBlock] {
+    pub fn further_sides(&self, face: &MergedFace) -> &[PlaneBlock] {
         if face.side_count <= 3 {
             return &[];
         }

@@ -98,7 +98,7 @@ pub struct Shells {
     /// How often to look up before marching when it begins where the other body's centre of mass is; then where the vertex found on
     /// it is.
     pub rounds: u32,
-    grid: Grid,
+    grid: LookupGrid,
     /// Start of the cells that serve points of a squared distance whose exponent and leading bits are the index.
     first_cells: [u32; DISTANCES],
 }
@@ -139,7 +139,7 @@ impl Shells {
             *first = (shell * resolution * resolution) as u32;
         }
         let cells = Cells::new(&cells, positions.len())?;
-        let grid = Grid::new(resolution);
+        let grid = LookupGrid::new(resolution);
         Ok(Shells { resolution, radii, cells, positions, core, outward, rounds, grid, first_cells })
     }
 
@@ -178,7 +178,7 @@ impl Shells {
 
 /// The square grid of a shell.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Grid {
+struct LookupGrid {
     /// The factor that takes a coordinate from −1 to 1 to its row or column, in the eighths that [`MAGIC`] leaves in the lower
     /// bits.
     scale: f32,
@@ -188,11 +188,16 @@ struct Grid {
     bits: u32,
 }
 
-impl Grid {
-    fn new(resolution: usize) -> Grid {
+impl LookupGrid {
+    fn new(resolution: usize) -> LookupGrid {
         debug_assert!(resolution.is_power_of_two());
         let half = 0.5 * resolution as f32;
-        Grid { scale: half * GRID_SCALE, shift: half + MAGIC, mask: resolution as u32 - 1, bits: resolution.ilog2() }
+        LookupGrid {
+            scale: half * GRID_SCALE,
+            shift: half + MAGIC,
+            mask: resolution as u32 - 1,
+            bits: resolution.ilog2(),
+        }
     }
 
     /// The cell in which a point is seen from the centre.

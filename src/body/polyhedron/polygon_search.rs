@@ -106,7 +106,7 @@ impl<'a> Polygons<'a> {
 pub struct Partitions {
     /// The root for each face, or [`NONE`] where its polygons are few.
     roots: Vec<u32>,
-    nodes: Vec<Node>,
+    nodes: Vec<SearchNode>,
     /// The numbers k of `face_labels`, leaf by leaf.
     order: Vec<u32>,
     /// A bound of the rounding error of a height.
@@ -115,7 +115,7 @@ pub struct Partitions {
 
 /// A line across some polygons of a face, or a leaf.
 #[derive(Debug, Clone, Copy)]
-struct Node {
+struct SearchNode {
     /// The line's unit normal in the plane of the face.
     normal: Vector,
     /// How far polygons on the near side reach along the normal, and where those on the far side, `next`, begin.
@@ -158,7 +158,7 @@ impl Partitions {
         debug_assert!(first < end && end <= self.order.len());
         let node = self.nodes.len();
         let (normal, count) = (Vector::zeros(), (end - first) as u32);
-        push(&mut self.nodes, Node { normal, reaches: [0.0; 2], next: NONE, first: first as u32, count })?;
+        push(&mut self.nodes, SearchNode { normal, reaches: [0.0; 2], next: NONE, first: first as u32, count })?;
         if end - first <= LEAF {
             return Ok(());
         }
@@ -241,7 +241,7 @@ fn is_between_ends(corners: &[Vector], point: &Vector) -> bool {
 
 /// A line in the plane of a face: points p with normal·p = offset.
 #[derive(Clone, Copy)]
-struct Line {
+struct SearchLine {
     normal: Vector,
     offset: f64,
 }
@@ -274,13 +274,13 @@ impl<'a> FaceToDivide<'a> {
         &self.middles[(k - self.first) as usize]
     }
 
-    fn is_near(&self, k: u32, line: &Line) -> bool {
+    fn is_near(&self, k: u32, line: &SearchLine) -> bool {
         line.normal.dot(self.middle(k)) < line.offset
     }
 
     /// The line that leaves the fewest polygons to look at, among lines along edges of three of them. Where all leave too many on
     /// one side, the polygons are halved across the direction in which they spread most.
-    fn best_line(&self, range: &mut [u32]) -> Line {
+    fn best_line(&self, range: &mut [u32]) -> SearchLine {
         debug_assert!(range.len() > LEAF);
         let mut best = (range.len() - range.len() / LEAST_SHARE + 1, None);
         for part in [2, 1, 3] {
@@ -289,7 +289,7 @@ impl<'a> FaceToDivide<'a> {
                 let across = self.normal.cross(&(corners[(i + 1) % corners.len()] - corner));
                 let length = across.norm();
                 if length > 0.0 {
-                    let line = Line { normal: across / length, offset: across.dot(corner) / length };
+                    let line = SearchLine { normal: across / length, offset: across.dot(corner) / length };
                     let left = self.most_left(&line, range);
                     if left < best.0 {
                         best = (left, Some(line));
@@ -301,7 +301,7 @@ impl<'a> FaceToDivide<'a> {
     }
 
     /// How many polygons are on one side of a line or reach over it, at most; all where a side has too few.
-    fn most_left(&self, line: &Line, range: &[u32]) -> usize {
+    fn most_left(&self, line: &SearchLine, range: &[u32]) -> usize {
         let (mut near, mut crossing) = (0, 0);
         for &k in range {
             let [least, most] = self.polygons.extent(k, &line.normal);
@@ -312,7 +312,7 @@ impl<'a> FaceToDivide<'a> {
         if least * LEAST_SHARE < range.len() { range.len() } else { range.len() - least + crossing }
     }
 
-    fn halving_line(&self, range: &mut [u32]) -> Line {
+    fn halving_line(&self, range: &mut [u32]) -> SearchLine {
         let (mut low, mut high) = (Vector::repeat(f64::INFINITY), Vector::repeat(f64::NEG_INFINITY));
         for &k in &*range {
             (low, high) = (low.inf(self.middle(k)), high.sup(self.middle(k)));
@@ -320,12 +320,12 @@ impl<'a> FaceToDivide<'a> {
         let axis = (high - low).imax();
         let height = |k: u32| self.middle(k)[axis];
         let (_, &mut half, _) = range.select_nth_unstable_by(range.len() / 2, |a, b| height(*a).total_cmp(&height(*b)));
-        Line { normal: Vector::ith(axis, 1.0), offset: height(half) }
+        SearchLine { normal: Vector::ith(axis, 1.0), offset: height(half) }
     }
 
     /// Puts the polygons on the near side first, in the order that they had: a fan's are in order around its hub. Gives their
     /// number, or half of all where one side has too few.
-    fn order_by(&mut self, line: &Line, range: &mut [u32]) -> usize {
+    fn order_by(&mut self, line: &SearchLine, range: &mut [u32]) -> usize {
         let (mut near, mut far) = (0, 0);
         for i in 0..range.len() {
             let k = range[i];

@@ -30,16 +30,16 @@ const RESOLUTIONS: [usize; 4] = [8, 16, 32, 64];
 #[derive(Debug, Clone)]
 pub struct SupportMap {
     least_error: f64,
-    grids: Vec<OnNeed<Grid>>,
+    grids: Vec<OnNeed<MapGrid>>,
 }
 
 /// Two grids of one body.
 #[derive(Clone, Copy)]
 pub struct Grids<'a> {
     /// The one that mostly is fine enough.
-    pub coarse: &'a Grid,
+    pub coarse: &'a MapGrid,
     /// The next finer one, for where the other is not; the same where there is none.
-    pub fine: &'a Grid,
+    pub fine: &'a MapGrid,
 }
 
 /// The answer of a body's grids for an error.
@@ -102,7 +102,7 @@ impl SupportMap {
     #[inline(never)]
     pub fn make_for(&self, polyhedron: &Polyhedron, error: f64) {
         while let (Choice::NotMade, Some(i)) = (self.choose(error), self.first_not_made()) {
-            if self.grids[i].make(|| Grid::new(polyhedron, RESOLUTIONS[i])).is_none() {
+            if self.grids[i].make(|| MapGrid::new(polyhedron, RESOLUTIONS[i])).is_none() {
                 return;
             }
         }
@@ -114,7 +114,7 @@ impl SupportMap {
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn insist(&self, polyhedron: &Polyhedron) -> Result<()> {
         let mut grids = self.grids.iter().zip(RESOLUTIONS);
-        grids.try_for_each(|(grid, resolution)| grid.insist(|| Grid::new(polyhedron, resolution)))
+        grids.try_for_each(|(grid, resolution)| grid.insist(|| MapGrid::new(polyhedron, resolution)))
     }
 
     fn first_not_made(&self) -> Option<usize> {
@@ -150,11 +150,11 @@ fn has_finest_grid(polyhedron: &Polyhedron) -> bool {
 /// in units of the body.
 #[derive(Debug, Clone, Copy)]
 #[repr(C, align(16))]
-pub struct Node(pub [f32; 4]);
+pub struct MapNode(pub [f32; 4]);
 
 /// The support function over one cube map.
 #[derive(Debug, Clone)]
-pub struct Grid {
+pub struct MapGrid {
     /// M, which takes a direction of the body to one of the map: symmetric, by columns, the fourth of each 0.
     pub to_map: [[f32; 4]; 3],
     /// 5C in units, for the covariance C of the body: the ellipsoid of half axes √(5C) is about as thick as the body. As `to_map`.
@@ -168,7 +168,7 @@ pub struct Grid {
     /// Cells along a side.
     pub resolution: usize,
     /// Face by face and row by row: (resolution + 1)² for each of six faces.
-    pub nodes: Vec<Node>,
+    pub nodes: Vec<MapNode>,
     /// The gap along a unit vector in the middle of a cell, in the mean of all cells.
     mean_gap: f64,
     /// The largest of them.
@@ -188,14 +188,14 @@ pub fn direction_of_map(face: usize, u: f64, v: f64) -> Vector {
     direction
 }
 
-impl Grid {
-    fn new(polyhedron: &Polyhedron, resolution: usize) -> Result<Grid> {
+impl MapGrid {
+    fn new(polyhedron: &Polyhedron, resolution: usize) -> Result<MapGrid> {
         debug_assert!(resolution.is_power_of_two());
         let stretch = Stretch::of(polyhedron);
         let radius = polyhedron.radius;
         // The exponent of a number of the range of simple bodies.
         let unit = power_of_two((radius.to_bits() >> 52) as i32 - 1022);
-        let mut grid = Grid {
+        let mut grid = MapGrid {
             to_map: columns(&stretch.to_map),
             shape: columns(&(stretch.shape / (unit * unit))),
             unit,
@@ -204,7 +204,7 @@ impl Grid {
             // one of the results of the other, err by 10u₁ρ a coordinate. Together less than 20u₁ρ.
             point_error: 20.0 * U1 * radius,
             resolution,
-            nodes: filled(Node([0.0; 4]), 6 * (resolution + 1) * (resolution + 1))?,
+            nodes: filled(MapNode([0.0; 4]), 6 * (resolution + 1) * (resolution + 1))?,
             mean_gap: 0.0,
             largest_gap: 0.0,
         };
@@ -227,7 +227,7 @@ impl Grid {
                     row_start = vertex;
                 }
                 let [x, y, z] = (polyhedron.vertices[vertex as usize].position / self.unit).map(|x| x as f32).into();
-                *node = Node([x, y, z, rounded_up(highest.height / self.unit)]);
+                *node = MapNode([x, y, z, rounded_up(highest.height / self.unit)]);
             }
         }
     }
@@ -279,7 +279,7 @@ struct Stretch {
     to_map: Matrix,
     from_map: Matrix,
     shape: Matrix,
-    /// Same as [`Grid::misfit`], for a body of radius 1.
+    /// Same as [`MapGrid::misfit`], for a body of radius 1.
     misfit: f64,
 }
 

@@ -1,6 +1,6 @@
 //! Nodes and arcs of the fans: which of them one corner of the other body proves.
 
-use super::search::{NODE, NORMAL, Search};
+use super::search::{FacetSearch, NODE, NORMAL};
 use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::simd::Lanes;
 use crate::body::polyhedron::fan::Fan;
@@ -9,7 +9,7 @@ use crate::body::polyhedron::fan::Fan;
 /// is in the mask.
 #[inline(always)]
 pub fn find_masks<L: Lanes, const C: usize, const F: usize>(
-    search: &mut Search<L, C, F>,
+    search: &mut FacetSearch<L, C, F>,
     body: usize,
     masks: &mut [[u64; 4]; F],
 ) {
@@ -67,7 +67,7 @@ impl<const C: usize> Survivors<C> {
 /// less than 4u.
 #[inline(always)]
 pub fn proved_by_two_corners<L: Lanes, const C: usize, const F: usize>(
-    search: &Search<L, C, F>,
+    search: &FacetSearch<L, C, F>,
     body: usize,
     faces: [u8; 2],
 ) -> Option<f64> {

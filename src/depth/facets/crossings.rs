@@ -5,7 +5,7 @@
 //! more. So n* is within θ of the computed ±(e × g)/|e × g|, θ = (32u + leans)/|e × g|.
 
 use super::arcs::{Survivors, proved_by_two_corners};
-use super::search::{Facet, NORMAL, Search};
+use super::search::{Facet, FacetSearch, NORMAL};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::Lanes;
 
@@ -39,7 +39,7 @@ pub struct Crossings {
 
 /// An arc: that of a fan of body 1, or one of body 2's, not turned round.
 #[derive(Clone, Copy)]
-struct Arc {
+struct GaussArc {
     /// R·e.
     along: Vector,
     /// The sum of both normals, and 1 + their product: no unit vector of the arc has a lesser product with the sum.
@@ -51,13 +51,13 @@ struct Arc {
     faces: [u8; 2],
 }
 
-impl Arc {
+impl GaussArc {
     #[inline(always)]
-    fn of<L: Lanes, const C: usize, const F: usize>(search: &Search<L, C, F>, body: usize, edge: u8) -> Arc {
+    fn of<L: Lanes, const C: usize, const F: usize>(search: &FacetSearch<L, C, F>, body: usize, edge: u8) -> GaussArc {
         let (placed, edge) = (&search.placed[body], &search.fans[body].edges[usize::from(edge)]);
         let [left, right] = edge.faces;
         let (left, right) = (placed.normal(usize::from(left)), placed.normal(usize::from(right)));
-        Arc {
+        GaussArc {
             along: search.frame.bodies[body].rotate(&edge.direction).to_vector(),
             middle: left + right,
             least: 1.0 + left.dot(&right),
@@ -79,7 +79,7 @@ struct ArcBlock<L> {
 
 impl<L: Lanes> ArcBlock<L> {
     #[inline(always)]
-    fn of([a, b, c, d]: &[Arc; 4]) -> ArcBlock<L> {
+    fn of([a, b, c, d]: &[GaussArc; 4]) -> ArcBlock<L> {
         ArcBlock {
             along: in_lanes(&[&a.along, &b.along, &c.along, &d.along]),
             middle: in_lanes(&[&a.middle, &b.middle, &c.middle, &d.middle]),
@@ -100,7 +100,7 @@ impl Crossings {
     #[inline(always)]
     pub fn look_at<L: Lanes, const C: usize, const F: usize>(
         &mut self,
-        search: &mut Search<L, C, F>,
+        search: &mut FacetSearch<L, C, F>,
         survivors: &[Survivors<C>; 2],
     ) {
         let (first, second) = (survivors[0].edges(), survivors[1].edges());
@@ -108,14 +108,14 @@ impl Crossings {
             let last = four.len() - 1;
             let edges = [four[0], four[1.min(last)], four[2.min(last)], four[3.min(last)]];
             let arcs = [
-                Arc::of(search, 1, edges[0]),
-                Arc::of(search, 1, edges[1]),
-                Arc::of(search, 1, edges[2]),
-                Arc::of(search, 1, edges[3]),
+                GaussArc::of(search, 1, edges[0]),
+                GaussArc::of(search, 1, edges[1]),
+                GaussArc::of(search, 1, edges[2]),
+                GaussArc::of(search, 1, edges[3]),
             ];
             let block = ArcBlock::<L>::of(&arcs);
             for &edge in first {
-                let arc = Arc::of(search, 0, edge);
+                let arc = GaussArc::of(search, 0, edge);
                 // Those that the block repeats are dropped.
                 let mut left = may_be_nearer(search, &arc, &block) & ((1 << four.len()) - 1);
                 while left != 0 {
@@ -134,9 +134,9 @@ impl Crossings {
     #[inline(always)]
     fn settle<L: Lanes, const C: usize, const F: usize>(
         &mut self,
-        search: &mut Search<L, C, F>,
+        search: &mut FacetSearch<L, C, F>,
         [edge1, edge2]: [u8; 2],
-        arcs: [&Arc; 2],
+        arcs: [&GaussArc; 2],
     ) {
         let across = arcs[0].along.cross(&arcs[1].along);
         let length = across.norm();
@@ -170,18 +170,21 @@ impl Crossings {
 
 /// A bound of h all along one arc or the other.
 #[inline(always)]
-fn proved_by_arcs<L: Lanes, const C: usize, const F: usize>(search: &Search<L, C, F>, arcs: [&Arc; 2]) -> Option<f64> {
+fn proved_by_arcs<L: Lanes, const C: usize, const F: usize>(
+    search: &FacetSearch<L, C, F>,
+    arcs: [&GaussArc; 2],
+) -> Option<f64> {
     proved_by_two_corners(search, 0, arcs[0].faces).or_else(|| proved_by_two_corners(search, 1, arcs[1].faces))
 }
 
 /// Which of four arcs may cross this one where h < T: bits.
 #[inline(always)]
 fn may_be_nearer<L: Lanes, const C: usize, const F: usize>(
-    search: &Search<L, C, F>,
-    arc: &Arc,
+    search: &FacetSearch<L, C, F>,
+    arc: &GaussArc,
     block: &ArcBlock<L>,
 ) -> u32 {
-    let Arc { along, middle, least, corner, lean, .. } = arc;
+    let GaussArc { along, middle, least, corner, lean, .. } = arc;
     let [ex, ey, ez] = [L::splat(along.x), L::splat(along.y), L::splat(along.z)];
     let [gx, gy, gz] = block.along;
     let nx = ez.negated_mul_add(gy, ey.mul(gz));
@@ -214,7 +217,7 @@ fn may_be_nearer<L: Lanes, const C: usize, const F: usize>(
 /// r·g up to a rest, it is n*·(p − q) ≥ d·cos θ − |s·n*·e| − |r·n*·g| − |rest|: what is along the edges counts by their leans
 /// alone, however nearly parallel they are.
 #[inline(always)]
-fn bound_by_plane(longest: f64, [first, second]: [&Arc; 2], direction: &Vector, sine: f64, tilt: f64) -> f64 {
+fn bound_by_plane(longest: f64, [first, second]: [&GaussArc; 2], direction: &Vector, sine: f64, tilt: f64) -> f64 {
     let (e, g) = (&first.along, &second.along);
     let apart = first.corner - second.corner;
     let height = direction.dot(&apart);

@@ -16,7 +16,7 @@
 use super::search::Facet;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::{Lanes, Work};
-use crate::body::polyhedron::{Face, NONE, Polyhedron};
+use crate::body::polyhedron::{MergedFace, NONE, Polyhedron};
 use crate::placed::frame::{Body, Frame};
 use crate::placed::state::FeatureId;
 
@@ -54,7 +54,7 @@ const SURELY: f64 = 1e-9;
 const LEAST_SQUARE: f64 = 1e-6;
 
 /// The result of a look at one facet that proves nothing.
-enum Next {
+enum NextFacet {
     /// The foot is beyond a side of it: the facet there.
     Facet(Facet),
     Nothing,
@@ -75,8 +75,8 @@ pub fn prove<L: Lanes>(frame: &Frame<L>, facet: Facet) -> Result<Proved<L>, Face
     }
     match look(frame, facet) {
         Ok(proved) => Ok(proved),
-        Err(Next::Facet(next)) => L::out_of_line(&mut Walk { frame, next }),
-        Err(Next::Nothing) => Err(facet),
+        Err(NextFacet::Facet(next)) => L::out_of_line(&mut FacetWalk { frame, next }),
+        Err(NextFacet::Nothing) => Err(facet),
     }
 }
 
@@ -96,12 +96,12 @@ pub fn across<L: Lanes>(frame: &Frame<L>, direction: &Vector) -> Option<Facet> {
     best.1
 }
 
-struct Walk<'a, L> {
+struct FacetWalk<'a, L> {
     frame: &'a Frame<'a, L>,
     next: Facet,
 }
 
-impl<L: Lanes> Work for Walk<'_, L> {
+impl<L: Lanes> Work for FacetWalk<'_, L> {
     type Output = Result<Proved<L>, Facet>;
 
     #[inline(always)]
@@ -109,8 +109,8 @@ impl<L: Lanes> Work for Walk<'_, L> {
         for steps in 1..MOST_FACETS {
             match look(self.frame, self.next) {
                 Ok(proved) => return Ok(Proved { steps, ..proved }),
-                Err(Next::Facet(next)) => self.next = next,
-                Err(Next::Nothing) => break,
+                Err(NextFacet::Facet(next)) => self.next = next,
+                Err(NextFacet::Nothing) => break,
             }
         }
         Err(self.next)
@@ -118,7 +118,7 @@ impl<L: Lanes> Work for Walk<'_, L> {
 }
 
 #[inline(always)]
-fn look<L: Lanes>(frame: &Frame<L>, facet: Facet) -> Result<Proved<L>, Next> {
+fn look<L: Lanes>(frame: &Frame<L>, facet: Facet) -> Result<Proved<L>, NextFacet> {
     match facet {
         Facet::Face(body, face) => look_at_face(frame, body.min(1), face),
         Facet::Edges(edges) => L::out_of_line(&mut AtEdges { frame, edges }),
@@ -190,9 +190,9 @@ fn middle<L: Lanes>(frame: &Frame<L>, own: &Body<L>, other: &Body<L>, m: L, erro
 
 /// A face of a body over the other's lowest vertex.
 #[inline(always)]
-fn look_at_face<L: Lanes>(frame: &Frame<L>, body: usize, face: u32) -> Result<Proved<L>, Next> {
+fn look_at_face<L: Lanes>(frame: &Frame<L>, body: usize, face: u32) -> Result<Proved<L>, NextFacet> {
     let (own, other) = (&frame.bodies[body], &frame.bodies[1 - body]);
-    let Some(record) = own.polyhedron.faces.get(face as usize) else { return Err(Next::Nothing) };
+    let Some(record) = own.polyhedron.faces.get(face as usize) else { return Err(NextFacet::Nothing) };
     let normal = L::from_vector(&record.normal);
     let turned = own.rotate_lanes(normal);
     // Of unit length up to 3u: 1/√(1 + x) is 1 − x/2 for an x of 44u.
@@ -203,7 +203,7 @@ fn look_at_face<L: Lanes>(frame: &Frame<L>, body: usize, face: u32) -> Result<Pr
     let error = rounding(frame, own.polyhedron, other.polyhedron);
     let (lower, upper) = (depth - record.slack - error, depth + record.slack + error);
     if !is_good(frame, lower, upper) {
-        return Err(Next::Nothing);
+        return Err(NextFacet::Nothing);
     }
     let deepest = &other.polyhedron.vertices[vertex as usize].position;
     let below = own.rotate_back(other.rotate(deepest).sub(own.offset));
@@ -214,7 +214,7 @@ fn look_at_face<L: Lanes>(frame: &Frame<L>, body: usize, face: u32) -> Result<Pr
     }
     let [h, aside] = middle(frame, own, other, m, error);
     if !encloses(inside - 2.0 * error, h, aside, upper) {
-        return Err(Next::Nothing);
+        return Err(NextFacet::Nothing);
     }
     let above = normal.negated_mul_add(L::splat(normal.dot(below) + record.planes.offset[0]), below);
     let (mut points, mut features) =
@@ -229,7 +229,7 @@ fn look_at_face<L: Lanes>(frame: &Frame<L>, body: usize, face: u32) -> Result<Pr
 
 /// How far a place is inside the nearest side of a face, and which that is.
 #[inline(always)]
-fn least_inside<L: Lanes>(polyhedron: &Polyhedron, face: &Face, place: L) -> (f64, usize) {
+fn least_inside<L: Lanes>(polyhedron: &Polyhedron, face: &MergedFace, place: L) -> (f64, usize) {
     let [x, y, z] = [place.splat_x(), place.splat_y(), place.splat_z()];
     let planes = &face.planes;
     let value = x.mul_add(
@@ -253,18 +253,18 @@ fn least_inside<L: Lanes>(polyhedron: &Polyhedron, face: &Face, place: L) -> (f6
 
 /// The facet across a side of a face.
 #[inline(always)]
-fn next_across<L: Lanes>(frame: &Frame<L>, body: usize, face: u32, side: usize, vertex: u32, m: L) -> Next {
+fn next_across<L: Lanes>(frame: &Frame<L>, body: usize, face: u32, side: usize, vertex: u32, m: L) -> NextFacet {
     let own = &frame.bodies[body];
     let record = &own.polyhedron.faces[face as usize];
     let side = side.min(record.side_count as usize - 1);
     let [x, y, z, _] = own.polyhedron.side_plane(record, side);
     let edge = own.polyhedron.side(record, side as u32);
     let away = own.rotate(&Vector::new(x, y, z)).negate();
-    L::out_of_line(&mut Across { frame, body, edge, vertex, m, away, from: [face, NONE] })
+    L::out_of_line(&mut GiftWrap { frame, body, edge, vertex, m, away, from: [face, NONE] })
 }
 
 /// Gift wrapping: the facet across the side that an edge of a body and a vertex of the other make.
-struct Across<'a, L> {
+struct GiftWrap<'a, L> {
     frame: &'a Frame<'a, L>,
     /// The one with the edge.
     body: usize,
@@ -278,22 +278,22 @@ struct Across<'a, L> {
     from: [u32; 2],
 }
 
-impl<L: Lanes> Work for Across<'_, L> {
-    type Output = Next;
+impl<L: Lanes> Work for GiftWrap<'_, L> {
+    type Output = NextFacet;
 
     /// The plane of the facet turns around the side: what it meets after the least angle is the next.
     #[inline(always)]
-    fn run(&mut self) -> Next {
-        let Across { frame, body, edge, vertex, m, away, from } = *self;
+    fn run(&mut self) -> NextFacet {
+        let GiftWrap { frame, body, edge, vertex, m, away, from } = *self;
         let (own, other) = (&frame.bodies[body], &frame.bodies[1 - body]);
         let record = &own.polyhedron.edges[edge as usize];
         // Next to a half turn.
-        let (mut best, mut found) = ([-1.0, f64::MIN_POSITIVE], Next::Nothing);
+        let (mut best, mut found) = ([-1.0, f64::MIN_POSITIVE], NextFacet::Nothing);
         for (face, normal) in [record.left(), record.right()].into_iter().zip(&record.normals) {
             let normal = own.rotate(normal);
             let angle = [normal.dot(m), normal.dot(away)];
             if face != from[0] && angle[1] > 0.0 && comes_before(angle, best) {
-                (best, found) = (angle, Next::Facet(Facet::Face(body, face)));
+                (best, found) = (angle, NextFacet::Facet(Facet::Face(body, face)));
             }
         }
         let (down, across) = (other.rotate_back(m), other.rotate_back(away));
@@ -308,7 +308,7 @@ impl<L: Lanes> Work for Across<'_, L> {
                 let angle = [-to.dot(across), to.dot(down).max(0.0)];
                 if comes_before(angle, best) {
                     let edges = if body == 0 { [edge, turned] } else { [turned, edge] };
-                    (best, found) = (angle, Next::Facet(Facet::Edges(edges)));
+                    (best, found) = (angle, NextFacet::Facet(Facet::Edges(edges)));
                 }
             }
         }
@@ -336,7 +336,7 @@ struct AtEdges<'a, L> {
 }
 
 impl<L: Lanes> Work for AtEdges<'_, L> {
-    type Output = Result<Proved<L>, Next>;
+    type Output = Result<Proved<L>, NextFacet>;
 
     #[inline(always)]
     fn run(&mut self) -> Self::Output {
@@ -346,7 +346,7 @@ impl<L: Lanes> Work for AtEdges<'_, L> {
         let (Some(edge1), Some(edge2)) =
             (polyhedron1.edges.get(edges[0] as usize), polyhedron2.edges.get(edges[1] as usize))
         else {
-            return Err(Next::Nothing);
+            return Err(NextFacet::Nothing);
         };
         let ends = [
             [&edge1.tail_position, &polyhedron1.vertices[edge1.head() as usize].position],
@@ -391,7 +391,7 @@ impl<L: Lanes> Work for AtEdges<'_, L> {
         }
         let [h, aside] = middle(frame, body1, body2, m, error);
         if !encloses(inside[side] - 4.0 * error, h, aside, upper) {
-            return Err(Next::Nothing);
+            return Err(NextFacet::Nothing);
         }
         // a + s·e is over c + t·g along m.
         let (per, between) = (1.0 / across.dot(m), c.sub(a));
@@ -405,8 +405,8 @@ impl<L: Lanes> Work for AtEdges<'_, L> {
 impl<L: Lanes> AtEdges<'_, L> {
     /// Where the edges have no facet any more: of the faces beside them that which is most across a direction.
     #[inline(always)]
-    fn beside(&self, direction: L) -> Next {
-        let (mut most, mut best) = (0.0, Next::Nothing);
+    fn beside(&self, direction: L) -> NextFacet {
+        let (mut most, mut best) = (0.0, NextFacet::Nothing);
         for (body, edge) in self.edges.into_iter().enumerate() {
             let placed = &self.frame.bodies[body];
             let record = &placed.polyhedron.edges[edge as usize];
@@ -415,7 +415,7 @@ impl<L: Lanes> AtEdges<'_, L> {
             for (face, normal) in [record.left(), record.right()].into_iter().zip(&record.normals) {
                 let cosine = (along.dot(L::from_vector(normal)) * per).abs();
                 if cosine > most {
-                    (most, best) = (cosine, Next::Facet(Facet::Face(body, face)));
+                    (most, best) = (cosine, NextFacet::Facet(Facet::Face(body, face)));
                 }
             }
         }
@@ -424,7 +424,7 @@ impl<L: Lanes> AtEdges<'_, L> {
 
     /// The facet beyond a side of the parallelogram: along e at the tail or the head of g, or along g at the tail or the head of e.
     #[inline(always)]
-    fn next_beyond(&self, side: usize, m: L, [e, g]: [L; 2]) -> Next {
+    fn next_beyond(&self, side: usize, m: L, [e, g]: [L; 2]) -> NextFacet {
         let AtEdges { frame, edges: [edge1, edge2] } = *self;
         let ends = |body: usize, edge: u32| {
             let record = &frame.bodies[body].polyhedron.edges[edge as usize];
@@ -441,6 +441,6 @@ impl<L: Lanes> AtEdges<'_, L> {
         let across = m.cross(along);
         let away = if across.dot(out) < 0.0 { across.negate() } else { across };
         let away = away.mul(L::splat(1.0 / away.dot(away).sqrt()));
-        L::out_of_line(&mut Across { frame, body, edge, vertex, m: normal, away, from: [NONE, other] })
+        L::out_of_line(&mut GiftWrap { frame, body, edge, vertex, m: normal, away, from: [NONE, other] })
     }
 }

@@ -38,13 +38,13 @@ use crossings::Crossings;
 pub use crossings::ON_ARC;
 pub use kept::{Proved, across, prove};
 use placed::PlacedFan;
-use search::{Best, Search};
 pub use search::{Facet, NODE, NORMAL, SUPPORT};
-pub use witness::Witness;
+use search::{FacetSearch, LeastSupport};
+pub use witness::FacetWitness;
 
 /// The result of all facets. (The facet that they find is written in its place: R1, R5.)
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Outcome {
+pub enum FacetOutcome {
     /// The bodies are apart along the direction, from body 1 to body 2; it is the facet's normal. Nothing else is reported.
     Separated,
     /// They overlap.
@@ -67,7 +67,7 @@ pub struct Overlap {
     /// The nearest facet.
     pub facet: Facet,
     /// The place of the facet.
-    pub witness: Witness,
+    pub witness: FacetWitness,
 }
 
 impl Overlap {
@@ -78,7 +78,7 @@ impl Overlap {
         depth: 0.0,
         direction: Vector::new(0.0, 0.0, 0.0),
         facet: Facet::Face(0, 0),
-        witness: Witness::NONE,
+        witness: FacetWitness::NONE,
     };
 }
 
@@ -106,7 +106,7 @@ pub fn search<L: Lanes>(
     known: Option<Facet>,
     widest: f64,
     found: &mut Overlap,
-) -> Outcome {
+) -> FacetOutcome {
     let known = known.filter(|facet| is_there(frame, *facet));
     let points = fans[0].points.len().max(fans[1].points.len());
     let planes = fans[0].planes.len().max(fans[1].planes.len());
@@ -137,19 +137,19 @@ struct InRoom<'a, L, const C: usize, const F: usize> {
 }
 
 impl<L: Lanes, const C: usize, const F: usize> Work for InRoom<'_, L, C, F> {
-    type Output = Outcome;
+    type Output = FacetOutcome;
 
     #[inline(always)]
-    fn run(&mut self) -> Outcome {
+    fn run(&mut self) -> FacetOutcome {
         let InRoom { frame, fans, known, widest, found } = self;
         let (frame, fans, widest): (&Frame<L>, _, _) = (frame, *fans, *widest);
-        let mut search = Search::<L, C, F> {
+        let mut search = FacetSearch::<L, C, F> {
             frame,
             fans,
             placed: [PlacedFan::EMPTY; 2],
             longest: 1.02 * frame.size + frame.separation,
             widest,
-            best: Best { value: f64::INFINITY, direction: Vector::zeros(), facet: Facet::Face(0, 0) },
+            best: LeastSupport { value: f64::INFINITY, direction: Vector::zeros(), facet: Facet::Face(0, 0) },
         };
         search.placed[0].place(&frame.bodies[0], fans[0], frame.bodies[0].offset, frame.rigid);
         search.placed[1].place(&frame.bodies[1], fans[1], L::splat(0.0), frame.rigid);
@@ -157,9 +157,9 @@ impl<L: Lanes, const C: usize, const F: usize> Work for InRoom<'_, L, C, F> {
     }
 }
 
-impl<L: Lanes, const C: usize, const F: usize> Search<'_, L, C, F> {
+impl<L: Lanes, const C: usize, const F: usize> FacetSearch<'_, L, C, F> {
     #[inline(always)]
-    fn run(&mut self, known: Option<Facet>, found: &mut Overlap) -> Outcome {
+    fn run(&mut self, known: Option<Facet>, found: &mut Overlap) -> FacetOutcome {
         match known {
             Some(facet) => self.begin_with(facet),
             None => self.begin(),
@@ -183,7 +183,7 @@ impl<L: Lanes, const C: usize, const F: usize> Search<'_, L, C, F> {
         if !survivors[1].edges().is_empty() {
             crossings.look_at(self, &survivors);
         }
-        if crossings.is_unclear { Outcome::Unclear } else { self.finish(crossings.least, found) }
+        if crossings.is_unclear { FacetOutcome::Unclear } else { self.finish(crossings.least, found) }
     }
 
     /// The facet that was the nearest.
@@ -223,14 +223,14 @@ impl<L: Lanes, const C: usize, const F: usize> Search<'_, L, C, F> {
 
     /// The answer, where `crossings` is the least that is proved of them.
     #[inline(always)]
-    fn finish(&self, crossings: f64, found: &mut Overlap) -> Outcome {
-        let Best { direction, facet, .. } = self.best;
+    fn finish(&self, crossings: f64, found: &mut Overlap) -> FacetOutcome {
+        let LeastSupport { direction, facet, .. } = self.best;
         let direction = direction / direction.norm();
         let (value, error) = (self.true_support(&direction), SUPPORT * self.longest);
         let upper = value + error;
         (found.direction, found.facet) = (direction, facet);
         if upper < 0.0 {
-            return Outcome::Separated;
+            return FacetOutcome::Separated;
         }
         let [fan1, fan2] = self.fans;
         let (of_faces, of_cells) = (fan1.face_slack + fan2.face_slack, fan1.cell_slack + fan2.cell_slack);
@@ -239,10 +239,14 @@ impl<L: Lanes, const C: usize, const F: usize> Search<'_, L, C, F> {
         // False for a NaN.
         let is_narrow = upper - lower <= self.widest;
         if !(lower > 0.0 && is_narrow) {
-            return Outcome::Unclear;
+            return FacetOutcome::Unclear;
         }
         (found.lower, found.upper, found.depth) = (lower, upper, value);
-        if witness::find(self, &direction, value, &mut found.witness) { Outcome::Overlapping } else { Outcome::Unclear }
+        if witness::find(self, &direction, value, &mut found.witness) {
+            FacetOutcome::Overlapping
+        } else {
+            FacetOutcome::Unclear
+        }
     }
 
     /// The support over all vertices, flat ones included.

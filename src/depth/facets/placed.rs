@@ -31,7 +31,7 @@ impl<const C: usize, const F: usize> PlacedFan<C, F> {
     pub fn place<L: Lanes>(&mut self, body: &Body<L>, fan: &Fan, origin: L, rigid: bool) {
         let columns = body.columns();
         let [x0, y0, z0] = [origin.splat_x(), origin.splat_y(), origin.splat_z()];
-        let turn = Turn::of(&columns);
+        let turn = FanTurn::of(&columns);
         self.point_blocks = fan.points.len();
         for (placed, own) in self.points.iter_mut().zip(&fan.points) {
             let [x, y, z] = turn.apply([L::load(&own.x), L::load(&own.y), L::load(&own.z)]);
@@ -39,7 +39,7 @@ impl<const C: usize, const F: usize> PlacedFan<C, F> {
         }
         // Normals turn by R⁻ᵀ, which is R up to rounding, or else the matrix of cofactors over the determinant.
         let [a, b, c] = columns;
-        let turn = if rigid { turn } else { Turn::of(&[b.cross(c), c.cross(a), a.cross(b)]) };
+        let turn = if rigid { turn } else { FanTurn::of(&[b.cross(c), c.cross(a), a.cross(b)]) };
         self.plane_blocks = fan.planes.len();
         for (placed, own) in self.planes.iter_mut().zip(&fan.planes) {
             let [mut x, mut y, mut z] = turn.apply([L::load(&own.x), L::load(&own.y), L::load(&own.z)]);
@@ -123,12 +123,12 @@ impl<const C: usize, const F: usize> PlacedFan<C, F> {
 
 /// A matrix, each entry in all lanes.
 #[derive(Clone, Copy)]
-struct Turn<L>([[L; 3]; 3]);
+struct FanTurn<L>([[L; 3]; 3]);
 
-impl<L: Lanes> Turn<L> {
+impl<L: Lanes> FanTurn<L> {
     #[inline(always)]
-    fn of([a, b, c]: &[L; 3]) -> Turn<L> {
-        Turn([
+    fn of([a, b, c]: &[L; 3]) -> FanTurn<L> {
+        FanTurn([
             [a.splat_x(), b.splat_x(), c.splat_x()],
             [a.splat_y(), b.splat_y(), c.splat_y()],
             [a.splat_z(), b.splat_z(), c.splat_z()],

@@ -45,24 +45,24 @@ pub const SUPPORT: f64 = 16.0 * U;
 
 /// The least support so far, as computed over the corners.
 #[derive(Clone, Copy)]
-pub(super) struct Best {
+pub(super) struct LeastSupport {
     pub(super) value: f64,
     /// About of unit length.
     pub(super) direction: Vector,
     pub(super) facet: Facet,
 }
 
-pub(super) struct Search<'a, L, const C: usize, const F: usize> {
+pub(super) struct FacetSearch<'a, L, const C: usize, const F: usize> {
     pub(super) frame: &'a Frame<'a, L>,
     pub(super) fans: [&'a Fan; 2],
     pub(super) placed: [PlacedFan<C, F>; 2],
     /// M: no difference of vertices is longer.
     pub(super) longest: f64,
     pub(super) widest: f64,
-    pub(super) best: Best,
+    pub(super) best: LeastSupport,
 }
 
-impl<L: Lanes, const C: usize, const F: usize> Search<'_, L, C, F> {
+impl<L: Lanes, const C: usize, const F: usize> FacetSearch<'_, L, C, F> {
     /// Whether the least support may be less than 0, rounding apart.
     #[inline(always)]
     pub(super) fn is_separated(&self) -> bool {
@@ -92,7 +92,7 @@ impl<L: Lanes, const C: usize, const F: usize> Search<'_, L, C, F> {
     #[inline(always)]
     pub(super) fn take(&mut self, value: f64, direction: &Vector, facet: Facet) {
         if value < self.best.value {
-            self.best = Best { value, direction: *direction, facet };
+            self.best = LeastSupport { value, direction: *direction, facet };
         }
     }
 

@@ -1,6 +1,6 @@
 //! The witness points of the nearest facet: points of both bodies, one over the other along the direction of least overlap.
 
-use super::search::{Facet, SUPPORT, Search, TIE};
+use super::search::{Facet, FacetSearch, SUPPORT, TIE};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::base::simd::Lanes;
 use crate::body::polyhedron::{Edge, Polyhedron};
@@ -8,7 +8,7 @@ use crate::placed::state::FeatureId;
 
 /// Points and the features that they are on. It is written in its place and not handed on: a copy would wait for its numbers (R1).
 #[derive(Debug, Clone, Copy)]
-pub struct Witness {
+pub struct FacetWitness {
     /// In centred coordinates: convex combinations of vertices.
     pub points: [Vector; 2],
     /// The same in world axes, relative to body 2's origin.
@@ -17,9 +17,9 @@ pub struct Witness {
     pub features: [FeatureId; 2],
 }
 
-impl Witness {
+impl FacetWitness {
     /// No points yet.
-    pub const NONE: Witness = Witness {
+    pub const NONE: FacetWitness = FacetWitness {
         points: [Vector::new(0.0, 0.0, 0.0); 2],
         world: [Vector::new(0.0, 0.0, 0.0); 2],
         features: [FeatureId::Vertex(0); 2],
@@ -39,15 +39,15 @@ const MISS: f64 = 64.0 * U;
 /// The witness points of the best facet; whether rounding lets them be found.
 #[inline(always)]
 pub fn find<L: Lanes, const C: usize, const F: usize>(
-    search: &Search<L, C, F>,
+    search: &FacetSearch<L, C, F>,
     direction: &Vector,
     overlap: f64,
-    witness: &mut Witness,
+    witness: &mut FacetWitness,
 ) -> bool {
     let is_found = match search.best.facet {
         Facet::Face(body, face) => {
             let outward = if body == 0 { *direction } else { -direction };
-            Side { search, body, face, outward, overlap }.find(witness)
+            WitnessSide { search, body, face, outward, overlap }.find(witness)
         }
         Facet::Edges(edges) => {
             on_edges(search, edges, witness);
@@ -62,9 +62,9 @@ pub fn find<L: Lanes, const C: usize, const F: usize>(
 /// The points of two edges that are over each other.
 #[inline(always)]
 fn on_edges<L: Lanes, const C: usize, const F: usize>(
-    search: &Search<L, C, F>,
+    search: &FacetSearch<L, C, F>,
     edges: [u32; 2],
-    witness: &mut Witness,
+    witness: &mut FacetWitness,
 ) {
     let [body1, body2] = &search.frame.bodies;
     let [edge1, edge2] = edges;
@@ -87,8 +87,8 @@ fn on_edges<L: Lanes, const C: usize, const F: usize>(
 }
 
 /// A face of a body that the other is least deep below.
-struct Side<'a, 'b, L, const C: usize, const F: usize> {
-    search: &'a Search<'b, L, C, F>,
+struct WitnessSide<'a, 'b, L, const C: usize, const F: usize> {
+    search: &'a FacetSearch<'b, L, C, F>,
     body: usize,
     face: u32,
     /// The unit normal.
@@ -96,7 +96,7 @@ struct Side<'a, 'b, L, const C: usize, const F: usize> {
     overlap: f64,
 }
 
-impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
+impl<L: Lanes, const C: usize, const F: usize> WitnessSide<'_, '_, L, C, F> {
     fn polyhedron(&self, body: usize) -> &Polyhedron {
         self.search.frame.bodies[body].polyhedron
     }
@@ -104,8 +104,8 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
     /// A point on the face, and one of the other body below it: on one corner, on an edge, or on a face that is parallel. Whether
     /// there are such points.
     #[inline(always)]
-    fn find(&self, witness: &mut Witness) -> bool {
-        let Side { search, body, outward, .. } = self;
+    fn find(&self, witness: &mut FacetWitness) -> bool {
+        let WitnessSide { search, body, outward, .. } = self;
         let other = 1 - body;
         let corners = &search.fans[other].corners;
         let least = search.placed[other].least::<L>(outward);
@@ -134,8 +134,8 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
     }
 
     /// The middle of the longest part of an edge between two deepest corners that is below the face.
-    fn over_edge(&self, deepest: u64, witness: &mut Witness) -> bool {
-        let Side { search, body, .. } = self;
+    fn over_edge(&self, deepest: u64, witness: &mut FacetWitness) -> bool {
+        let WitnessSide { search, body, .. } = self;
         let other = 1 - body;
         let mut best = (-SLIGHTLY, None);
         for (index, edge) in search.fans[other].edges.iter().enumerate() {
@@ -159,7 +159,7 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
     /// From where to where a segment is below the face; the wrong way round where it is not.
     fn part_below(&self, [tail, head]: &[Vector; 2]) -> [f64; 2] {
         let [mut from, mut to] = [0.0_f64, 1.0_f64];
-        let polygon = Polygon::of(self.search, self.body, self.face);
+        let polygon = WitnessPolygon::of(self.search, self.body, self.face);
         for side in 0..polygon.count() {
             let (a, b) = (polygon.corner(side), polygon.corner((side + 1) % polygon.count()));
             let inward = self.outward.cross(&(b - a));
@@ -177,13 +177,13 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
     }
 
     /// The middle of the face's corners, where all of it is over a face of the other body.
-    fn over_face(&self, witness: &mut Witness) -> bool {
-        let Side { search, body, outward, .. } = self;
+    fn over_face(&self, witness: &mut FacetWitness) -> bool {
+        let WitnessSide { search, body, outward, .. } = self;
         let other = 1 - body;
         let against = |face: &usize| search.placed[other].normal(*face).dot(outward);
         let faces = 0..self.polyhedron(other).faces.len();
         let Some(below) = faces.reduce(|a, b| if against(&b) < against(&a) { b } else { a }) else { return false };
-        let polygon = Polygon::of(search, *body, self.face);
+        let polygon = WitnessPolygon::of(search, *body, self.face);
         let share = 1.0 / polygon.count() as f64;
         let [mut own, mut world] = [Vector::zeros(); 2];
         for side in 0..polygon.count() {
@@ -195,8 +195,8 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
     }
 
     /// The point of a face nearest to one over it, about: in the triangle of a fan around its first corner. Whether there is one.
-    fn on_face(&self, body: usize, face: u32, point: &Vector, witness: &mut Witness) -> bool {
-        let polygon = Polygon::of(self.search, body, face);
+    fn on_face(&self, body: usize, face: u32, point: &Vector, witness: &mut FacetWitness) -> bool {
+        let polygon = WitnessPolygon::of(self.search, body, face);
         let normal = self.search.placed[body].normal(face as usize);
         let first = polygon.corner(0);
         let towards = point - first;
@@ -223,15 +223,15 @@ impl<L: Lanes, const C: usize, const F: usize> Side<'_, '_, L, C, F> {
 const SLIGHTLY: f64 = 64.0 * U;
 
 /// The corners of a placed face, counter-clockwise.
-struct Polygon<'a, 'b, L, const C: usize, const F: usize> {
-    search: &'a Search<'b, L, C, F>,
+struct WitnessPolygon<'a, 'b, L, const C: usize, const F: usize> {
+    search: &'a FacetSearch<'b, L, C, F>,
     body: usize,
     face: u32,
 }
 
-impl<'a, 'b, L: Lanes, const C: usize, const F: usize> Polygon<'a, 'b, L, C, F> {
-    fn of(search: &'a Search<'b, L, C, F>, body: usize, face: u32) -> Self {
-        Polygon { search, body, face }
+impl<'a, 'b, L: Lanes, const C: usize, const F: usize> WitnessPolygon<'a, 'b, L, C, F> {
+    fn of(search: &'a FacetSearch<'b, L, C, F>, body: usize, face: u32) -> Self {
+        WitnessPolygon { search, body, face }
     }
 
     fn count(&self) -> usize {

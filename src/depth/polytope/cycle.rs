@@ -7,7 +7,7 @@
 //! Edges are bits: row a of `out` has bit b where there is an edge from a to b, and row b of `into` has bit a. So the rim's edges
 //! from a vertex are those of `out` that `into` has not. No neighbours are kept, and none are walked to.
 
-use super::Rounding;
+use super::PairRounding;
 use super::planes::evaluate;
 use super::storage::{NO_PLANE, Polytope};
 use crate::base::math::Vector;
@@ -104,7 +104,7 @@ pub fn insert<L: Lanes, const V: usize, const T: usize, const W: usize>(
     edges: &mut Edges<V, W>,
     beyond: usize,
     apex: Apex,
-    rounding: &Rounding,
+    rounding: &PairRounding,
     demand: &Demand,
 ) -> bool {
     let mut region = visible::<L, V, T>(polytope, beyond, apex.vertex, rounding);
@@ -117,7 +117,7 @@ pub fn take_out<L: Lanes, const V: usize, const T: usize, const W: usize>(
     polytope: &mut Polytope<V, T>,
     edges: &mut Edges<V, W>,
     triangle: usize,
-    rounding: &Rounding,
+    rounding: &PairRounding,
     demand: &Demand,
 ) -> bool {
     let corners = polytope.corners_of(triangle);
@@ -149,7 +149,7 @@ fn replace<L: Lanes, const V: usize, const T: usize, const W: usize>(
     edges: &mut Edges<V, W>,
     region: &mut Region,
     apex: Apex,
-    rounding: &Rounding,
+    rounding: &PairRounding,
     demand: &Demand,
 ) -> bool {
     for _ in 0..MOST_TAKEN {
@@ -216,7 +216,7 @@ fn visible<L: Lanes, const V: usize, const T: usize>(
     polytope: &mut Polytope<V, T>,
     root: usize,
     apex: u8,
-    rounding: &Rounding,
+    rounding: &PairRounding,
 ) -> Region {
     const { assert!(T <= 64 * MOST_WORDS, "a bit for each triangle") };
     let target = L::load(&polytope.positions[usize::from(apex)]);
@@ -374,7 +374,7 @@ fn judge<L: Lanes, const V: usize, const T: usize>(
     polytope: &mut Polytope<V, T>,
     from: usize,
     to: usize,
-    rounding: &Rounding,
+    rounding: &PairRounding,
     demand: &Demand,
 ) -> Verdict {
     let least = evaluate::<L, V, T>(polytope, rounding, &demand.centre, from, to);
@@ -392,7 +392,7 @@ fn find_wrong<const V: usize, const T: usize>(
     polytope: &Polytope<V, T>,
     from: usize,
     to: usize,
-    rounding: &Rounding,
+    rounding: &PairRounding,
     demand: &Demand,
 ) -> Verdict {
     for triangle in from..to {
@@ -441,7 +441,8 @@ mod tests {
     use crate::base::simd::Portable;
     use crate::random::Random;
 
-    const ROUNDING: Rounding = Rounding { difference: 1e-15, plane: 1e-14, determinant: 1e-14, provable: 1e-13 };
+    const ROUNDING: PairRounding =
+        PairRounding { difference: 1e-15, plane: 1e-14, determinant: 1e-14, provable: 1e-13 };
 
     fn tetrahedron() -> Polytope<64, 128> {
         let mut polytope = Polytope::EMPTY;

@@ -4,20 +4,20 @@
 //! exact ones are off by no more than the difference's error, and every triangle is farther from the origin than that, so that
 //! none meets it on the way from the one cycle to the other.
 
-use super::Rounding;
+use super::PairRounding;
 use super::storage::Polytope;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 
 /// All planes of the polytope are known to be at a positive distance. If all determinants are positive the solid angles sum up to
 /// more than 0. Otherwise a ray through a certainly positive triangle does, if it certainly misses the uncertain ones.
 #[inline(always)]
-pub fn is_positive<const V: usize, const T: usize>(polytope: &Polytope<V, T>, rounding: &Rounding) -> bool {
+pub fn is_positive<const V: usize, const T: usize>(polytope: &Polytope<V, T>, rounding: &PairRounding) -> bool {
     let certain = &polytope.certain[..polytope.triangle_count];
     certain.iter().fold(1, |all, certain| all & certain) == 1 || ray_proves(polytope, rounding)
 }
 
 #[cold]
-fn ray_proves<const V: usize, const T: usize>(polytope: &Polytope<V, T>, rounding: &Rounding) -> bool {
+fn ray_proves<const V: usize, const T: usize>(polytope: &Polytope<V, T>, rounding: &PairRounding) -> bool {
     let triangles = 0..polytope.triangle_count;
     let certain = triangles.clone().filter(|&t| polytope.certain[t] == 1);
     // A large one that is far away.

@@ -6,7 +6,7 @@ use super::proposal::{Goal, MOST_PROPOSED, propose};
 use super::sliver::{sharpen, straighten};
 use super::storage::{NO_PLANE, Polytope};
 use super::support::{Support, support};
-use super::{Rounding, centre_of_differences, degree, first};
+use super::{PairRounding, centre_of_differences, degree, first};
 use crate::base::math::Vector;
 use crate::base::simd::Lanes;
 use crate::placed::exact::VertexPair;
@@ -31,8 +31,8 @@ const COARSE: usize = 16;
 
 /// The goal of a search.
 #[derive(Debug, Clone, Copy)]
-pub struct Wanted {
-    /// How wide the interval may be; at least [`Rounding::provable`] counts.
+pub struct WantedDepth {
+    /// How wide the interval may be; at least [`PairRounding::provable`] counts.
     pub width: f64,
     /// Or how wide as a multiple of its lower end.
     pub relative: f64,
@@ -101,15 +101,15 @@ pub fn expand<L: Lanes, const V: usize, const T: usize, const W: usize>(
     frame: &Frame<L>,
     polytope: &mut Polytope<V, T>,
     start: &SearchStart,
-    wanted: &Wanted,
+    wanted: &WantedDepth,
 ) -> Expansion {
-    let rounding = Rounding::of(frame);
+    let rounding = PairRounding::of(frame);
     let mut search = Expander {
         frame,
         rounding,
         share: 1.0 - 1.0 / (1.0 + wanted.relative),
         width: if wanted.width > rounding.provable { wanted.width } else { rounding.provable },
-        best: Best { upper: f64::INFINITY, excess: 0.0, direction: Vector::zeros(), farthest: [0; 2] },
+        best: NearestFacet { upper: f64::INFINITY, excess: 0.0, direction: Vector::zeros(), farthest: [0; 2] },
         lower: wanted.lower,
         demand: Demand { centre: centre_of_differences(frame), about_origin: false, least: NO_PLANE },
         edges: Edges::<V, W>::EMPTY,
@@ -136,7 +136,7 @@ pub fn expand<L: Lanes, const V: usize, const T: usize, const W: usize>(
 }
 
 /// The least upper bound so far.
-struct Best {
+struct NearestFacet {
     upper: f64,
     /// The part of it that is due to ties at the support vertices, which no expansion reduces.
     excess: f64,
@@ -146,14 +146,14 @@ struct Best {
 
 struct Expander<'a, L, const V: usize, const W: usize> {
     frame: &'a Frame<'a, L>,
-    rounding: Rounding,
+    rounding: PairRounding,
     /// How wide the interval may be …
     width: f64,
     /// … or as a share of its upper end.
     share: f64,
-    /// See [`Wanted::lower`].
+    /// See [`WantedDepth::lower`].
     lower: f64,
-    best: Best,
+    best: NearestFacet,
     demand: Demand,
     edges: Edges<V, W>,
     steps: u32,
@@ -308,7 +308,7 @@ impl<L: Lanes, const V: usize, const W: usize> Expander<'_, L, V, W> {
         let found = support(self.frame, &self.rounding, direction, from, enough);
         if found.upper < self.best.upper {
             let Support { upper, excess, pair, .. } = found;
-            self.best = Best { upper, excess, direction: *direction, farthest: pair };
+            self.best = NearestFacet { upper, excess, direction: *direction, farthest: pair };
         }
         found
     }

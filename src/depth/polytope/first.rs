@@ -3,7 +3,7 @@
 use super::planes::evaluate;
 use super::storage::Polytope;
 use super::support::{Support, rough_support, vertex_beyond};
-use super::{Rounding, SHORTEST_NORMAL, centre_of_differences};
+use super::{PairRounding, SHORTEST_NORMAL, centre_of_differences};
 use crate::base::math::Vector;
 use crate::base::simd::Lanes;
 use crate::placed::exact::VertexPair;
@@ -22,7 +22,7 @@ const GENERIC: Vector = Vector::new(0.48, 0.31, 0.82);
 pub fn make<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
     polytope: &mut Polytope<V, T>,
-    rounding: &Rounding,
+    rounding: &PairRounding,
     direction: Option<&Vector>,
     supports: &mut u32,
 ) -> Option<Vector> {
@@ -66,7 +66,7 @@ fn tips_and_sides(tip: &Vector, lean: f64) -> [Vector; 5] {
 fn bipyramid<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
     polytope: &mut Polytope<V, T>,
-    rounding: &Rounding,
+    rounding: &PairRounding,
     centre: &Vector,
     directions: &[Vector; 5],
     supports: &mut u32,
@@ -102,7 +102,7 @@ fn bipyramid<L: Lanes, const V: usize, const T: usize>(
 fn tetrahedron<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
     polytope: &mut Polytope<V, T>,
-    rounding: &Rounding,
+    rounding: &PairRounding,
     tip: &Vector,
     supports: &mut u32,
 ) -> Option<Vector> {

@@ -33,20 +33,20 @@ use crate::base::scalar::{Scalar, constant};
 use crate::base::simd::Lanes;
 use crate::body::polyhedron::Polyhedron;
 use crate::placed::frame::{Frame, difference_error};
-pub use expand::{Ending, Expansion, SearchStart, Wanted, expand};
+pub use expand::{Ending, Expansion, SearchStart, WantedDepth, expand};
 pub use planes::evaluate;
-pub use pyramid::{Failure, Pyramid, Rest};
+pub use pyramid::{ProofFailure, Pyramid, Rest};
 pub use raise::raise;
 pub use storage::Polytope;
 pub use support::{HEIGHTS, farthest, heights, rough_support, support};
-pub use witness::{Witness, witness};
+pub use witness::{PolytopeWitness, witness};
 
 /// The rounding errors of the numbers of one pair.
 ///
 /// With M = 1.02(ρ₁ + ρ₂) + |Δ| no difference of vertices is longer than M (‖R‖ ≤ 1.015), nor off by more than e, see
 /// [`Frame::difference_error`].
 #[derive(Debug, Clone, Copy)]
-pub struct Rounding {
+pub struct PairRounding {
     /// An upper bound of e.
     pub difference: f64,
     /// How far m·v, as computed for a computed difference v and a computed unit vector m, is off from m·v/|m| for the exact v: 3u·M
@@ -61,16 +61,16 @@ pub struct Rounding {
     pub provable: f64,
 }
 
-impl Rounding {
+impl PairRounding {
     /// The rounding of a pair.
     #[inline(always)]
-    pub fn of<L: Lanes>(frame: &Frame<L>) -> Rounding {
+    pub fn of<L: Lanes>(frame: &Frame<L>) -> PairRounding {
         let [difference, plane, determinant, provable] = rounding(frame.size, frame.separation);
-        Rounding { difference, plane, determinant, provable }
+        PairRounding { difference, plane, determinant, provable }
     }
 }
 
-/// The numbers of [`Rounding`], in its order.
+/// The numbers of [`PairRounding`], in its order.
 #[inline(always)]
 pub fn rounding<S: Scalar>(size: S, separation: S) -> [S; 4] {
     let longest = constant::<S>(1.02) * size + separation;

@@ -1,7 +1,7 @@
 //! The planes of triangles, four at a time: the pass that takes most of a query's time.
 
 use super::storage::{NO_PLANE, Polytope};
-use super::{Rounding, SHORTEST_NORMAL};
+use super::{PairRounding, SHORTEST_NORMAL};
 use crate::base::math::Vector;
 use crate::base::simd::Lanes;
 
@@ -18,7 +18,7 @@ pub struct Least {
 #[inline(always)]
 pub fn evaluate<L: Lanes, const V: usize, const T: usize>(
     polytope: &mut Polytope<V, T>,
-    rounding: &Rounding,
+    rounding: &PairRounding,
     centre: &Vector,
     from: usize,
     to: usize,
@@ -53,7 +53,7 @@ pub fn evaluate<L: Lanes, const V: usize, const T: usize>(
         let height = height.where_greater(length, shortest, none);
         least_distance = least_distance.min(distance);
         least_height = least_height.min(height);
-        // The determinant is length·(over_p + …), see `Rounding::determinant`; the distance has been lessened by its rounding.
+        // The determinant is length·(over_p + …), see `PairRounding::determinant`; the distance has been lessened by its rounding.
         let edges = ex.mul_add(ex, ey.mul_add(ey, ez.mul(ez))).mul(gx.mul_add(gx, gy.mul_add(gy, gz.mul(gz))));
         let certain = distance.mul(length).greater(determinant_error.mul(edges.sqrt()));
         // Values written beyond the last are overwritten before they are used.

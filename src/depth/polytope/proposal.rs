@@ -35,21 +35,21 @@ struct Draft<const V: usize> {
 
 /// The nearest of the triangles looked at so far, eight times over: place by place.
 #[derive(Clone, Copy)]
-struct Nearest<T> {
+struct NearestProposal<T> {
     distances: T,
     triangles: T,
 }
 
-impl<T: Twins> Nearest<T> {
+impl<T: Twins> NearestProposal<T> {
     #[inline(always)]
     fn none() -> Self {
-        Nearest { distances: all(f32::INFINITY), triangles: all(0.0) }
+        NearestProposal { distances: all(f32::INFINITY), triangles: all(0.0) }
     }
 
     /// With eight triangles more.
     #[inline(always)]
     fn and(self, distances: T, triangles: T) -> Self {
-        Nearest {
+        NearestProposal {
             distances: self.distances.min(distances),
             triangles: triangles.where_greater(self.distances, distances, self.triangles),
         }
@@ -108,8 +108,9 @@ pub fn propose<L: Lanes, const V: usize, const T: usize, const W: usize>(
     let resolution = RESOLUTION * longest * unit;
     let width = if goal.width * unit > resolution { goal.width * unit } else { resolution };
     let (resolution, width, share) = (resolution as f32, width as f32, goal.share as f32);
-    let (mut nearest, mut distance) =
-        draft.evaluate::<L, T>(&mut polytope.corners, 0, polytope.triangle_count, None, Nearest::none()).least();
+    let (mut nearest, mut distance) = draft
+        .evaluate::<L, T>(&mut polytope.corners, 0, polytope.triangle_count, None, NearestProposal::none())
+        .least();
     let (mut best, mut steps, mut supports) = (f32::INFINITY, 0, 0);
     while steps < goal.steps {
         let normal = draft.normal::<L>(nearest);
@@ -179,8 +180,8 @@ impl<const V: usize> Draft<V> {
         from: usize,
         to: usize,
         apex: Option<[L::Twins; 3]>,
-        mut nearest: Nearest<L::Twins>,
-    ) -> Nearest<L::Twins> {
+        mut nearest: NearestProposal<L::Twins>,
+    ) -> NearestProposal<L::Twins> {
         // Eight at a time: the last stands in for missing ones.
         let last = corners[to - 1];
         corners[to..to + 7].fill(last);
@@ -227,7 +228,7 @@ impl<const V: usize> Draft<V> {
         let count = polytope.triangle_count;
         let [x, y, z, _] = self.positions[usize::from(apex) % V].map(all::<L::Twins>);
         let (tolerance, infinite) = (all::<L::Twins>(tolerance), all::<L::Twins>(f32::INFINITY));
-        let (mut nearest, mut seen) = (Nearest::none(), [0_u64; ROOM / 64]);
+        let (mut nearest, mut seen) = (NearestProposal::none(), [0_u64; ROOM / 64]);
         let mut places = L::Twins::load_eight(&[0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0]);
         // Beyond the last there is none that a vertex sees.
         let mut first = 0;
@@ -312,7 +313,7 @@ mod tests {
     use crate::base::simd::Portable;
     use crate::body::build::assembly::build;
     use crate::depth::polytope::planes::{evaluate, nearest};
-    use crate::depth::polytope::{Rounding, first};
+    use crate::depth::polytope::{PairRounding, first};
     use crate::placed::Pair;
     use crate::random::Random;
 
@@ -329,7 +330,7 @@ mod tests {
                 let poses = [Vector::zeros(), random.direction() * (0.5 * unit)]
                     .map(|translation| Pose::new(&random.rotation(), &translation));
                 let frame = Frame::<Portable>::new(&Pair { polyhedra: [&body; 2], poses: [&poses[0], &poses[1]] });
-                let rounding = Rounding::of(&frame);
+                let rounding = PairRounding::of(&frame);
                 let (mut polytope, mut edges) = (Polytope::<64, ROOM>::EMPTY, Edges::<64, 1>::EMPTY);
                 let centre = first::make(&frame, &mut polytope, &rounding, None, &mut 0).unwrap();
                 let goal = Goal { width: 0.0, share: 0.0, steps: u32::MAX };

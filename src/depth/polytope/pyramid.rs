@@ -10,17 +10,17 @@
 //!    of the ring puts two edges in its place, one in a notch an edge in the place of two, and the sides close the ring. Only the
 //!    range of the indices is looked at.
 //! 2. *The base is far enough*: with the normal m of three of its corners, which may be any vector, all of it is at least min m·v
-//!    from the origin, less the error of a [plane](Rounding::plane); that is the lower end.
+//!    from the origin, less the error of a [plane](PairRounding::plane); that is the lower end.
 //! 3. *So are the sides and further triangles*: with a triangle's normal N, however rounded, min N·v ≥ |N|·(min m·v) over its
 //!    corners. Both are positive, so their squares are compared, and no root is taken. The products err by 3u·|N|M and the
 //!    differences by e; squares and |N|² by a few u of themselves, so the height by 3u of itself. The plane's error is 10u·M and e.
 //! 4. *It goes around the origin once*: all determinants are provably positive, so that solid angles sum up to more than 0. A
-//!    determinant is N·v for a corner v, and errs by less than [`Rounding::determinant`] times both edges' lengths.
+//!    determinant is N·v for a corner v, and errs by less than [`PairRounding::determinant`] times both edges' lengths.
 //! 5. *The bodies overlap by no more along m* than both reach along it, see [`reach`]; that is the upper end.
 //! 6. *The ends have met*, up to what is provable. Otherwise the pyramid proves nothing.
 
 use super::support::reach;
-use super::{Rounding, is_in_scale};
+use super::{PairRounding, is_in_scale};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::memory::listed;
 use crate::base::simd::Lanes;
@@ -81,7 +81,7 @@ const NOTCHES: u64 = 0x88_8888_8888;
 
 /// The effect of one further triangle on the ring.
 #[derive(Clone, Copy)]
-enum Move {
+enum RingMove {
     /// A new corner comes behind this place.
     Corner(usize),
     /// The corner at this place goes.
@@ -100,23 +100,23 @@ impl Further {
         usize::from(self.count) - (self.bits() & NOTCHES & are_there).count_ones() as usize
     }
 
-    fn moves(&self) -> impl Iterator<Item = Move> {
+    fn moves(&self) -> impl Iterator<Item = RingMove> {
         let bits = self.bits();
         (0..self.count.min(MOST_FURTHER)).map(move |index| {
             let one = bits >> (4 * index);
             let place = (one & 7) as usize;
-            if one & 8 == 0 { Move::Corner(place) } else { Move::Notch(place) }
+            if one & 8 == 0 { RingMove::Corner(place) } else { RingMove::Notch(place) }
         })
     }
 
     /// Whether there is room.
-    fn push(&mut self, one: Move) -> bool {
+    fn push(&mut self, one: RingMove) -> bool {
         if self.count >= MOST_FURTHER {
             return false;
         }
         let four = match one {
-            Move::Corner(place) => place as u8,
-            Move::Notch(place) => 8 | place as u8,
+            RingMove::Corner(place) => place as u8,
+            RingMove::Notch(place) => 8 | place as u8,
         };
         self.moves[usize::from(self.count / 2)] |= four << (4 * (self.count % 2));
         self.count += 1;
@@ -125,12 +125,12 @@ impl Further {
 }
 
 /// Three corners of a pyramid, by their places among the pairs; the fourth is any.
-type Corners = [u8; 4];
+type CornerPlaces = [u8; 4];
 
 /// The triangles of a pyramid.
 #[derive(Clone, Copy)]
-struct Surface {
-    triangles: [Corners; MOST_TRIANGLES + 2],
+struct PyramidSurface {
+    triangles: [CornerPlaces; MOST_TRIANGLES + 2],
     count: usize,
     /// How many of them, the first, are of the base.
     fan: usize,
@@ -159,7 +159,7 @@ pub struct Rest<L> {
 
 /// Why a pyramid proves nothing.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Failure {
+pub enum ProofFailure {
     /// There is none, or it does not enclose the ball that it should.
     Enclosure,
     /// The bodies reach farther than the base.
@@ -179,7 +179,7 @@ impl Pyramid {
     /// Adds a triangle from the edge that begins at a place of the ring to a corner; whether there is room.
     pub fn add_across(&mut self, place: usize, corner: VertexPair) -> bool {
         let (corners, apex) = (self.corners(), self.apex());
-        if corners >= MOST_CORNERS || !self.further.push(Move::Corner(place)) {
+        if corners >= MOST_CORNERS || !self.further.push(RingMove::Corner(place)) {
             return false;
         }
         self.pairs[corners] = corner;
@@ -190,7 +190,7 @@ impl Pyramid {
     /// Adds a triangle of the corner at a place of the ring and both beside it, so that it is in the ring no more; whether there is
     /// room.
     pub fn fill_notch(&mut self, place: usize) -> bool {
-        self.further.push(Move::Notch(place))
+        self.further.push(RingMove::Notch(place))
     }
 
     pub fn set_apex(&mut self, apex: VertexPair) {
@@ -240,21 +240,21 @@ impl Pyramid {
 
     /// The triangles, counter-clockwise from outside; four at a time can be read.
     #[inline(always)]
-    fn surface(&self) -> Surface {
+    fn surface(&self) -> PyramidSurface {
         if self.further.count == 0 { PLAIN[usize::from(self.base)] } else { self.surface_with_further() }
     }
 
-    fn surface_with_further(&self) -> Surface {
+    fn surface_with_further(&self) -> PyramidSurface {
         let (base, apex) = (usize::from(self.base), self.corners() as u8);
         let fan = base - 2;
-        let mut surface = Surface { triangles: [[0; 4]; MOST_TRIANGLES + 2], count: 0, fan };
+        let mut surface = PyramidSurface { triangles: [[0; 4]; MOST_TRIANGLES + 2], count: 0, fan };
         for corner in 1..=fan as u8 {
             surface.push([0, corner, corner + 1]);
         }
         let (mut order, mut ring, mut corner) = ([0, 1, 2, 3, 4, 5, 6, 7], base, base as u8);
         for one in self.further.moves() {
             match one {
-                Move::Corner(place) => {
+                RingMove::Corner(place) => {
                     let after = place % ring;
                     surface.push([order[after], corner, order[(after + 1) % ring]]);
                     order.copy_within(after + 1..ring, after + 2);
@@ -262,13 +262,13 @@ impl Pyramid {
                     (ring, corner) = (ring + 1, corner + 1);
                 }
                 // A ring of three has none.
-                Move::Notch(place) if ring > 3 => {
+                RingMove::Notch(place) if ring > 3 => {
                     let at = place % ring;
                     surface.push([order[(at + ring - 1) % ring], order[(at + 1) % ring], order[at]]);
                     order.copy_within(at + 1..ring, at);
                     ring -= 1;
                 }
-                Move::Notch(_) => {}
+                RingMove::Notch(_) => {}
             }
         }
         for place in 0..ring {
@@ -290,7 +290,7 @@ impl Pyramid {
             return Vec::new();
         }
         let surface = self.surface();
-        let pairs = |[a, b, c, _]: &Corners| [a, b, c].map(|corner| self.pairs[usize::from(*corner)]);
+        let pairs = |[a, b, c, _]: &CornerPlaces| [a, b, c].map(|corner| self.pairs[usize::from(*corner)]);
         listed(surface.triangles[..surface.count].iter().map(pairs))
     }
 
@@ -328,13 +328,13 @@ impl Pyramid {
 
     /// The depth that it proves.
     #[inline(always)]
-    pub fn prove<L: Lanes>(&self, frame: &Frame<L>, rounding: &Rounding) -> Result<Rest<L>, Failure> {
+    pub fn prove<L: Lanes>(&self, frame: &Frame<L>, rounding: &PairRounding) -> Result<Rest<L>, ProofFailure> {
         // Bodies farther apart do not intersect; out of scale squares of determinants overflow, and ∞ ≤ ∞ proves nothing. Flat ones
         // are for the search.
         let [polyhedron1, polyhedron2] = frame.polyhedra();
         let are_solid = (polyhedron1.dimension == 3) & (polyhedron2.dimension == 3);
         if !(are_solid && is_in_scale(frame.polyhedra()) && self.is_of(frame) && frame.separation <= 2.0 * frame.size) {
-            return Err(Failure::Enclosure);
+            return Err(ProofFailure::Enclosure);
         }
         let [vertices1, vertices2] = [&frame.bodies[0].polyhedron.vertices, &frame.bodies[1].polyhedron.vertices];
         let mut positions = [[0.0; 4]; MOST_CORNERS + 1];
@@ -360,7 +360,7 @@ impl Pyramid {
             &further
         };
         if !(lower > 0.0 && surface.is_beyond::<L>(&positions, height, rounding)) {
-            return Err(Failure::Enclosure);
+            return Err(ProofFailure::Enclosure);
         }
 
         let [body1, body2] = &frame.bodies;
@@ -371,9 +371,10 @@ impl Pyramid {
         // by 5u·M: together less than a plane does, which is 20u of the radii and 14u of the offset.
         let upper = reach1 + reach2 + direction.dot(body1.offset) + rounding.plane;
         if !(upper - lower <= rounding.provable) {
-            return Err(Failure::Reach);
+            return Err(ProofFailure::Reach);
         }
-        self.witness(frame, &positions, surface, &Bounds { lower, upper, height, direction }).ok_or(Failure::Enclosure)
+        self.witness(frame, &positions, surface, &DepthBounds { lower, upper, height, direction })
+            .ok_or(ProofFailure::Enclosure)
     }
 
     /// The point where the direction from the origin leaves the base, as points of both bodies. `None` where it does not, or
@@ -383,10 +384,10 @@ impl Pyramid {
         &self,
         frame: &Frame<L>,
         positions: &[[f64; 4]; MOST_CORNERS + 1],
-        surface: &Surface,
-        bounds: &Bounds<L>,
+        surface: &PyramidSurface,
+        bounds: &DepthBounds<L>,
     ) -> Option<Rest<L>> {
-        let Bounds { lower, upper, height, direction } = *bounds;
+        let DepthBounds { lower, upper, height, direction } = *bounds;
         let foot = direction.mul(L::splat(height));
         let (mut weights, mut triangle) = ([1.0, 0.0, 0.0], 0);
         for index in 0..surface.fan {
@@ -442,7 +443,7 @@ fn combination<L: Lanes>(vertices: &[Vertex], [first, second, third]: [u32; 3], 
 }
 
 /// The bounds on a depth that are proved before its witness points are found.
-struct Bounds<L> {
+struct DepthBounds<L> {
     lower: f64,
     upper: f64,
     /// How high the base is over the origin, as computed.
@@ -451,21 +452,22 @@ struct Bounds<L> {
 }
 
 /// The surfaces of pyramids without further triangles, by the corners of the base.
-static PLAIN: [Surface; MOST_CORNERS + 1] = {
-    let none = Surface { triangles: [[0; 4]; MOST_TRIANGLES + 2], count: 0, fan: 0 };
+static PLAIN: [PyramidSurface; MOST_CORNERS + 1] = {
+    let none = PyramidSurface { triangles: [[0; 4]; MOST_TRIANGLES + 2], count: 0, fan: 0 };
     let mut surfaces = [none; MOST_CORNERS + 1];
     let mut base = 3;
     while base <= MOST_CORNERS {
-        surfaces[base] = Surface::plain(base);
+        surfaces[base] = PyramidSurface::plain(base);
         base += 1;
     }
     surfaces
 };
 
-impl Surface {
-    const fn plain(base: usize) -> Surface {
+impl PyramidSurface {
+    const fn plain(base: usize) -> PyramidSurface {
         let apex = base as u8;
-        let mut surface = Surface { triangles: [[0; 4]; MOST_TRIANGLES + 2], count: 2 * base - 2, fan: base - 2 };
+        let mut surface =
+            PyramidSurface { triangles: [[0; 4]; MOST_TRIANGLES + 2], count: 2 * base - 2, fan: base - 2 };
         let mut corner = 0;
         while corner < base {
             let (own, next) = (corner as u8, ((corner + 1) % base) as u8);
@@ -491,7 +493,12 @@ impl Surface {
     /// Whether all determinants are provably positive, and all triangles but the base's are at least so far from the origin, up
     /// to a plane's error: 3 and 4 above.
     #[inline(always)]
-    fn is_beyond<L: Lanes>(&self, positions: &[[f64; 4]; MOST_CORNERS + 1], height: f64, rounding: &Rounding) -> bool {
+    fn is_beyond<L: Lanes>(
+        &self,
+        positions: &[[f64; 4]; MOST_CORNERS + 1],
+        height: f64,
+        rounding: &PairRounding,
+    ) -> bool {
         let (height, determinant) = (L::splat(height), L::splat(rounding.determinant));
         let (height, determinant) = (height.mul(height), determinant.mul(determinant));
         let (zero, least) = (L::splat(0.0), L::splat(LEAST_SQUARE));

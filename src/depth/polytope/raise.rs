@@ -1,6 +1,6 @@
 //! Raising a pyramid over the facet of least overlap, once a search has found it.
 
-use super::Rounding;
+use super::PairRounding;
 use super::pyramid::{MOST_CORNERS, Pyramid};
 use super::support::{Support, vertex_beyond};
 use crate::base::math::Vector;
@@ -46,20 +46,20 @@ pub fn raise<L: Lanes>(frame: &Frame<L>, direction: &Vector, depth: f64, near: V
     let first = direction.cross(&axis).normalize();
     let raising = Raising {
         frame,
-        rounding: Rounding::of(frame),
+        rounding: PairRounding::of(frame),
         direction: *direction,
         across: [first, direction.cross(&first)],
         depth,
     };
     let [tied1, tied2] = [0, 1].map(|body| raising.tied(body, near[body], TIE));
     let base = raising.base([&tied1?, &tied2?])?;
-    let plain = Cap::of(&raising, &base);
+    let plain = ApexCap::of(&raising, &base);
     let mut at_edge = None;
     raising.over(plain, &mut at_edge).or_else(|| raising.over(raising.widened(plain, near)?, &mut at_edge)).or(at_edge)
 }
 
 /// Vertices of a body that are as far along the direction as any.
-struct Tied {
+struct TiedVertices {
     vertices: [u32; MOST_TIED],
     count: usize,
 }
@@ -90,7 +90,7 @@ impl Base {
 
 struct Raising<'a, L> {
     frame: &'a Frame<'a, L>,
-    rounding: Rounding,
+    rounding: PairRounding,
     direction: Vector,
     /// Two unit vectors across it, counter-clockwise.
     across: [Vector; 2],
@@ -110,11 +110,11 @@ impl<L: Lanes> Raising<'_, L> {
     }
 
     /// The vertices that tie: of few all are looked at, of many those next to each other.
-    fn tied(&self, body: usize, near: u32, tie: f64) -> Option<Tied> {
+    fn tied(&self, body: usize, near: u32, tie: f64) -> Option<TiedVertices> {
         let (polyhedron, towards) = (self.frame.bodies[body].polyhedron, self.own(body, &self.direction));
         let height = |v: u32| polyhedron.vertices[v as usize].position.dot(&towards);
         let tie = tie * self.frame.size;
-        let mut tied = Tied { vertices: [near; MOST_TIED], count: 1 };
+        let mut tied = TiedVertices { vertices: [near; MOST_TIED], count: 1 };
         let count = polyhedron.vertices.len();
         if count <= MOST_TIED {
             let highest = (0..count as u32).map(height).fold(f64::NEG_INFINITY, f64::max);
@@ -144,7 +144,7 @@ impl<L: Lanes> Raising<'_, L> {
 
     /// A base of the facet, which is made of all pairs of vertices that tie. It takes those that reach farthest in eight
     /// directions across, or in every second of them where these reach far enough around the foot.
-    fn base(&self, tied: [&Tied; 2]) -> Option<Base> {
+    fn base(&self, tied: [&TiedVertices; 2]) -> Option<Base> {
         let [of_first, of_second] = [0, 1].map(|body| self.extremes(body, tied[body]));
         let pair = |at: usize| [of_first[at], of_second[at]];
         let all = Base::of((0..EIGHT).map(pair));
@@ -155,7 +155,7 @@ impl<L: Lanes> Raising<'_, L> {
 
     /// A face of three vertices under a vertex, or two edges: a facet so thin that what reaches farthest in eight directions are
     /// not all of its corners.
-    fn thin_base(&self, [tied1, tied2]: [&Tied; 2]) -> Option<Base> {
+    fn thin_base(&self, [tied1, tied2]: [&TiedVertices; 2]) -> Option<Base> {
         let ([a, c, e, ..], [b, d, f, ..]) = (tied1.vertices, tied2.vertices);
         let (pairs, count) = match (tied1.count, tied2.count) {
             (1, 3) => ([[a, b], [a, d], [a, f], [a, f]], 3),
@@ -176,7 +176,7 @@ impl<L: Lanes> Raising<'_, L> {
         if room_odd > room_even { (odd, room_odd) } else { (even, room_even) }
     }
 
-    fn extremes(&self, body: usize, tied: &Tied) -> [u32; EIGHT] {
+    fn extremes(&self, body: usize, tied: &TiedVertices) -> [u32; EIGHT] {
         let polyhedron: &Polyhedron = self.frame.bodies[body].polyhedron;
         let [across, up] = self.across.map(|axis| self.own(body, &axis));
         let (mut farthest, mut extremes) = ([f64::NEG_INFINITY; EIGHT], [0; EIGHT]);
@@ -214,11 +214,11 @@ impl<L: Lanes> Raising<'_, L> {
     /// A cap with triangles around its base, out to the rim of a face that is flat only to the noise of its coordinates: there the
     /// facet of least overlap is small, and one of many that hardly lean. The cap is the upper hull of the base and of corners of
     /// the rim, which are wrapped from edge to edge (Chand & Kapur 1970).
-    fn widened(&self, mut cap: Cap, near: VertexPair) -> Option<Cap> {
+    fn widened(&self, mut cap: ApexCap, near: VertexPair) -> Option<ApexCap> {
         let [nearly1, nearly2] = [0, 1].map(|body| self.tied(body, near[body], NEARLY));
         let [of_first, of_second] = [self.extremes(0, &nearly1?), self.extremes(1, &nearly2?)];
         let (rim, _) = self.wider_half(|at| [of_first[at], of_second[at]]);
-        let rim = Ring::of(self, &rim);
+        let rim = CapRing::of(self, &rim);
         let (mut place, mut done) = (0, 0);
         while done < cap.ring.count {
             let is_wider = match self.pivot(&cap.ring, place, &rim) {
@@ -234,7 +234,7 @@ impl<L: Lanes> Raising<'_, L> {
 
     /// Among corners of the rim and of the ring, the one that an edge of the ring makes the least leaning triangle with, outside
     /// the ring; `None` at the rim itself.
-    fn pivot(&self, ring: &Ring, place: usize, rim: &Ring) -> Option<Pivot> {
+    fn pivot(&self, ring: &CapRing, place: usize, rim: &CapRing) -> Option<Pivot> {
         let [from, to] = ring.edge(place);
         let along = to - from;
         let outwards = along.cross(&self.direction);
@@ -258,11 +258,11 @@ impl<L: Lanes> Raising<'_, L> {
 
     /// The pyramid over a cap: with the apex whose nearest side is the farthest, and with further triangles across edges where a
     /// side is still too near. A result that lasts only at an edge is left in `at_edge`.
-    fn over(&self, mut cap: Cap, at_edge: &mut Option<Pyramid>) -> Option<Pyramid> {
+    fn over(&self, mut cap: ApexCap, at_edge: &mut Option<Pyramid>) -> Option<Pyramid> {
         let mut apices = [[0; 2]; APICES];
         let mut apex_count = 0;
         loop {
-            let mut best = Side { distance: f64::NEG_INFINITY, place: 0, apex: [0; 2] };
+            let mut best = CapSide { distance: f64::NEG_INFINITY, place: 0, apex: [0; 2] };
             for (at, apex) in apices.iter_mut().enumerate() {
                 if at == apex_count {
                     let aside = if at == 0 { Vector::zeros() } else { self.aside(at - 1) * ASIDE };
@@ -296,7 +296,7 @@ impl<L: Lanes> Raising<'_, L> {
     }
 
     /// A corner of the facet across the edge of the ring under a side, as far as a few rounds of wrapping find it.
-    fn beyond(&self, ring: &Ring, side: &Side) -> Option<VertexPair> {
+    fn beyond(&self, ring: &CapRing, side: &CapSide) -> Option<VertexPair> {
         let [from, to] = ring.edge(side.place);
         let along = to - from;
         // First half-way down, then as steep as the side is, which has something beyond it if it is no facet.
@@ -346,15 +346,15 @@ const AROUND: [[f64; 2]; EIGHT] = {
 
 /// A base and its further triangles, in their current state.
 #[derive(Clone, Copy)]
-struct Cap {
+struct ApexCap {
     /// Without an apex.
     pyramid: Pyramid,
-    ring: Ring,
+    ring: CapRing,
 }
 
-impl Cap {
-    fn of<L: Lanes>(raising: &Raising<L>, base: &Base) -> Cap {
-        Cap { pyramid: Pyramid::new(base.pairs(), [0; 2]), ring: Ring::of(raising, base) }
+impl ApexCap {
+    fn of<L: Lanes>(raising: &Raising<L>, base: &Base) -> ApexCap {
+        ApexCap { pyramid: Pyramid::new(base.pairs(), [0; 2]), ring: CapRing::of(raising, base) }
     }
 
     /// Adds a triangle across the edge that begins at a place; whether there is room.
@@ -389,26 +389,26 @@ enum Pivot {
 
 /// The ring in its current state.
 #[derive(Clone, Copy)]
-struct Ring {
+struct CapRing {
     pairs: [VertexPair; MOST_CORNERS],
     positions: [Vector; MOST_CORNERS],
     count: usize,
 }
 
 /// The nearest side under an apex.
-struct Side {
+struct CapSide {
     distance: f64,
     place: usize,
     apex: VertexPair,
 }
 
-impl Ring {
-    fn of<L: Lanes>(raising: &Raising<L>, base: &Base) -> Ring {
+impl CapRing {
+    fn of<L: Lanes>(raising: &Raising<L>, base: &Base) -> CapRing {
         let mut positions = [Vector::zeros(); MOST_CORNERS];
         for (position, pair) in positions.iter_mut().zip(base.pairs()) {
             *position = raising.position(*pair);
         }
-        Ring { pairs: base.corners, positions, count: base.count }
+        CapRing { pairs: base.corners, positions, count: base.count }
     }
 
     fn pairs(&self) -> &[VertexPair] {
@@ -432,8 +432,8 @@ impl Ring {
         self.count -= 1;
     }
 
-    fn nearest_side(&self, apex: Vector, pair: VertexPair) -> Side {
-        let mut nearest = Side { distance: f64::INFINITY, place: 0, apex: pair };
+    fn nearest_side(&self, apex: Vector, pair: VertexPair) -> CapSide {
+        let mut nearest = CapSide { distance: f64::INFINITY, place: 0, apex: pair };
         for place in 0..self.count {
             let [from, to] = self.edge(place);
             let across = (apex - from).cross(&(to - from));
@@ -441,7 +441,7 @@ impl Ring {
             // An apex on the edge has no side.
             let distance = if length > 0.0 { across.dot(&from) / length } else { f64::NEG_INFINITY };
             if !(distance >= nearest.distance) {
-                nearest = Side { distance, place, apex: pair };
+                nearest = CapSide { distance, place, apex: pair };
             }
         }
         nearest

@@ -2,7 +2,7 @@
 //!
 //! Whatever vector m proves |m·v|/|m| as the distance of a triangle, so that a plane may be replaced by any other.
 
-use super::Rounding;
+use super::PairRounding;
 use super::storage::{NO_PLANE, Polytope};
 use crate::base::double_double::{WideVector, narrow, wide_cross, wide_difference};
 use crate::base::math::{Vector, divisor};
@@ -18,7 +18,7 @@ const GILBERT_STEPS: u32 = 12;
 pub fn straighten<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
     polytope: &mut Polytope<V, T>,
-    rounding: &Rounding,
+    rounding: &PairRounding,
     triangle: usize,
 ) -> bool {
     let pairs = polytope.pairs_of(triangle);
@@ -46,7 +46,7 @@ fn rotate([x, y, z]: &[Vector; 3], p: &WideVector) -> WideVector {
 /// bound, towards its nearest point, towards those of its sides. Whether that is more than before.
 pub fn sharpen<const V: usize, const T: usize>(
     polytope: &mut Polytope<V, T>,
-    rounding: &Rounding,
+    rounding: &PairRounding,
     triangle: usize,
     direction: Option<&Vector>,
 ) -> bool {
@@ -91,7 +91,7 @@ fn nearest_between(from: &Vector, to: &Vector) -> Option<Vector> {
 
 fn give_plane<const V: usize, const T: usize>(
     polytope: &mut Polytope<V, T>,
-    rounding: &Rounding,
+    rounding: &PairRounding,
     triangle: usize,
     normal: &Vector,
 ) -> bool {
@@ -108,7 +108,7 @@ fn set_normal<const V: usize, const T: usize>(polytope: &mut Polytope<V, T>, tri
 }
 
 /// The unit normal and the distance that it proves for three corners.
-fn plane(rounding: &Rounding, corners: &[Vector; 3], normal: &Vector) -> Option<(Vector, f64)> {
+fn plane(rounding: &PairRounding, corners: &[Vector; 3], normal: &Vector) -> Option<(Vector, f64)> {
     let largest = normal.amax();
     // False for a NaN; so scaled no square underflows that counts.
     if !(f64::MIN_POSITIVE..f64::INFINITY).contains(&largest) {

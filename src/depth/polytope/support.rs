@@ -1,6 +1,6 @@
 //! Support vertices of the Minkowski difference, and the upper bound that they prove.
 
-use super::Rounding;
+use super::PairRounding;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::{Lanes, Work};
 use crate::body::polyhedron::fan::PointBlock;
@@ -32,7 +32,7 @@ pub struct Support {
 #[inline(always)]
 pub fn support<L: Lanes>(
     frame: &Frame<L>,
-    rounding: &Rounding,
+    rounding: &PairRounding,
     direction: &Vector,
     start: Option<VertexPair>,
     enough: f64,
@@ -88,7 +88,7 @@ fn rough_farthest<L: Lanes>(polyhedron: &Polyhedron, towards: L, start: Option<u
 /// A pair of vertices that is the farthest along a direction but for ties: out of line, for where there are closures (R2).
 pub fn vertex_beyond<L: Lanes>(
     frame: &Frame<L>,
-    rounding: &Rounding,
+    rounding: &PairRounding,
     direction: &Vector,
     start: Option<VertexPair>,
 ) -> Support {
@@ -97,7 +97,7 @@ pub fn vertex_beyond<L: Lanes>(
 
 struct Beyond<'a, L> {
     frame: &'a Frame<'a, L>,
-    rounding: &'a Rounding,
+    rounding: &'a PairRounding,
     direction: &'a Vector,
     start: Option<VertexPair>,
 }

@@ -1,7 +1,7 @@
 //! The point of a polytope where it is least deep, as points of both bodies.
 
 use super::storage::Polytope;
-use super::{Expansion, Rounding};
+use super::{Expansion, PairRounding};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector, clamp, divisor};
 use crate::base::simd::Lanes;
 use crate::placed::exact::VertexPair;
@@ -9,7 +9,7 @@ use crate::placed::frame::Frame;
 
 /// A convex combination of vertex pairs.
 #[derive(Debug, Clone, Copy)]
-pub struct Witness {
+pub struct PolytopeWitness {
     /// The vertex pairs.
     pub pairs: [VertexPair; 3],
     /// How many of them.
@@ -26,8 +26,8 @@ pub fn witness<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
     polytope: &Polytope<V, T>,
     found: &Expansion,
-) -> (Witness, usize) {
-    let rounding = Rounding::of(frame);
+) -> (PolytopeWitness, usize) {
+    let rounding = PairRounding::of(frame);
     let direction = &found.direction;
     let mut best = (f64::NEG_INFINITY, 0);
     for triangle in 0..polytope.triangle_count {
@@ -78,7 +78,7 @@ fn on_triangle<const V: usize, const T: usize>(
     triangle: usize,
     ray: &Vector,
     enough: f64,
-) -> (Witness, f64) {
+) -> (PolytopeWitness, f64) {
     let corners = polytope.positions_of(triangle);
     let seen @ [p, q, r] = corners.map(|corner| corner - ray * corner.dot(ray));
     let areas = [ray.dot(&q.cross(&r)), ray.dot(&r.cross(&p)), ray.dot(&p.cross(&q))];
@@ -103,7 +103,7 @@ fn on_triangle<const V: usize, const T: usize>(
     let sum: f64 = weights.iter().sum();
     let weights @ [a, b, c] = weights.map(|weight| weight / sum);
     let depth = weighted(&corners, &weights).dot(ray);
-    let witness = Witness { pairs: polytope.pairs_of(triangle), count: 3, weights: [a, b, c, 0.0], depth };
+    let witness = PolytopeWitness { pairs: polytope.pairs_of(triangle), count: 3, weights: [a, b, c, 0.0], depth };
     (witness, weighted(&seen, &weights).norm())
 }
 

@@ -16,7 +16,7 @@ mod skewed;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::base::scalar::{Scalar, constant};
 use crate::base::simd::{Lanes, Portable};
-use crate::body::polyhedron::{Bevel, Edge, Face, NONE, Polyhedron};
+use crate::body::polyhedron::{Bevel, Edge, MergedFace, NONE, Polyhedron};
 use crate::placed::frame::{Frame, RIGID_DEFECT};
 use crate::placed::state::{FeatureId, State};
 use crate::placed::voronoi::{Rule, STRICT, edge_direction, plane_values};
@@ -209,7 +209,7 @@ pub fn of_edge_in_cone(polyhedron: &Polyhedron, edge: &Edge, misfit: f64) -> f64
 
 /// A quick δ/|U| of a point in a face, projected from `height` over it, for g = RᵀU equal to the face's unit normal up to `misfit`.
 #[inline(always)]
-pub fn of_facing_face(polyhedron: &Polyhedron, face: &Face, height: f64, misfit: f64) -> f64 {
+pub fn of_facing_face(polyhedron: &Polyhedron, face: &MergedFace, height: f64, misfit: f64) -> f64 {
     face.slack + face_rounding(polyhedron.radius, height) + 2.0 * polyhedron.radius * misfit
 }
 
@@ -426,7 +426,7 @@ fn of_face(polyhedron: &Polyhedron, face: u32, g: &Vector, point: &Vector, heigh
 /// a side leans out of the face's plane by 60°, which q feels over at most ρ + |q|; offsets to 3u·ρ, values at q to 4u·|q|. The
 /// lever counts: at the tip of a needle whose sides are 1u apart the computed planes may diverge.
 #[inline(always)]
-pub fn is_inside_sides<L: Lanes>(polyhedron: &Polyhedron, face: &Face, point: L) -> bool {
+pub fn is_inside_sides<L: Lanes>(polyhedron: &Polyhedron, face: &MergedFace, point: L) -> bool {
     let magnitude = point.norm1();
     let margin = L::splat(64.0 * U * if magnitude > polyhedron.radius { magnitude } else { polyhedron.radius });
     let mut inside = plane_values(&face.planes, point).greater(margin) & 0b1110 == 0b1110;

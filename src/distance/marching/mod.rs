@@ -17,7 +17,7 @@ use crate::base::simd::Lanes;
 use crate::body::polyhedron::Polyhedron;
 use crate::distance::certificate::Certify;
 use crate::placed::frame::Frame;
-use crate::placed::state::{Kind, State};
+use crate::placed::state::{State, StateKind};
 pub use states::{
     between_feet, correction, error_along, from_foot, misfit_across_edge, misfit_between_edges, projected,
 };
@@ -40,12 +40,12 @@ pub enum March {
 pub fn visit<L: Lanes, C: Certify<L>>(frame: &Frame<L>, state: State, certifier: &mut C) -> Step {
     let State { first, second, .. } = state;
     match state.kind {
-        Kind::VertexVertex => vertex_vertex(frame, [first, second], certifier),
-        Kind::VertexEdge => vertex_edge::<L, C, 0>(frame, first, second, certifier),
-        Kind::EdgeVertex => vertex_edge::<L, C, 1>(frame, second, first, certifier),
-        Kind::VertexFace => vertex_face::<L, C, 0>(frame, first, second, certifier),
-        Kind::FaceVertex => vertex_face::<L, C, 1>(frame, second, first, certifier),
-        Kind::EdgeEdge => edge_edge(frame, [first, second], certifier),
+        StateKind::VertexVertex => vertex_vertex(frame, [first, second], certifier),
+        StateKind::VertexEdge => vertex_edge::<L, C, 0>(frame, first, second, certifier),
+        StateKind::EdgeVertex => vertex_edge::<L, C, 1>(frame, second, first, certifier),
+        StateKind::VertexFace => vertex_face::<L, C, 0>(frame, first, second, certifier),
+        StateKind::FaceVertex => vertex_face::<L, C, 1>(frame, second, first, certifier),
+        StateKind::EdgeEdge => edge_edge(frame, [first, second], certifier),
     }
 }
 

@@ -5,7 +5,7 @@
 //! of those that marching goes on with, from which it comes back to them; the cycle detection catches any remaining cycle.
 
 use crate::base::simd::Lanes;
-use crate::body::polyhedron::{Face, NONE, Polyhedron, clear_slope};
+use crate::body::polyhedron::{MergedFace, NONE, Polyhedron, clear_slope};
 use crate::distance::certificate::Certify;
 use crate::placed::frame::Frame;
 use crate::placed::state::{State, ordered};
@@ -76,7 +76,7 @@ pub(super) fn past_the_end<L: Lanes, C: Certify<L>, const NEAR: usize>(
 pub(super) fn over_another_feature<L: Lanes, C: Certify<L>, const NEAR: usize>(
     frame: &Frame<L>,
     corner: Corner,
-    face: &Face,
+    face: &MergedFace,
     side: u32,
     [point, values]: [L; 2],
 ) -> Option<State> {

@@ -7,7 +7,7 @@ use crate::base::error::Result;
 use crate::base::memory::in_integers;
 use crate::base::simd::{self, Kernel, Lanes, Portable};
 use crate::body::tables::tuning::TURNED_AWAY;
-use crate::depth::polytope::{Pyramid, Rounding};
+use crate::depth::polytope::{PairRounding, Pyramid};
 use crate::depth::{Pyramids, deepest};
 use crate::distance::decide::{self, Decision, Pairs};
 use crate::distance::enclosure::encloses_origin;
@@ -245,7 +245,7 @@ impl Kernel for LastPyramid<'_, '_> {
         if !frame.in_range {
             return Attempt::Untried;
         }
-        let rounding = Rounding::of(&frame);
+        let rounding = PairRounding::of(&frame);
         let Ok(rest) = pyramid.prove(&frame, &rounding) else { return Attempt::Untried };
         let [a, b, c] = rest.pairs;
         let pairs = [a, b, c, pyramid.apex()];

@@ -7,7 +7,7 @@ use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::SMALLEST;
 use crate::distance::certificate::reciprocal_length;
-use crate::distance::separating_axis::{self, AxisSearch, Trial};
+use crate::distance::separating_axis::{self, AxisSearch, AxisTrial};
 use crate::placed::frame::are_acceptable;
 use crate::shape::Placed;
 
@@ -23,7 +23,7 @@ impl PairQuery<'_> {
         let radii = body1.radius + body2.radius + enough;
         (self.square_between_origins() > radii * radii)
             && self.is_simple()
-            && simd::dispatch(&mut Spheres { pair: self, enough })
+            && simd::dispatch(&mut SphereGlance { pair: self, enough })
     }
 
     /// Whether balls inside the bodies overlap, for a verdict; the cache stays as it is.
@@ -87,17 +87,17 @@ impl PairQuery<'_> {
     pub(super) fn last_axis_separates(&mut self, query: Query) -> bool {
         query == Query::Intersection
             && self.cache.axis(self.polyhedra()).is_some()
-            && simd::dispatch(&mut Separation { pair: self })
+            && simd::dispatch(&mut SeparationGlance { pair: self })
     }
 }
 
 /// Bounding spheres that seem farther apart than is enough.
-struct Spheres<'a, 'b> {
+struct SphereGlance<'a, 'b> {
     pair: &'a mut PairQuery<'b>,
     enough: f64,
 }
 
-impl Kernel for Spheres<'_, '_> {
+impl Kernel for SphereGlance<'_, '_> {
     type Output = bool;
 
     #[inline(always)]
@@ -136,11 +136,11 @@ impl Kernel for InnerBalls<'_, '_> {
 }
 
 /// The common case of the verdict alone: the axis of the last query separates, or nearly.
-struct Separation<'a, 'b> {
+struct SeparationGlance<'a, 'b> {
     pair: &'a mut PairQuery<'b>,
 }
 
-impl Kernel for Separation<'_, '_> {
+impl Kernel for SeparationGlance<'_, '_> {
     type Output = bool;
 
     #[inline(always)]
@@ -151,7 +151,7 @@ impl Kernel for Separation<'_, '_> {
         if !frame.in_range {
             return false;
         }
-        let trial = Trial::of_axis(&frame, &axis);
+        let trial = AxisTrial::of_axis(&frame, &axis);
         if trial.separates() && pair.is_settled_by(&trial.interval) {
             pair.cache.move_axis(trial.vertices);
             fill_trial(&trial, pair);
@@ -172,7 +172,7 @@ impl Kernel for Separation<'_, '_> {
 
 /// The answer of an axis that separates.
 #[inline(always)]
-pub(super) fn fill_trial<L: Lanes>(trial: &Trial<L>, pair: &mut PairQuery) {
+pub(super) fn fill_trial<L: Lanes>(trial: &AxisTrial<L>, pair: &mut PairQuery) {
     pair.answer.decided_by = DecidedBy::Coherence;
     pair.answer.statistics = Statistics { marching_steps: trial.steps, ..Statistics::default() };
     pair.set_interval(&trial.interval, trial.distance);

@@ -4,7 +4,7 @@ use super::query::PairQuery;
 use super::support_glance;
 use crate::answer::{Accuracy, Levels, Query};
 use crate::base::error::Result;
-use crate::pair::levels::{Descent, LevelBounds, LevelState, Leveled, TRIAL_STEPS};
+use crate::pair::levels::{LevelBounds, LevelDescent, LevelState, Leveled, TRIAL_STEPS};
 use crate::placed::Pair;
 use crate::shape::Shape;
 use crate::shape::levels::hierarchy::HierarchyKind;
@@ -231,9 +231,9 @@ impl<'a> PairQuery<'a> {
     }
 
     /// A search among levels, from where one begins.
-    pub(super) fn descent(&self, bodies: Leveled<'a>, from: LevelState, is_trial: bool) -> Descent<'a> {
+    pub(super) fn descent(&self, bodies: Leveled<'a>, from: LevelState, is_trial: bool) -> LevelDescent<'a> {
         let config = self.config;
-        Descent {
+        LevelDescent {
             bodies,
             accuracy: self.accuracy_of_levels(),
             refinement: config.refinement,

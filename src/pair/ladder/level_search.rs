@@ -10,7 +10,7 @@ use crate::body::polyhedron::Polyhedron;
 use crate::distance::certificate::Interval;
 use crate::distance::gjk::{self, Nearest, Simplex};
 use crate::distance::marching::step_limit;
-use crate::pair::levels::{Descended, Descent, LevelBounds, LevelState, Leveled};
+use crate::pair::levels::{Descended, LevelBounds, LevelDescent, LevelState, Leveled};
 use crate::pair::start::policy::StartFrom;
 use crate::pair::start::start_pair;
 use crate::placed::Pair;
@@ -19,7 +19,7 @@ use crate::placed::state::State;
 use crate::placed::voronoi::climb;
 
 /// The result of a search among levels.
-pub(super) enum Searched<'a> {
+pub(super) enum LevelSearched<'a> {
     /// The answer is there.
     Answered,
     /// There are no levels that may answer.
@@ -41,14 +41,14 @@ pub(super) struct LevelSearch<'a> {
 impl<'a> PairQuery<'a> {
     /// The query through the levels of detail, from the cache or afresh.
     #[inline(never)]
-    pub(super) fn search_levels(&mut self) -> Result<Searched<'a>> {
+    pub(super) fn search_levels(&mut self) -> Result<LevelSearched<'a>> {
         let has_levels = self.levels_may_answer()?;
         if !(has_levels || self.has_budget(self.query)) {
-            return Ok(Searched::Bodies);
+            return Ok(LevelSearched::Bodies);
         }
         self.forget()?;
         if self.is_still_enclosed()? {
-            return Ok(Searched::Answered);
+            return Ok(LevelSearched::Answered);
         }
         let search = LevelSearch { bodies: Leveled::new(*self.bodies), has_levels, before: self.cache.spent_before() };
         Ok(search.run(self))
@@ -66,13 +66,13 @@ impl<'a> PairQuery<'a> {
 }
 
 impl<'a> LevelSearch<'a> {
-    fn run(self, pair: &mut PairQuery<'a>) -> Searched<'a> {
+    fn run(self, pair: &mut PairQuery<'a>) -> LevelSearched<'a> {
         let bodies = self.bodies;
         let (from, is_trial) = self.start(pair);
         // Marching in pieces, a budget at a time, does not see that it goes round in circles: penetration, mostly.
         if self.before > step_limit(pair.polyhedra()) {
             let at = bodies.descended(from, [0, 0]).state;
-            return Searched::Marched(self, Attempt::Open(Open { at, is_minimum: false, steps: 0 }));
+            return LevelSearched::Marched(self, Attempt::Open(Open { at, is_minimum: false, steps: 0 }));
         }
         let mut descent = pair.descent(bodies, from, is_trial);
         let mut descended = simd::dispatch(&mut descent);
@@ -83,7 +83,7 @@ impl<'a> LevelSearch<'a> {
             descent.is_trial = false;
             descended = simd::dispatch(&mut descent);
         }
-        let Descent { at, is_trial, steps, step_limit, found, .. } = descent;
+        let LevelDescent { at, is_trial, steps, step_limit, found, .. } = descent;
         match (descended, found) {
             (Descended::Enough, Some(found)) => {
                 pair.fill_found(&found, DecidedBy::Tolerance, steps);
@@ -91,7 +91,7 @@ impl<'a> LevelSearch<'a> {
                 if steps > 1 {
                     pair.remember_marker();
                 }
-                Searched::Answered
+                LevelSearched::Answered
             }
             (Descended::Finest, _) => self.march(pair, at.state, steps, Leg::of(step_limit - steps, is_trial)),
             _ => self.spend(pair, found, at, steps),
@@ -131,7 +131,7 @@ impl<'a> LevelSearch<'a> {
     }
 
     /// Marching at the bodies themselves, from a state of theirs, of an earlier query or not; `steps` are made already.
-    fn march(self, pair: &mut PairQuery<'a>, state: State, steps: u32, leg: Leg) -> Searched<'a> {
+    fn march(self, pair: &mut PairQuery<'a>, state: State, steps: u32, leg: Leg) -> LevelSearched<'a> {
         let at_bodies = |state| LevelState { levels: [0, 0], state };
         if leg == Leg::Budget(0) {
             return self.spend(pair, None, at_bodies(state), steps);
@@ -142,7 +142,7 @@ impl<'a> LevelSearch<'a> {
         {
             return self.spend(pair, None, at_bodies(at), made);
         }
-        Searched::Marched(self, attempt)
+        LevelSearched::Marched(self, attempt)
     }
 
     /// The cache for the next query, after the bodies themselves have answered.
@@ -167,7 +167,7 @@ impl<'a> LevelSearch<'a> {
 
     /// The answer when the steps are spent: the bounds of the levels, or of a look along the line of two vertices.
     #[cold]
-    fn spend(&self, pair: &mut PairQuery, found: Option<LevelBounds>, at: LevelState, steps: u32) -> Searched<'a> {
+    fn spend(&self, pair: &mut PairQuery, found: Option<LevelBounds>, at: LevelState, steps: u32) -> LevelSearched<'a> {
         let bodies = pair.pair();
         let finest = self.bodies.descended(at, [0, 0]);
         let vertices = finest.state.vertices(bodies.polyhedra);
@@ -192,7 +192,7 @@ impl<'a> LevelSearch<'a> {
             contact::fill_nothing(pair.answer);
         }
         pair.cache.remember_level_state(at, self.before.saturating_add(steps));
-        Searched::Answered
+        LevelSearched::Answered
     }
 }
 

@@ -10,7 +10,7 @@ use crate::base::simd::{self, Kernel, Lanes};
 use crate::depth::polytope::rough_support;
 use crate::distance::certificate::reciprocal_length;
 use crate::distance::enclosure::{FACES, sides_of_faces};
-use crate::distance::separating_axis::Trial;
+use crate::distance::separating_axis::AxisTrial;
 use crate::placed::exact::VertexPair;
 use crate::placed::frame::Frame;
 
@@ -71,7 +71,7 @@ impl Kernel for Meeting<'_, '_> {
                 true
             }
             End::Apart(direction, vertices) => {
-                let trial = Trial::along(&frame, direction.negate(), vertices);
+                let trial = AxisTrial::along(&frame, direction.negate(), vertices);
                 let is_answer = trial.separates() && pair.is_settled_by(&trial.interval);
                 if is_answer {
                     let unit = trial.direction.mul(L::splat(trial.inverse));

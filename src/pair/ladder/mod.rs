@@ -23,7 +23,7 @@ use crate::pair::start::{Guess, start_pair};
 use crate::shape::Placed;
 use decision::Hint;
 pub(crate) use level_choice::least_error;
-use level_search::Searched;
+use level_search::LevelSearched;
 pub(super) use query::Glances;
 use query::{Attempt, PairQuery};
 
@@ -119,9 +119,9 @@ fn answer_by_levels(pair: &mut PairQuery, glances: Glances) -> Result<()> {
         return Ok(());
     }
     match pair.search_levels()? {
-        Searched::Answered => Ok(()),
-        Searched::Bodies => answer_by_bodies(pair.query, pair, glances),
-        Searched::Marched(search, attempt) => {
+        LevelSearched::Answered => Ok(()),
+        LevelSearched::Bodies => answer_by_bodies(pair.query, pair, glances),
+        LevelSearched::Marched(search, attempt) => {
             answer_on(pair, attempt)?;
             search.remember(pair);
             Ok(())

@@ -43,7 +43,7 @@ pub enum Descended {
 }
 
 /// A search from levels and features on. It is lent to the kernel and keeps what it finds.
-pub struct Descent<'a> {
+pub struct LevelDescent<'a> {
     /// The bodies that are searched.
     pub bodies: Leveled<'a>,
     /// The accuracy that is asked for.
@@ -68,7 +68,7 @@ pub struct Descent<'a> {
 /// jumped without being noticed.
 pub const TRIAL_STEPS: u32 = 16;
 
-impl Kernel for Descent<'_> {
+impl Kernel for LevelDescent<'_> {
     type Output = Descended;
 
     #[inline(always)]

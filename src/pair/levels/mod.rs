@@ -4,5 +4,5 @@
 mod leveled;
 mod descent;
 
-pub use descent::{Descended, Descent, LevelBounds, TRIAL_STEPS, try_first};
+pub use descent::{Descended, LevelBounds, LevelDescent, TRIAL_STEPS, try_first};
 pub use leveled::{LevelState, Leveled};

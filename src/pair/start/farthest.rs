@@ -19,9 +19,9 @@ pub(super) fn farthest(pair: &Pair) -> StartPair {
     let vertices = match polyhedra.map(|polyhedron| polyhedron.lookup.plan) {
         [Plan::AllVertices { .. }, Plan::AllVertices { .. }] => {
             let tables = [table(polyhedra[0]), table(polyhedra[1])];
-            simd::dispatch(&mut Supports { polyhedra, tables, directions: &towards })
+            simd::dispatch(&mut FarthestSupports { polyhedra, tables, directions: &towards })
         }
-        _ => [0, 1].map(|i| simd::dispatch(&mut Climb { polyhedron: polyhedra[i], direction: towards[i] })),
+        _ => [0, 1].map(|i| simd::dispatch(&mut FarthestClimb { polyhedron: polyhedra[i], direction: towards[i] })),
     };
     let support = |i: usize| polyhedra[i].vertices[vertices[i] as usize].position.dot(&towards[i]);
     let are_apart = support(0) + support(1) < between.norm_squared();
@@ -29,12 +29,12 @@ pub(super) fn farthest(pair: &Pair) -> StartPair {
 }
 
 /// A hill climb for a support vertex.
-struct Climb<'a> {
+struct FarthestClimb<'a> {
     polyhedron: &'a Polyhedron,
     direction: Vector,
 }
 
-impl Kernel for Climb<'_> {
+impl Kernel for FarthestClimb<'_> {
     type Output = u32;
 
     #[inline(always)]
@@ -44,13 +44,13 @@ impl Kernel for Climb<'_> {
 }
 
 /// A look at all vertices of two small bodies: faster than a climb on one and then on the other.
-struct Supports<'a> {
+struct FarthestSupports<'a> {
     polyhedra: [&'a Polyhedron; 2],
     tables: [&'a Table; 2],
     directions: &'a [Vector; 2],
 }
 
-impl Kernel for Supports<'_> {
+impl Kernel for FarthestSupports<'_> {
     type Output = [u32; 2];
 
     #[inline(always)]
@@ -59,7 +59,7 @@ impl Kernel for Supports<'_> {
     }
 }
 
-impl Supports<'_> {
+impl FarthestSupports<'_> {
     #[inline(always)]
     fn support<L: Lanes>(&self, body: usize) -> u32 {
         let direction = L::from_vector(&self.directions[body]);

@@ -1,7 +1,7 @@
 //! The results of integers, in doubles where they fit.
 
 use super::dyadic::{bounds_of_quotient_by_root, decode, dot, fraction_to_double, leading_bits, magnitude};
-use super::simplex::{Simplex, VertexPair};
+use super::simplex::{ExactSimplex, VertexPair};
 use crate::base::math::Vector;
 use crate::base::memory::listed;
 use dashu_int::IBig;
@@ -34,7 +34,7 @@ pub struct ExactAnswer {
 
 impl ExactAnswer {
     /// The answer of a simplex that holds the nearest point.
-    pub(super) fn new(simplex: &Simplex, iterations: u32) -> ExactAnswer {
+    pub(super) fn new(simplex: &ExactSimplex, iterations: u32) -> ExactAnswer {
         let total: IBig = simplex.weights.iter().sum();
         let intersecting = simplex.holds_origin();
         let (lower, upper, direction) = if intersecting {
@@ -68,7 +68,7 @@ pub struct ExactDistance {
 
 impl ExactDistance {
     /// The distance of the nearest point P, which a simplex holds.
-    pub(super) fn of_nearest(simplex: Simplex) -> ExactDistance {
+    pub(super) fn of_nearest(simplex: ExactSimplex) -> ExactDistance {
         let square = dot(&simplex.direction, &simplex.direction);
         ExactDistance { exponent: simplex.exponent(), square, height: simplex.height }
     }

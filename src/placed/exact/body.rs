@@ -15,7 +15,7 @@ const SMALLEST_FOR_DOUBLES: f64 = f64::from_bits((1023 - 800) << 52);
 const LARGEST_FOR_DOUBLES: f64 = f64::from_bits((1023 + 800) << 52);
 
 /// The objects' exact description: world vertex = R·(centre + position) + T.
-pub(crate) struct Body<'a> {
+pub(crate) struct ExactBody<'a> {
     polyhedron: &'a Polyhedron,
     centre: DyadicVector,
     /// The rows of R, over `rotation_exponent`.
@@ -30,12 +30,12 @@ pub(crate) struct LocalDirection {
     rounded: Vector,
 }
 
-impl<'a> Body<'a> {
-    pub fn new(polyhedron: &'a Polyhedron, pose: &Pose) -> Body<'a> {
+impl<'a> ExactBody<'a> {
+    pub fn new(polyhedron: &'a Polyhedron, pose: &Pose) -> ExactBody<'a> {
         let mut rows = pose.rows.map(|row| DyadicVector::from_doubles([row[0], row[1], row[2]]));
         let exponent = rows.iter().map(|row| row.exponent).min().unwrap_or(0);
         rows.iter_mut().for_each(|row| row.refine(exponent));
-        Body {
+        ExactBody {
             polyhedron,
             centre: DyadicVector::from_doubles(polyhedron.centre.into()),
             rotation: rows.map(|row| row.components),

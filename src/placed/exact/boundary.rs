@@ -9,7 +9,7 @@
 use super::answer::ExactAnswer;
 use super::dyadic::{IntVector, bounds_of_quotient_by_root, cross, dot, leading_bits};
 use super::minkowski::MinkowskiDifference;
-use super::simplex::{DifferenceVertex, Simplex, VertexPair};
+use super::simplex::{DifferenceVertex, ExactSimplex, VertexPair};
 use crate::base::math::Vector;
 use crate::base::memory::listed;
 use crate::placed::Pair;
@@ -33,7 +33,7 @@ pub enum Position {
 
 /// Which vertices a support is searched among.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Supports {
+pub enum SupportScope {
     /// From neighbour to neighbour.
     Climbed,
     /// All, regardless of their neighbours.
@@ -41,10 +41,10 @@ pub enum Supports {
 }
 
 /// The relative position of two bodies, exactly, for any finite poses. `start` is the same as for [`super::solve`].
-pub fn locate(pair: &Pair, start: &[VertexPair], supports: Supports) -> Position {
+pub fn locate(pair: &Pair, start: &[VertexPair], supports: SupportScope) -> Position {
     let difference = MinkowskiDifference::new(pair);
     let (mut simplex, mut iterations) = difference.descend(start);
-    if supports == Supports::OfAll {
+    if supports == SupportScope::OfAll {
         while !simplex.holds_origin() && simplex.improve(&difference.support_of_all(&simplex)) {}
     }
     if !simplex.holds_origin() {
@@ -67,7 +67,7 @@ pub fn overlap_along_axes(pair: &Pair) -> (f64, Vector) {
         for sign in [IBig::ONE, IBig::NEG_ONE] {
             let mut along = [IBig::ZERO; 3];
             along[axis] = sign;
-            let farthest = difference.farthest([0, 0], &along, Supports::OfAll);
+            let farthest = difference.farthest([0, 0], &along, SupportScope::OfAll);
             let height = dot(&along, &farthest.position.components);
             if height < IBig::ZERO {
                 continue;
@@ -86,12 +86,12 @@ pub fn overlap_along_axes(pair: &Pair) -> (f64, Vector) {
 
 impl MinkowskiDifference<'_> {
     /// A vertex pair farthest along a direction.
-    pub(super) fn farthest(&self, from: VertexPair, along: &IntVector, supports: Supports) -> DifferenceVertex {
+    pub(super) fn farthest(&self, from: VertexPair, along: &IntVector, supports: SupportScope) -> DifferenceVertex {
         let against = [0, 1, 2].map(|k| -&along[k]);
         let (towards_a, towards_b) = (self.a.local_direction(along), self.b.local_direction(&against));
         self.corner(match supports {
-            Supports::Climbed => [self.a.support(from[0], &towards_a), self.b.support(from[1], &towards_b)],
-            Supports::OfAll => [self.a.support_of_all(&towards_a), self.b.support_of_all(&towards_b)],
+            SupportScope::Climbed => [self.a.support(from[0], &towards_a), self.b.support(from[1], &towards_b)],
+            SupportScope::OfAll => [self.a.support_of_all(&towards_a), self.b.support_of_all(&towards_b)],
         })
     }
 }
@@ -100,13 +100,13 @@ impl MinkowskiDifference<'_> {
 /// is inside the Minkowski difference.
 fn supporting_normal(
     difference: &MinkowskiDifference,
-    carrier: &Simplex,
-    supports: Supports,
+    carrier: &ExactSimplex,
+    supports: SupportScope,
     iterations: &mut u32,
 ) -> Option<IntVector> {
     let mut from = carrier.corners[0].pair;
     // All but one of a carrier's corners are linearly independent, and span the last.
-    let spanning = |simplex: &Simplex| -> Vec<IntVector> {
+    let spanning = |simplex: &ExactSimplex| -> Vec<IntVector> {
         listed(simplex.corners[1..].iter().map(|corner| corner.position.components.clone()))
     };
     let mut space = spanning(carrier);
@@ -134,7 +134,7 @@ fn supporting_normal(
         if space.len() == 2 {
             return None;
         }
-        let mut simplex = Simplex::new(projected(found?, &space));
+        let mut simplex = ExactSimplex::new(projected(found?, &space));
         while !simplex.holds_origin() {
             *iterations += 1;
             from = simplex.corners[0].pair;

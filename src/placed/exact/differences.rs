@@ -3,7 +3,7 @@
 use std::cmp::Ordering;
 
 use super::answer::ExactDistance;
-use super::boundary::Supports;
+use super::boundary::SupportScope;
 use super::dyadic::{DyadicVector, IntVector, cross, dot};
 use super::minkowski::MinkowskiDifference;
 use super::simplex::{VertexPair, nearest_of_hull};
@@ -70,7 +70,7 @@ impl<'a> Differences<'a> {
     }
 
     fn farthest(&self, normal: &Normal) -> VertexPair {
-        self.0.farthest([0, 0], &normal.components, Supports::OfAll).pair
+        self.0.farthest([0, 0], &normal.components, SupportScope::OfAll).pair
     }
 
     /// How far a difference is along a direction; `None` if it is behind the origin.

@@ -11,7 +11,7 @@ pub(crate) type IntVector = [IBig; 3];
 
 /// A floating-point format, and how to round to it.
 #[derive(Clone, Copy)]
-struct Format {
+struct FloatFormat {
     /// Bits of a significand, the leading one of normal numbers included.
     precision: i64,
     /// The exponent of the least positive number.
@@ -23,7 +23,7 @@ struct Format {
 }
 
 /// A constant to the functions that take a format: only tests give another, so narrow that all its numbers can be tried.
-const DOUBLE: Format = Format { precision: 53, least: -1074, end: 1024, spare: 13 };
+const DOUBLE: FloatFormat = FloatFormat { precision: 53, least: -1074, end: 1024, spare: 13 };
 
 pub(crate) fn dot(a: &IntVector, b: &IntVector) -> IBig {
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
@@ -104,14 +104,14 @@ pub(crate) fn fraction_to_double(numerator: &IBig, denominator: &IBig) -> f64 {
     f64::from_bits(fraction(DOUBLE, numerator, denominator))
 }
 
-fn fraction(format: Format, numerator: &IBig, denominator: &IBig) -> u64 {
+fn fraction(format: FloatFormat, numerator: &IBig, denominator: &IBig) -> u64 {
     let (numerator, denominator) = (magnitude(numerator), magnitude(denominator));
     if numerator.is_zero() {
         return 0;
     }
     let bits = (format.precision + format.spare) as usize;
     let shift = bits + denominator.bit_len() - numerator.bit_len().min(denominator.bit_len());
-    round(format, (numerator << shift) / denominator, -(shift as i64), Rounding::Down)
+    round(format, (numerator << shift) / denominator, -(shift as i64), RoundingMode::Down)
 }
 
 /// The doubles next to numerator / √square · 2^exponent, below and above; both the same when it is one. All positive.
@@ -120,7 +120,7 @@ pub(crate) fn bounds_of_quotient_by_root(numerator: &IBig, square: &IBig, expone
     (f64::from_bits(lower), f64::from_bits(upper))
 }
 
-fn quotient_by_root(format: Format, numerator: &IBig, square: &IBig, exponent: i32) -> (u64, u64) {
+fn quotient_by_root(format: FloatFormat, numerator: &IBig, square: &IBig, exponent: i32) -> (u64, u64) {
     let (numerator, square) = (magnitude(numerator), magnitude(square));
     let bits = (format.precision + format.spare) as usize;
     // ⌊√⌊x⌋⌋ = ⌊√x⌋ for every real x ≥ 0, so the two roundings are one.
@@ -131,7 +131,7 @@ fn quotient_by_root(format: Format, numerator: &IBig, square: &IBig, exponent: i
     let (root, rest) = quotient.sqrt_rem();
     let exponent = i64::from(exponent) - shift as i64;
     let above = if divides && rest.is_zero() { root.clone() } else { &root + UBig::ONE };
-    (round(format, root, exponent, Rounding::Down), round(format, above, exponent, Rounding::Up))
+    (round(format, root, exponent, RoundingMode::Down), round(format, above, exponent, RoundingMode::Up))
 }
 
 pub(super) fn magnitude(x: &IBig) -> UBig {
@@ -139,21 +139,21 @@ pub(super) fn magnitude(x: &IBig) -> UBig {
 }
 
 #[derive(Clone, Copy, PartialEq)]
-enum Rounding {
+enum RoundingMode {
     Down,
     Up,
 }
 
 /// The bits of the number next to mantissa·2^exponent (positive) in the given direction: down to the largest or 0, up to +∞ at
 /// the ends of the range.
-fn round(format: Format, mantissa: UBig, exponent: i64, rounding: Rounding) -> u64 {
+fn round(format: FloatFormat, mantissa: UBig, exponent: i64, rounding: RoundingMode) -> u64 {
     debug_assert!(!mantissa.is_zero());
-    let Format { precision, least, end, .. } = format;
+    let FloatFormat { precision, least, end, .. } = format;
     // The value lies in [2^(top−1), 2^top).
     let top = mantissa.bit_len() as i64 + exponent;
     let infinity = in_units(format, 1 << precision, end - precision);
     if top > end {
-        return if rounding == Rounding::Down { infinity - 1 } else { infinity };
+        return if rounding == RoundingMode::Down { infinity - 1 } else { infinity };
     }
     // The unit in the last place of numbers of this size, subnormal ones included.
     let unit = (top - precision).max(least);
@@ -162,7 +162,7 @@ fn round(format: Format, mantissa: UBig, exponent: i64, rounding: Rounding) -> u
     } else {
         let shift = (unit - exponent) as usize;
         let kept = &mantissa >> shift;
-        let up = rounding == Rounding::Up && (&kept << shift) != mantissa;
+        let up = rounding == RoundingMode::Up && (&kept << shift) != mantissa;
         if up { kept + UBig::ONE } else { kept }
     };
     u64::try_from(integer).map_or(infinity, |i| in_units(format, i, unit))
@@ -170,7 +170,7 @@ fn round(format: Format, mantissa: UBig, exponent: i64, rounding: Rounding) -> u
 
 /// The bits of integer·2^unit, for at most 2^precision units, each the last place of the result; 2^end is +∞. Put together from
 /// bits: a product with a subnormal unit would be 0 where these are flushed.
-fn in_units(Format { precision, least, .. }: Format, integer: u64, unit: i64) -> u64 {
+fn in_units(FloatFormat { precision, least, .. }: FloatFormat, integer: u64, unit: i64) -> u64 {
     debug_assert!(integer <= 1 << precision && unit >= least && (unit == least || integer >= 1 << (precision - 1)));
     // A fraction of one bit less than the precision, the biased exponent above it. In normal numbers the leading bit is the
     // exponent's: it adds 1 to one less. That of 2^precision carries into the next exponent, from the largest one to that of +∞.
@@ -231,8 +231,8 @@ mod tests {
 
     /// So narrow that all numbers are listed, by their definition: the multiples of 2^least below 2^end whose bits, without zeros
     /// at their end, are as many as the precision at most. Bits count them from 0 on, and +∞ is the next.
-    fn narrow(precision: i64, spare: i64) -> (Format, Vec<u128>) {
-        let format = Format { precision, least: -12, end: 4, spare };
+    fn narrow(precision: i64, spare: i64) -> (FloatFormat, Vec<u128>) {
+        let format = FloatFormat { precision, least: -12, end: 4, spare };
         let is_number = |k: &u128| *k == 0 || k >> k.trailing_zeros() < 1 << precision;
         (format, (0..1 << (format.end - format.least)).filter(is_number).collect())
     }
@@ -257,7 +257,7 @@ mod tests {
                 let value = mantissa << (exponent - finest);
                 let expected = next_to(&numbers, |number| (number << (format.least - finest)).cmp(&value));
                 let [below, above] =
-                    [Rounding::Down, Rounding::Up].map(|r| round(format, mantissa.into(), exponent, r));
+                    [RoundingMode::Down, RoundingMode::Up].map(|r| round(format, mantissa.into(), exponent, r));
                 assert_eq!((below, above), expected, "{mantissa}·2^{exponent} to {precision} bits");
             }
         }
@@ -310,7 +310,7 @@ mod tests {
         for mantissa in &mantissas {
             for top in tops.iter().cloned().flatten() {
                 let exponent = top - mantissa.bit_len() as i64;
-                let [below, above] = [Rounding::Down, Rounding::Up]
+                let [below, above] = [RoundingMode::Down, RoundingMode::Up]
                     .map(|rounding| f64::from_bits(round(DOUBLE, mantissa.clone(), exponent, rounding)));
                 let orders =
                     [below, below.next_up(), above, above.next_down()].map(|double| order(double, mantissa, exponent));

@@ -1,7 +1,7 @@
 //! How high a placed polyhedron is over a plane, in integers.
 
 use super::answer::ExactDistance;
-use super::body::Body;
+use super::body::ExactBody;
 use super::dyadic::{DyadicVector, decode, dot};
 use crate::base::math::Pose;
 use crate::body::polyhedron::Polyhedron;
@@ -9,7 +9,7 @@ use dashu_int::IBig;
 
 /// A body over the plane of the points x with `normal`·x = `offset`.
 pub struct OverPlane<'a> {
-    body: Body<'a>,
+    body: ExactBody<'a>,
     normal: DyadicVector,
     offset: f64,
 }
@@ -25,7 +25,7 @@ pub struct Height {
 impl<'a> OverPlane<'a> {
     /// `normal` is finite and not 0, `offset` is finite.
     pub fn new(polyhedron: &'a Polyhedron, pose: &Pose, normal: [f64; 3], offset: f64) -> OverPlane<'a> {
-        OverPlane { body: Body::new(polyhedron, pose), normal: DyadicVector::from_doubles(normal), offset }
+        OverPlane { body: ExactBody::new(polyhedron, pose), normal: DyadicVector::from_doubles(normal), offset }
     }
 
     /// The lowest vertex. The climb to it begins at `start`, which may be any number.

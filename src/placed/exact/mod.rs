@@ -22,8 +22,8 @@ mod point_depth;
 
 use crate::placed::Pair;
 pub use answer::{ExactAnswer, ExactDistance};
-pub(crate) use beside_line::{BesideLine, Place};
-pub use boundary::{Position, Supports, locate, overlap_along_axes};
+pub(crate) use beside_line::{BesideLine, LinePlace};
+pub use boundary::{Position, SupportScope, locate, overlap_along_axes};
 pub use differences::{Differences, Normal, PairEdge};
 pub use half_space::{Height, OverPlane};
 use minkowski::MinkowskiDifference;

@@ -1,7 +1,7 @@
 //! How deep a point is in a body: as far as the nearest of the planes of the hull's triangles, in integers.
 
 use super::answer::ExactDistance;
-use super::body::Body;
+use super::body::ExactBody;
 use super::dyadic::{cross, dot, leading_bits};
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF, Vector};
 use crate::body::polyhedron::Polyhedron;
@@ -20,8 +20,8 @@ pub struct WayOut {
 /// The shortest way out of a body with interior for a body that is one point in it.
 pub fn way_out(polyhedron: &Polyhedron, pose: &Pose, point: &Polyhedron, place: &Pose) -> Option<WayOut> {
     debug_assert!(polyhedron.dimension == 3 && point.dimension == 0);
-    let body = Body::new(polyhedron, pose);
-    let at = Body::new(point, place).world_vertex(0);
+    let body = ExactBody::new(polyhedron, pose);
+    let at = ExactBody::new(point, place).world_vertex(0);
     let near = NearFaces::new(polyhedron, pose, &place.transform(&point.local_position(0)));
     let mut best: Option<(u32, ExactDistance, Vector)> = None;
     for (triangle, &face) in polyhedron.triangles.iter().zip(&polyhedron.face_of_triangle) {

@@ -18,7 +18,7 @@ pub(crate) struct DifferenceVertex {
 /// One to four affinely independent corners with P, the point of their hull nearest to the origin, strictly inside: all
 /// weights are positive. (Corners that do not carry P are dropped as soon as that is known.)
 #[derive(Debug)]
-pub(crate) struct Simplex {
+pub(crate) struct ExactSimplex {
     /// All over the same power of two, the latest first.
     pub corners: Vec<DifferenceVertex>,
     /// P = Σ weightₖ·cornerₖ / Σ weightₖ, all positive.
@@ -30,17 +30,17 @@ pub(crate) struct Simplex {
     pub height: IBig,
 }
 
-impl Simplex {
+impl ExactSimplex {
     /// The simplex of a single corner.
-    pub fn new(corner: DifferenceVertex) -> Simplex {
+    pub fn new(corner: DifferenceVertex) -> ExactSimplex {
         let direction = corner.position.components.clone();
         let height = dot(&direction, &direction);
-        Simplex { corners: listed([corner]), weights: listed([IBig::ONE]), direction, height }
+        ExactSimplex { corners: listed([corner]), weights: listed([IBig::ONE]), direction, height }
     }
 
     /// The same simplex again, its lists asked for like all lists here.
-    pub fn copied(&self) -> Simplex {
-        Simplex {
+    pub fn copied(&self) -> ExactSimplex {
+        ExactSimplex {
             corners: listed(self.corners.iter().cloned()),
             weights: listed(self.weights.iter().cloned()),
             direction: self.direction.clone(),
@@ -126,9 +126,9 @@ impl Simplex {
         (0..self.corners.len()).filter(move |i| used >> i & 1 == 0).map(|i| self.position(i))
     }
 
-    fn supporting_vertex(&self, n: usize) -> Option<Face> {
+    fn supporting_vertex(&self, n: usize) -> Option<SimplexFace> {
         let direction = self.position(n).clone();
-        self.supporting(Face {
+        self.supporting(SimplexFace {
             members: listed([n]),
             weights: listed([IBig::ONE]),
             height: dot(&direction, &direction),
@@ -136,7 +136,7 @@ impl Simplex {
         })
     }
 
-    fn supporting_edge(&self, n: usize, a: usize) -> Option<Face> {
+    fn supporting_edge(&self, n: usize, a: usize) -> Option<SimplexFace> {
         let (pn, pa) = (self.position(n), self.position(a));
         let mixed = dot(pn, pa);
         let (weight_n, weight_a) = (dot(pa, pa) - &mixed, dot(pn, pn) - &mixed);
@@ -145,10 +145,15 @@ impl Simplex {
         }
         let direction = [0, 1, 2].map(|k| &weight_n * &pn[k] + &weight_a * &pa[k]);
         let height = dot(&direction, pn);
-        self.supporting(Face { members: listed([n, a]), weights: listed([weight_n, weight_a]), direction, height })
+        self.supporting(SimplexFace {
+            members: listed([n, a]),
+            weights: listed([weight_n, weight_a]),
+            direction,
+            height,
+        })
     }
 
-    fn supporting_triangle(&self, n: usize, a: usize, b: usize) -> Option<Face> {
+    fn supporting_triangle(&self, n: usize, a: usize, b: usize) -> Option<SimplexFace> {
         let (pn, pa, pb) = (self.position(n), self.position(a), self.position(b));
         let sides = [cross(pa, pb), cross(pb, pn), cross(pn, pa)];
         let normal = [0, 1, 2].map(|k| &sides[0][k] + &sides[1][k] + &sides[2][k]);
@@ -158,29 +163,29 @@ impl Simplex {
         }
         let height = dot(&normal, pn);
         let (direction, height) = if height < IBig::ZERO { (normal.map(|c| -c), -height) } else { (normal, height) };
-        self.supporting(Face { members: listed([n, a, b]), weights, direction, height })
+        self.supporting(SimplexFace { members: listed([n, a, b]), weights, direction, height })
     }
 
     /// `face` if no corner lies below it. With P_S = 0 (height 0) there is no below.
-    fn supporting(&self, face: Face) -> Option<Face> {
+    fn supporting(&self, face: SimplexFace) -> Option<SimplexFace> {
         let supports =
             face.height.is_zero() || self.others(&face.members).all(|q| dot(&face.direction, q) >= face.height);
         supports.then_some(face)
     }
 
     /// All four corners, the origin strictly inside: each weight is the volume of the origin with the three others.
-    fn whole(&self) -> Face {
+    fn whole(&self) -> SimplexFace {
         let volume = |i: usize, j: usize, k: usize| {
             let v = dot(self.position(i), &cross(self.position(j), self.position(k)));
             if v < IBig::ZERO { -v } else { v }
         };
         let weights = listed([volume(1, 2, 3), volume(0, 2, 3), volume(0, 1, 3), volume(0, 1, 2)]);
-        Face { members: listed([0, 1, 2, 3]), weights, direction: [IBig::ZERO; 3], height: IBig::ZERO }
+        SimplexFace { members: listed([0, 1, 2, 3]), weights, direction: [IBig::ZERO; 3], height: IBig::ZERO }
     }
 }
 
 /// A subset of the corners with the nearest point of its affine hull.
-struct Face {
+struct SimplexFace {
     members: Vec<usize>,
     weights: Vec<IBig>,
     direction: IntVector,
@@ -189,8 +194,8 @@ struct Face {
 
 /// The nearest point of the hull of a few corners: the same descent, with the corners themselves as the support. They may
 /// coincide or be coplanar; a corner that brings nothing is never added.
-pub(super) fn nearest_of_hull(first: DifferenceVertex, corners: &[DifferenceVertex]) -> Simplex {
-    let mut simplex = Simplex::new(first);
+pub(super) fn nearest_of_hull(first: DifferenceVertex, corners: &[DifferenceVertex]) -> ExactSimplex {
+    let mut simplex = ExactSimplex::new(first);
     while corners.iter().any(|corner| simplex.improve(corner)) {}
     simplex
 }

@@ -59,7 +59,7 @@ impl Grid {
         // False for a NaN.
         let is_inside = |bounds: &Aabb| side(bounds) <= most && side(bounds) < f64::INFINITY;
         self.large.clear();
-        let mut extent = Extent { lower: [f64::INFINITY; 3], upper: [f64::NEG_INFINITY; 3], cell: 0.0 };
+        let mut extent = CornerExtent { lower: [f64::INFINITY; 3], upper: [f64::NEG_INFINITY; 3], cell: 0.0 };
         for &proxy in proxies {
             let bounds = &boxes[proxy as usize];
             if is_inside(bounds) {
@@ -181,13 +181,13 @@ fn side(bounds: &Aabb) -> f64 {
 }
 
 /// The extent of the lower corners, and the longest side.
-struct Extent {
+struct CornerExtent {
     lower: [f64; 3],
     upper: [f64; 3],
     cell: f64,
 }
 
-impl Extent {
+impl CornerExtent {
     fn add(&mut self, bounds: &Aabb) {
         for k in 0..3 {
             self.lower[k] = self.lower[k].min(bounds.lower[k].into());

@@ -28,7 +28,7 @@ pub(crate) struct NearPair {
 
 /// The finding of the last pass of one kind over the list for a pair.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Mark {
+pub(crate) struct PairMark {
     /// The index of its own result in that pass's results, or [`UNLISTED`].
     pub result: u32,
     /// The pass looked at it and left nothing open.
@@ -51,9 +51,9 @@ impl NearPair {
     }
 }
 
-impl Mark {
+impl PairMark {
     /// The mark of a pair that no pass has looked at.
-    pub const NONE: Mark = Mark { result: UNLISTED, is_answered: false, intersects: false, level: 0 };
+    pub const NONE: PairMark = PairMark { result: UNLISTED, is_answered: false, intersects: false, level: 0 };
 
     /// Its result, found among those of a part of the pairs, stands this many places later among all.
     pub fn shift_result(&mut self, places: u32) {
@@ -81,7 +81,7 @@ fn count_before(pairs: &[NearPair], firsts: &[u32], proxies: [u32; 2]) -> usize 
 pub(crate) struct NearPairs {
     pub pairs: Vec<NearPair>,
     /// For each kind of pass, a mark for each pair, in their order; kinds that were not made have none.
-    pub marks: [Vec<Mark>; KINDS_OF_PASSES],
+    pub marks: [Vec<PairMark>; KINDS_OF_PASSES],
     /// The caches of the pairs' queries, in no order: pairs move when others come and go, caches do not. Several threads may
     /// change theirs at once: [`locked`].
     pub caches: Vec<Mutex<PairCache>>,
@@ -171,7 +171,7 @@ impl NearPairs {
         let (mut old, mut new) = (self.pairs.len(), arrivals.len());
         self.pairs.extend_from_slice(arrivals);
         let count = self.pairs.len();
-        self.marks_made().for_each(|marks| marks.resize(count, Mark::NONE));
+        self.marks_made().for_each(|marks| marks.resize(count, PairMark::NONE));
         while let Some(arrival) = new.checked_sub(1).map(|last| self.arrivals[last]) {
             let before = count_before(&self.pairs[..old], firsts, arrival.proxies);
             if before < old {
@@ -179,13 +179,13 @@ impl NearPairs {
             }
             (old, new) = (before, new - 1);
             self.pairs[old + new] = arrival;
-            self.marks_made().for_each(|marks| marks[old + new] = Mark::NONE);
+            self.marks_made().for_each(|marks| marks[old + new] = PairMark::NONE);
         }
         Ok(())
     }
 
     /// The marks of the kinds of passes that were made.
-    fn marks_made(&mut self) -> impl Iterator<Item = &mut Vec<Mark>> {
+    fn marks_made(&mut self) -> impl Iterator<Item = &mut Vec<PairMark>> {
         self.marks.iter_mut().filter(|marks| !marks.is_empty())
     }
 
@@ -203,7 +203,7 @@ impl NearPairs {
         debug_assert!(self.marks[kind].is_empty() || self.marks[kind].len() == self.pairs.len());
         let missing = self.pairs.len() - self.marks[kind].len();
         reserve(&mut self.marks[kind], missing)?;
-        self.marks[kind].resize(self.pairs.len(), Mark::NONE);
+        self.marks[kind].resize(self.pairs.len(), PairMark::NONE);
         Ok(())
     }
 

@@ -12,7 +12,7 @@ use crate::scene::world::boxes::Aabb;
 pub(crate) struct Scratch {
     branches: Vec<Branch>,
     pairs: Vec<[Branch; 2]>,
-    ranges: Vec<(Range<usize>, Side)>,
+    ranges: Vec<(Range<usize>, ChildSlot)>,
     /// The proxies over which a tree should be built.
     pub proxies: Vec<u32>,
 }
@@ -68,7 +68,7 @@ impl Branch {
 }
 
 /// The position of a node or leaf in the tree: the parent, and which of its children it is.
-type Side = (u32, usize);
+type ChildSlot = (u32, usize);
 
 /// A binary tree over the boxes of proxies. Each call gets these boxes, and what changes the tree the leaves' parents: `parents`,
 /// by proxy.
@@ -158,12 +158,12 @@ impl Tree {
     }
 
     /// Which child of its parent a branch is.
-    fn place(&self, parent: u32, child: Branch) -> Side {
+    fn place(&self, parent: u32, child: Branch) -> ChildSlot {
         (parent, self.nodes.get(parent as usize).map_or(0, |node| usize::from(node.children[1] == child)))
     }
 
     /// Makes a branch the child at a place, which for [`TOP`] is the root.
-    fn hang(&mut self, (parent, side): Side, child: Branch, parents: &mut [u32]) {
+    fn hang(&mut self, (parent, side): ChildSlot, child: Branch, parents: &mut [u32]) {
         match self.nodes.get_mut(parent as usize) {
             Some(node) => node.children[side] = child,
             None => self.root = Some(child),

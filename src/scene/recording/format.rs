@@ -8,7 +8,7 @@ use crate::base::enumerator::{Enumerator, enumerator};
 use crate::base::error::Result;
 use crate::base::math::Pose;
 use crate::pair::Query;
-use crate::scene::change::{Change, Numbers};
+use crate::scene::change::{Change, RecordedNames};
 use crate::scene::recording::digest::Digest;
 use crate::scene::search::query::{PlacedBody, SceneQuery, Subject};
 use crate::scene::world::object::ObjectOptions;
@@ -24,7 +24,7 @@ pub(crate) const VERSION: u32 = 3;
 /// Numbers of kinds of records, never used again.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(i32)]
-pub(crate) enum Kind {
+pub(crate) enum RecordKind {
     End = 0,
     Scene = 1,
     Shape = 2,
@@ -53,7 +53,7 @@ pub(crate) enum Kind {
     PieceUserData = 30,
 }
 
-enumerator!(Kind {
+enumerator!(RecordKind {
     End,
     Scene,
     Shape,
@@ -84,7 +84,7 @@ enumerator!(Kind {
 
 /// A filter's word on a pair of objects.
 #[derive(Debug, Clone, Copy, PartialEq)]
-pub(crate) struct Decision {
+pub(crate) struct RecordedDecision {
     pub pair: [u32; 2],
     pub is_tested: bool,
 }
@@ -100,14 +100,14 @@ pub(crate) enum Record<'a> {
     },
     /// The next number's.
     Shape(Arc<Shape>),
-    Change(Change<'a, Numbers>),
+    Change(Change<'a, RecordedNames>),
     Question {
         subject: Subject<'static, u32, u32>,
         kind: Query,
         query: SceneQuery,
     },
     /// Those of the question before.
-    Decisions(Cow<'a, [Decision]>),
+    Decisions(Cow<'a, [RecordedDecision]>),
     /// To the question before.
     Answer(Digest),
     /// The question before was refused.
@@ -115,16 +115,16 @@ pub(crate) enum Record<'a> {
 }
 
 impl Record<'_> {
-    pub fn kind(&self) -> Kind {
+    pub fn kind(&self) -> RecordKind {
         match self {
-            Record::End => Kind::End,
-            Record::Scene { .. } => Kind::Scene,
-            Record::Shape(_) => Kind::Shape,
+            Record::End => RecordKind::End,
+            Record::Scene { .. } => RecordKind::Scene,
+            Record::Shape(_) => RecordKind::Shape,
             Record::Change(change) => kind_of(change),
-            Record::Question { .. } => Kind::Question,
-            Record::Decisions(_) => Kind::Decisions,
-            Record::Answer(_) => Kind::Answer,
-            Record::Failed => Kind::Failed,
+            Record::Question { .. } => RecordKind::Question,
+            Record::Decisions(_) => RecordKind::Decisions,
+            Record::Answer(_) => RecordKind::Answer,
+            Record::Failed => RecordKind::Failed,
         }
     }
 
@@ -159,18 +159,20 @@ impl Record<'_> {
     /// # Errors
     /// [`Error::File`](crate::base::error::Error::File) for what is no recording,
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn read(kind: Kind, from: &mut Reader) -> Result<Record<'static>> {
+    pub fn read(kind: RecordKind, from: &mut Reader) -> Result<Record<'static>> {
         let record = match kind {
-            Kind::End => Record::End,
-            Kind::Scene => Record::Scene { is_whole: from.flag()? },
-            Kind::Shape => Record::Shape(Arc::new(from_bytes(from.take(from.rest.len())?)?)),
-            Kind::Question => Record::Question { subject: from.subject()?, kind: from.choice()?, query: from.query()? },
-            Kind::Decisions => {
-                let decision = |from: &mut Reader| Ok(Decision { pair: from.pair()?, is_tested: from.flag()? });
+            RecordKind::End => Record::End,
+            RecordKind::Scene => Record::Scene { is_whole: from.flag()? },
+            RecordKind::Shape => Record::Shape(Arc::new(from_bytes(from.take(from.rest.len())?)?)),
+            RecordKind::Question => {
+                Record::Question { subject: from.subject()?, kind: from.choice()?, query: from.query()? }
+            }
+            RecordKind::Decisions => {
+                let decision = |from: &mut Reader| Ok(RecordedDecision { pair: from.pair()?, is_tested: from.flag()? });
                 Record::Decisions(from.list(9, decision)?.into())
             }
-            Kind::Answer => Record::Answer(Digest::read(from)?),
-            Kind::Failed => Record::Failed,
+            RecordKind::Answer => Record::Answer(Digest::read(from)?),
+            RecordKind::Failed => Record::Failed,
             of_change => Record::Change(read_change(of_change, from)?),
         };
         if from.rest.is_empty() { Ok(record) } else { from.damaged("there is more behind its end") }
@@ -179,31 +181,31 @@ impl Record<'_> {
 
 // --- Changes -----------------------------------------------------------------------------------------------------------------
 
-fn kind_of(change: &Change<Numbers>) -> Kind {
+fn kind_of(change: &Change<RecordedNames>) -> RecordKind {
     match change {
-        Change::Object { .. } => Kind::Object,
-        Change::Copy(..) => Kind::Copy,
-        Change::Remove(..) => Kind::Remove,
-        Change::Fixed(..) => Kind::Fixed,
-        Change::Groups { .. } => Kind::Groups,
-        Change::UserData(..) => Kind::UserData,
-        Change::PieceUserData { .. } => Kind::PieceUserData,
-        Change::Pose(..) => Kind::Pose,
-        Change::Poses(..) => Kind::Poses,
-        Change::AllPoses(..) => Kind::AllPoses,
-        Change::PiecePose { .. } => Kind::PiecePose,
-        Change::PairActive(..) => Kind::PairActive,
-        Change::ObjectActive(..) => Kind::ObjectActive,
-        Change::AllActive(..) => Kind::AllActive,
-        Change::Filter(..) => Kind::Filter,
-        Change::FilterAgain => Kind::FilterAgain,
-        Change::Pairs(..) => Kind::Pairs,
-        Change::KeptPairLimit(..) => Kind::KeptPairLimit,
-        Change::Shrink => Kind::Shrink,
+        Change::Object { .. } => RecordKind::Object,
+        Change::Copy(..) => RecordKind::Copy,
+        Change::Remove(..) => RecordKind::Remove,
+        Change::Fixed(..) => RecordKind::Fixed,
+        Change::Groups { .. } => RecordKind::Groups,
+        Change::UserData(..) => RecordKind::UserData,
+        Change::PieceUserData { .. } => RecordKind::PieceUserData,
+        Change::Pose(..) => RecordKind::Pose,
+        Change::Poses(..) => RecordKind::Poses,
+        Change::AllPoses(..) => RecordKind::AllPoses,
+        Change::PiecePose { .. } => RecordKind::PiecePose,
+        Change::PairActive(..) => RecordKind::PairActive,
+        Change::ObjectActive(..) => RecordKind::ObjectActive,
+        Change::AllActive(..) => RecordKind::AllActive,
+        Change::Filter(..) => RecordKind::Filter,
+        Change::FilterAgain => RecordKind::FilterAgain,
+        Change::Pairs(..) => RecordKind::Pairs,
+        Change::KeptPairLimit(..) => RecordKind::KeptPairLimit,
+        Change::Shrink => RecordKind::Shrink,
     }
 }
 
-fn write_change(change: &Change<Numbers>, to: &mut Writer) -> Result<()> {
+fn write_change(change: &Change<RecordedNames>, to: &mut Writer) -> Result<()> {
     match change {
         Change::Object { pieces, options } => {
             let ObjectOptions { pose, fixed, user_data, groups, mask } = options;
@@ -263,9 +265,9 @@ fn write_change(change: &Change<Numbers>, to: &mut Writer) -> Result<()> {
 }
 
 /// The change of a kind of record; other kinds mean no change.
-fn read_change(kind: Kind, from: &mut Reader) -> Result<Change<'static, Numbers>> {
+fn read_change(kind: RecordKind, from: &mut Reader) -> Result<Change<'static, RecordedNames>> {
     Ok(match kind {
-        Kind::Object => Change::Object {
+        RecordKind::Object => Change::Object {
             pieces: from.numbers()?.into(),
             options: ObjectOptions {
                 pose: from.pose()?,
@@ -275,31 +277,33 @@ fn read_change(kind: Kind, from: &mut Reader) -> Result<Change<'static, Numbers>
                 mask: from.number()?,
             },
         },
-        Kind::Copy => Change::Copy(from.number()?),
-        Kind::Remove => Change::Remove(from.number()?),
-        Kind::Fixed => Change::Fixed(from.number()?, from.flag()?),
-        Kind::Groups => Change::Groups { object: from.number()?, groups: from.number()?, mask: from.number()? },
-        Kind::UserData => Change::UserData(from.number()?, u64::from_le_bytes(from.raw()?)),
-        Kind::PieceUserData => Change::PieceUserData {
+        RecordKind::Copy => Change::Copy(from.number()?),
+        RecordKind::Remove => Change::Remove(from.number()?),
+        RecordKind::Fixed => Change::Fixed(from.number()?, from.flag()?),
+        RecordKind::Groups => Change::Groups { object: from.number()?, groups: from.number()?, mask: from.number()? },
+        RecordKind::UserData => Change::UserData(from.number()?, u64::from_le_bytes(from.raw()?)),
+        RecordKind::PieceUserData => Change::PieceUserData {
             object: from.number()?,
             piece: from.number()?,
             user_data: u64::from_le_bytes(from.raw()?),
         },
-        Kind::Pose => Change::Pose(from.number()?, Cow::Owned(from.pose()?)),
-        Kind::Poses => Change::Poses(from.numbers()?.into(), from.poses()?.into()),
-        Kind::AllPoses => Change::AllPoses(from.poses()?.into()),
-        Kind::PiecePose => Change::PiecePose { object: from.number()?, piece: from.number()?, pose: from.pose()? },
-        Kind::PairActive => Change::PairActive(from.pair()?, from.flag()?),
-        Kind::ObjectActive => Change::ObjectActive(from.number()?, from.flag()?),
-        Kind::AllActive => Change::AllActive(from.flag()?),
-        Kind::Filter => Change::Filter(from.flag()?.then_some(())),
-        Kind::FilterAgain => Change::FilterAgain,
-        Kind::Pairs => {
+        RecordKind::Pose => Change::Pose(from.number()?, Cow::Owned(from.pose()?)),
+        RecordKind::Poses => Change::Poses(from.numbers()?.into(), from.poses()?.into()),
+        RecordKind::AllPoses => Change::AllPoses(from.poses()?.into()),
+        RecordKind::PiecePose => {
+            Change::PiecePose { object: from.number()?, piece: from.number()?, pose: from.pose()? }
+        }
+        RecordKind::PairActive => Change::PairActive(from.pair()?, from.flag()?),
+        RecordKind::ObjectActive => Change::ObjectActive(from.number()?, from.flag()?),
+        RecordKind::AllActive => Change::AllActive(from.flag()?),
+        RecordKind::Filter => Change::Filter(from.flag()?.then_some(())),
+        RecordKind::FilterAgain => Change::FilterAgain,
+        RecordKind::Pairs => {
             let (is_some, pairs) = (from.flag()?, from.list(8, Reader::pair)?);
             Change::Pairs(is_some.then_some(pairs.into()))
         }
-        Kind::KeptPairLimit => Change::KeptPairLimit(u64::from_le_bytes(from.raw()?)),
-        Kind::Shrink => Change::Shrink,
+        RecordKind::KeptPairLimit => Change::KeptPairLimit(u64::from_le_bytes(from.raw()?)),
+        RecordKind::Shrink => Change::Shrink,
         _ => return from.damaged("it is no change"),
     })
 }

@@ -28,7 +28,7 @@ use std::sync::Arc;
 use crate::base::error::{Error, Result};
 use crate::base::memory::{collected, push};
 use crate::pair::Query;
-use crate::scene::change::{Change, Numbers, Rename, Themselves};
+use crate::scene::change::{Change, RecordedNames, Rename, Themselves};
 use crate::scene::search::query::{PlacedBody, SceneAnswer, SceneQuery, Subject};
 use crate::scene::world::activation::Word;
 use crate::scene::world::content::{DEFAULT_KEPT_PAIRS, World};
@@ -36,7 +36,7 @@ use crate::scene::world::object::{ObjectId, ObjectTable};
 use crate::scene::world::testing::{Decided, PairFilter};
 use crate::shape::Shape;
 use digest::Digest;
-use format::{Decision, Record};
+use format::{Record, RecordedDecision};
 use recorder::Recorder;
 
 /// Whether what is done to a scene is written down.
@@ -95,7 +95,11 @@ impl Recording {
 
     /// The records to be written for a change once it has been made: nothing for one that the scene will refuse for its ids.
     #[inline]
-    pub fn prepare(&mut self, change: &Change<Themselves>, objects: &ObjectTable) -> Option<Change<'static, Numbers>> {
+    pub fn prepare(
+        &mut self,
+        change: &Change<Themselves>,
+        objects: &ObjectTable,
+    ) -> Option<Change<'static, RecordedNames>> {
         let Recording::On(recorder) = self else { return None };
         match change.renamed(&mut Numbering { recorder, objects }) {
             Ok(change) => Some(change),
@@ -109,7 +113,7 @@ impl Recording {
 
     /// Writes down a change that was prepared.
     #[inline]
-    pub fn note(&mut self, change: Option<Change<Numbers>>) {
+    pub fn note(&mut self, change: Option<Change<RecordedNames>>) {
         if let Some(change) = change {
             self.write(|recorder| recorder.write(&Record::Change(change)));
         }
@@ -176,7 +180,7 @@ struct Numbering<'a> {
     objects: &'a ObjectTable,
 }
 
-impl Rename<Themselves, Numbers> for Numbering<'_> {
+impl Rename<Themselves, RecordedNames> for Numbering<'_> {
     fn object(&mut self, object: ObjectId) -> Result<u32> {
         self.recorder.number(self.objects.get(object)?.serial())
     }
@@ -234,10 +238,10 @@ fn is_there(objects: &ObjectTable, pair: &[ObjectId; 2]) -> bool {
 }
 
 fn write_decisions(numbers: &mut Numbering, decided: &[Decided]) -> Result<()> {
-    let mut decisions: Vec<Decision> = Vec::new();
+    let mut decisions: Vec<RecordedDecision> = Vec::new();
     for ([id1, id2], is_tested) in decided {
         let pair = [numbers.object(*id1)?, numbers.object(*id2)?];
-        push(&mut decisions, Decision { pair, is_tested: *is_tested })?;
+        push(&mut decisions, RecordedDecision { pair, is_tested: *is_tested })?;
     }
     if decisions.is_empty() { Ok(()) } else { numbers.recorder.write(&Record::Decisions(decisions.into())) }
 }

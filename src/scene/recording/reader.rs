@@ -6,7 +6,7 @@ use std::io::{ErrorKind, Read};
 use crate::base::binary::{EMPTY_CHECKSUM, Reader, checksum};
 use crate::base::enumerator::Enumerator;
 use crate::base::error::{Error, Result};
-use crate::scene::recording::format::{Kind, MAGIC, Record, VERSION};
+use crate::scene::recording::format::{MAGIC, Record, RecordKind, VERSION};
 use crate::scene::recording::recorder::HEAD;
 
 /// Bytes before the first record.
@@ -33,7 +33,7 @@ impl fmt::Debug for RecordReader {
 }
 
 /// The next item in a recording.
-pub(crate) enum Next {
+pub(crate) enum NextRecord {
     Record(Record<'static>),
     /// It ends within a record, or before the last one: the program did not end it.
     CutOff,
@@ -73,22 +73,22 @@ impl RecordReader {
     ///
     /// # Errors
     /// [`Error::File`] for data that is damaged or cannot be read; the message tells where. [`Error::Memory`].
-    pub fn next(&mut self) -> Result<Next> {
+    pub fn next(&mut self) -> Result<NextRecord> {
         let start = self.position;
         if !self.take(HEAD)? {
-            return Ok(Next::CutOff);
+            return Ok(NextRecord::CutOff);
         }
         let head = self.content.first_chunk::<HEAD>().copied().unwrap_or_default();
         let [kind, length, of_head] = [0, 4, 8].map(|at| u32::from_le_bytes([0, 1, 2, 3].map(|k| head[at + k])));
         if checksum(self.sum, &head[..8]) as u32 != of_head {
             return Err(self.damaged(start, "the checksum of its head is wrong"));
         }
-        let Some(kind) = i32::try_from(kind).ok().and_then(Kind::from_number) else {
+        let Some(kind) = i32::try_from(kind).ok().and_then(RecordKind::from_number) else {
             return Err(self.damaged(start, "its kind is unknown"));
         };
         self.sum = checksum(self.sum, &head);
         if !self.take(length as usize + size_of::<u64>())? {
-            return Ok(Next::CutOff);
+            return Ok(NextRecord::CutOff);
         }
         let (content, sum) = self.content.split_last_chunk::<8>().unwrap_or((&[], &[0; 8]));
         self.sum = checksum(self.sum, content);
@@ -102,7 +102,7 @@ impl RecordReader {
         if matches!(record, Record::End) && self.take(1)? {
             return Err(self.damaged(start, "there is more behind it, and it is the last"));
         }
-        Ok(Next::Record(record))
+        Ok(NextRecord::Record(record))
     }
 
     /// An error about the record that begins at `start`.

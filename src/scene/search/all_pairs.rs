@@ -7,7 +7,7 @@ use crate::base::locks::{locked, unlocked};
 use crate::base::memory::{collected, with_capacity};
 use crate::pair::PairCache;
 use crate::scene::near::candidates::order;
-use crate::scene::near::near_pairs::{Mark, NearPair, NearPairs};
+use crate::scene::near::near_pairs::{NearPair, NearPairs, PairMark};
 use crate::scene::search::findings::Findings;
 use crate::scene::search::narrow_phase::{BLOCK, Own, Pass};
 use crate::scene::world::testing::{Rules, Testing};
@@ -24,7 +24,8 @@ pub(crate) fn run_over_all(
 ) -> Result<bool> {
     let proxies = pass.proxies;
     let objects = collected(proxies.of_objects())?;
-    let mut block = Block { pairs: with_capacity(BLOCK)?, caches: with_capacity(BLOCK)?, kept: with_capacity(BLOCK)? };
+    let mut block =
+        PairBlock { pairs: with_capacity(BLOCK)?, caches: with_capacity(BLOCK)?, kept: with_capacity(BLOCK)? };
     // Both go through the pairs in the same order.
     let mut next = 0;
     for (k, object1) in objects.iter().enumerate() {
@@ -54,14 +55,14 @@ pub(crate) fn run_over_all(
 }
 
 /// Pairs to be looked at together.
-struct Block {
+struct PairBlock {
     pairs: Vec<NearPair>,
     caches: Vec<Mutex<PairCache>>,
     /// Those that near pairs have.
     kept: Vec<Option<u32>>,
 }
 
-impl Block {
+impl PairBlock {
     fn add(&mut self, pair: [u32; 2], kept: Option<u32>, near: &NearPairs) {
         self.pairs.push(NearPair { cache: self.caches.len() as u32, ..NearPair::new(pair) });
         let known = kept.map(|kept| *locked(&near.caches[kept as usize]));
@@ -70,7 +71,7 @@ impl Block {
     }
 
     fn run(&mut self, pass: &Pass, near: &mut NearPairs, findings: &mut Findings) -> Result<bool> {
-        let marks = &mut [Mark::NONE; BLOCK][..self.pairs.len()];
+        let marks = &mut [PairMark::NONE; BLOCK][..self.pairs.len()];
         let stopped =
             pass.run(&mut self.pairs, marks, &mut Own { caches: &mut self.caches, contacts: None }, findings)?;
         for (kept, cache) in self.kept.iter().zip(&mut self.caches) {

@@ -9,7 +9,7 @@ use crate::base::simd::environment::{is_default, with_default};
 use crate::base::workers::Workers;
 use crate::pair::Query;
 use crate::scene::near::broad_phase::BroadPhase;
-use crate::scene::near::near_pairs::{KINDS_OF_PASSES, Mark, NearPair, NearPairs};
+use crate::scene::near::near_pairs::{KINDS_OF_PASSES, NearPair, NearPairs, PairMark};
 use crate::scene::search::all_pairs::run_over_all;
 use crate::scene::search::events::Events;
 use crate::scene::search::findings::{Before, Findings};
@@ -344,7 +344,7 @@ impl Search {
     ) -> Result<bool> {
         let findings = &mut self.kept[self.latest].findings;
         findings.begin(None);
-        let mut marks = filled(Mark::NONE, pairs.len())?;
+        let mut marks = filled(PairMark::NONE, pairs.len())?;
         Pass::new(request, &world.proxies, None).run(pairs, &mut marks, &mut memory, findings)
     }
 }

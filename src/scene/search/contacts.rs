@@ -146,12 +146,12 @@ impl Contacts {
     pub fn rooms<'a>(
         &'a mut self,
         parts: impl Iterator<Item = &'a Contacts> + Clone,
-    ) -> Result<impl Iterator<Item = Room<'a>>> {
+    ) -> Result<impl Iterator<Item = ContactRoom<'a>>> {
         let lists = self.list.rooms(parts.clone().map(|part| part.list.count()))?;
         let mut first_point = self.points.count();
         let rooms = self.points.rooms(parts.map(|part| part.points.count()))?;
         Ok(lists.zip(rooms).map(move |(list, points)| {
-            let room = Room { first_point, list, points };
+            let room = ContactRoom { first_point, list, points };
             first_point += room.points.len();
             room
         }))
@@ -172,14 +172,14 @@ impl Contacts {
 }
 
 /// Room for the contacts of a part among those of all.
-pub(crate) struct Room<'a> {
+pub(crate) struct ContactRoom<'a> {
     /// So many points come before.
     first_point: usize,
     list: &'a mut [Contact],
     points: &'a mut [ManifoldPoint],
 }
 
-impl Room<'_> {
+impl ContactRoom<'_> {
     pub fn fill(&mut self, part: &Contacts) {
         self.points.copy_from_slice(part.points.as_slice());
         for (room, contact) in self.list.iter_mut().zip(part.list.as_slice()) {

@@ -5,13 +5,13 @@
 
 use crate::base::error::Result;
 use crate::base::memory::{extend, push};
-use crate::scene::near::near_pairs::{Mark, NearPair};
+use crate::scene::near::near_pairs::{NearPair, PairMark};
 use crate::scene::search::contacts::{self, Contacts};
 use crate::scene::search::query::PairResult;
 use crate::scene::search::slots::{Run, Slots, Source};
 use crate::scene::search::statistics::SceneStatistics;
 use crate::scene::world::proxies::Proxies;
-use crate::scene::world::rows::Motion;
+use crate::scene::world::rows::RowMotion;
 use crate::scene::world::testing::Testing;
 
 /// Above this part of all pieces, one in this many, all pairs are answered anew: new results are then written where they belong,
@@ -30,7 +30,7 @@ const LOOKS_OF_AGAIN: usize = 4;
 
 /// Whether so many pieces have moved since a pass that all pairs are answered anew.
 #[inline(always)]
-pub(crate) fn are_many_moved(motions: &[Motion], pass: u64) -> bool {
+pub(crate) fn are_many_moved(motions: &[RowMotion], pass: u64) -> bool {
     is_many(motions.iter().map(|motion| usize::from(motion.moved >= pass)).sum(), motions.len())
 }
 
@@ -71,7 +71,7 @@ impl Before {
 
     /// Whether neither piece has moved since the pass before answered the pair.
     #[inline(always)]
-    pub fn answers(&self, pair: &NearPair, mark: &Mark) -> bool {
+    pub fn answers(&self, pair: &NearPair, mark: &PairMark) -> bool {
         let [a, b] = pair.proxies.map(|proxy| self.has_moved[proxy as usize]);
         mark.is_answered & (pair.testing == Testing::Active) & !a & !b
     }
@@ -195,10 +195,10 @@ impl Findings {
     pub fn rooms<'a>(
         &'a mut self,
         parts: impl Iterator<Item = &'a Findings> + Clone,
-    ) -> Result<impl Iterator<Item = Room<'a>>> {
+    ) -> Result<impl Iterator<Item = FindingRoom<'a>>> {
         let results = self.slots.rooms(parts.clone().map(|part| part.slots.count()))?;
         let contacts = self.contacts.rooms(parts.map(|part| &part.contacts))?;
-        Ok(results.zip(contacts).map(|(results, contacts)| Room { results, contacts }))
+        Ok(results.zip(contacts).map(|(results, contacts)| FindingRoom { results, contacts }))
     }
 
     /// Sum of `upper − lower` over the results.
@@ -208,12 +208,12 @@ impl Findings {
 }
 
 /// Room for the findings of a part among those of all.
-pub(crate) struct Room<'a> {
+pub(crate) struct FindingRoom<'a> {
     results: &'a mut [PairResult],
-    contacts: contacts::Room<'a>,
+    contacts: contacts::ContactRoom<'a>,
 }
 
-impl Room<'_> {
+impl FindingRoom<'_> {
     pub fn fill(&mut self, part: &Findings) {
         self.results.copy_from_slice(part.results());
         self.contacts.fill(&part.contacts);

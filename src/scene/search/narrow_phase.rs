@@ -19,7 +19,7 @@ use crate::base::simd::prefetch;
 use crate::manifold::Reference;
 use crate::pair::{DecidedBy, DepthCache, DepthEnding, Outcome, PairAnswer, PairCache, PairConfig};
 use crate::scene::near::contact_memory::ContactMemory;
-use crate::scene::near::near_pairs::{Mark, NearPair, UNLISTED};
+use crate::scene::near::near_pairs::{NearPair, PairMark, UNLISTED};
 use crate::scene::search::contacts::Details;
 use crate::scene::search::findings::{Before, Findings};
 use crate::scene::search::query::PairResult;
@@ -66,7 +66,7 @@ pub(crate) struct Pass<'a> {
 }
 
 /// The caches of the pairs, by place.
-pub(crate) trait Caches {
+pub(crate) trait PairCaches {
     /// Asks for the memory of one.
     fn prefetch(&self, place: u32);
     /// Changes one.
@@ -77,7 +77,7 @@ pub(crate) trait Caches {
     /// Changes what is remembered of one's contact: of its depth where the two intersect.
     ///
     /// # Errors
-    /// As of [`Caches::change`].
+    /// As of [`PairCaches::change`].
     fn change_contact(
         &mut self,
         place: u32,
@@ -93,7 +93,7 @@ pub(crate) struct Own<'a> {
     pub contacts: Option<&'a mut ContactMemory>,
 }
 
-impl Caches for Own<'_> {
+impl PairCaches for Own<'_> {
     #[inline(always)]
     fn prefetch(&self, place: u32) {
         prefetch(&self.caches[place as usize]);
@@ -123,7 +123,7 @@ impl Caches for Own<'_> {
 
 /// The result of the first look.
 #[derive(Debug, Clone, Copy)]
-enum Look {
+enum PairLook {
     Settled,
     /// Its result of before is listed again.
     Again,
@@ -133,21 +133,21 @@ enum Look {
 
 /// For one block of pairs, those that the first look has not settled, in order; a byte tells which.
 struct Left {
-    pairs: [(u8, Look); BLOCK],
+    pairs: [(u8, PairLook); BLOCK],
     count: usize,
 }
 
 impl Left {
     /// Written whether it counts or not, as what cannot be foretold is better no branch.
     #[inline(always)]
-    fn add_if(&mut self, counts: bool, pair: usize, look: Look) {
+    fn add_if(&mut self, counts: bool, pair: usize, look: PairLook) {
         debug_assert!(pair < 256 && self.count < self.pairs.len());
         self.pairs[self.count] = (pair as u8, look);
         self.count += usize::from(counts);
     }
 
     #[inline(always)]
-    fn get(&self, k: usize) -> Option<(usize, Look)> {
+    fn get(&self, k: usize) -> Option<(usize, PairLook)> {
         self.pairs[..self.count].get(k).map(|&(pair, look)| (pair.into(), look))
     }
 }
@@ -162,10 +162,10 @@ impl<'a> Pass<'a> {
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn run<C: Caches + ?Sized>(
+    pub fn run<C: PairCaches + ?Sized>(
         &self,
         pairs: &mut [NearPair],
-        marks: &mut [Mark],
+        marks: &mut [PairMark],
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<bool> {
@@ -173,7 +173,7 @@ impl<'a> Pass<'a> {
         if pairs.len() <= FEW {
             return self.run_few(pairs, marks, caches, findings);
         }
-        let mut left = Left { pairs: [(0, Look::Settled); BLOCK], count: 0 };
+        let mut left = Left { pairs: [(0, PairLook::Settled); BLOCK], count: 0 };
         for (pairs, marks) in pairs.chunks_mut(BLOCK).zip(marks.chunks_mut(BLOCK)) {
             self.look_at_all(pairs, marks, &mut left, &mut findings.statistics);
             findings.slots.make_room(left.count)?;
@@ -191,10 +191,10 @@ impl<'a> Pass<'a> {
         Ok(false)
     }
 
-    fn run_few<C: Caches + ?Sized>(
+    fn run_few<C: PairCaches + ?Sized>(
         &self,
         pairs: &mut [NearPair],
-        marks: &mut [Mark],
+        marks: &mut [PairMark],
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<bool> {
@@ -210,18 +210,18 @@ impl<'a> Pass<'a> {
 
     /// Carries out the result of a look; true if the query is to stop at this pair.
     #[inline(always)]
-    fn follow<C: Caches + ?Sized>(
+    fn follow<C: PairCaches + ?Sized>(
         &self,
-        look: Look,
+        look: PairLook,
         pair: &mut NearPair,
-        mark: &mut Mark,
+        mark: &mut PairMark,
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<bool> {
         match look {
-            Look::Settled => Ok(false),
-            Look::Again => self.list_again(mark, findings),
-            Look::Intersects | Look::Test => {
+            PairLook::Settled => Ok(false),
+            PairLook::Again => self.list_again(mark, findings),
+            PairLook::Intersects | PairLook::Test => {
                 Ok(self.decide(look, pair, mark, caches, findings)? && self.list(pair, mark, caches, findings)?)
             }
         }
@@ -229,7 +229,13 @@ impl<'a> Pass<'a> {
 
     /// Looks at a block.
     #[inline(always)]
-    fn look_at_all(&self, pairs: &[NearPair], marks: &mut [Mark], left: &mut Left, statistics: &mut SceneStatistics) {
+    fn look_at_all(
+        &self,
+        pairs: &[NearPair],
+        marks: &mut [PairMark],
+        left: &mut Left,
+        statistics: &mut SceneStatistics,
+    ) {
         left.count = 0;
         for k in 0..pairs.len().min(marks.len()) {
             if let (Some(pair), Some(mark)) = (pairs.get(k + LOOK_AHEAD), marks.get(k + LOOK_AHEAD))
@@ -238,21 +244,21 @@ impl<'a> Pass<'a> {
                 self.prefetch_rows(pair);
             }
             let look = self.look_again(&pairs[k], &mut marks[k], statistics);
-            left.add_if(!matches!(look, Look::Settled), k, look);
+            left.add_if(!matches!(look, PairLook::Settled), k, look);
         }
     }
 
     /// Looks at a pair, first at its result in the pass before.
     #[inline(always)]
-    fn look_again(&self, pair: &NearPair, mark: &mut Mark, statistics: &mut SceneStatistics) -> Look {
+    fn look_again(&self, pair: &NearPair, mark: &mut PairMark, statistics: &mut SceneStatistics) -> PairLook {
         if self.is_unmoved(pair, mark) {
             let is_listed = mark.result != UNLISTED;
             statistics.count_unmoved(u64::from(!is_listed), 0);
-            return if is_listed { Look::Again } else { Look::Settled };
+            return if is_listed { PairLook::Again } else { PairLook::Settled };
         }
         mark.is_answered = pair.testing == Testing::Active;
-        let look = if mark.is_answered { self.look(pair, statistics) } else { Look::Settled };
-        if let Look::Settled = look {
+        let look = if mark.is_answered { self.look(pair, statistics) } else { PairLook::Settled };
+        if let PairLook::Settled = look {
             mark.result = UNLISTED;
         }
         look
@@ -260,20 +266,20 @@ impl<'a> Pass<'a> {
 
     /// Whether neither piece has moved since the same query before.
     #[inline(always)]
-    fn is_unmoved(&self, pair: &NearPair, mark: &Mark) -> bool {
+    fn is_unmoved(&self, pair: &NearPair, mark: &PairMark) -> bool {
         self.before.is_some_and(|before| before.answers(pair, mark))
     }
 
     #[inline(always)]
-    fn look(&self, pair: &NearPair, statistics: &mut SceneStatistics) -> Look {
+    fn look(&self, pair: &NearPair, statistics: &mut SceneStatistics) -> PairLook {
         let [a, b] = pair.proxies.map(|proxy| proxy as usize);
         if self.tolerance == f64::INFINITY {
-            return Look::Test;
+            return PairLook::Test;
         }
         let [spheres1, spheres2] = [self.proxies.known_spheres(a), self.proxies.known_spheres(b)];
         if are_far_apart(spheres1, spheres2, self.tolerance) {
             statistics.count_settled(Settled::BoundingSpheres);
-            return Look::Settled;
+            return PairLook::Settled;
         }
         let [motion1, motion2] = [&self.proxies.motions[a], &self.proxies.motions[b]];
         let travelled = motion1.odometer + motion2.odometer;
@@ -281,9 +287,9 @@ impl<'a> Pass<'a> {
         // rounded, s' + τ < s + lower follows, and so lower − (s' − s) > τ.
         if travelled * (1.0 + 8.0 * U) + self.tolerance < pair.apart_until {
             statistics.count_settled(Settled::OutOfReach);
-            return Look::Settled;
+            return PairLook::Settled;
         }
-        if self.is_verdict && overlap_inside(spheres1, spheres2) { Look::Intersects } else { Look::Test }
+        if self.is_verdict && overlap_inside(spheres1, spheres2) { PairLook::Intersects } else { PairLook::Test }
     }
 
     /// Asks for the memory that a look needs.
@@ -297,25 +303,25 @@ impl<'a> Pass<'a> {
 
     /// Asks for the memory that a pair's new result needs.
     #[inline(always)]
-    fn prefetch<C: Caches + ?Sized>(&self, look: Look, pair: &NearPair, caches: &C) {
-        if let Look::Settled | Look::Again = look {
+    fn prefetch<C: PairCaches + ?Sized>(&self, look: PairLook, pair: &NearPair, caches: &C) {
+        if let PairLook::Settled | PairLook::Again = look {
             return;
         }
         for proxy in pair.proxies.map(|proxy| proxy as usize) {
             prefetch(&self.proxies.labels[proxy]);
-            if let Look::Test = look {
+            if let PairLook::Test = look {
                 prefetch(&self.proxies.poses[proxy]);
                 prefetch(&self.proxies.shapes[proxy]);
             }
         }
-        if let Look::Test = look {
+        if let PairLook::Test = look {
             caches.prefetch(pair.cache);
         }
     }
 
     /// Lists a pair with its result of before; true if the query is to stop there.
     #[inline(always)]
-    fn list_again(&self, mark: &mut Mark, findings: &mut Findings) -> Result<bool> {
+    fn list_again(&self, mark: &mut PairMark, findings: &mut Findings) -> Result<bool> {
         let at = mark.result as usize;
         mark.result = findings.listed as u32;
         findings.list_again(at)?;
@@ -326,16 +332,16 @@ impl<'a> Pass<'a> {
 
     /// Answers for a pair in the next free slot; whether the answer is listed.
     #[inline(always)]
-    fn decide<C: Caches + ?Sized>(
+    fn decide<C: PairCaches + ?Sized>(
         &self,
-        look: Look,
+        look: PairLook,
         pair: &mut NearPair,
-        mark: &mut Mark,
+        mark: &mut PairMark,
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<bool> {
         let answer = &mut findings.slots.next().answer;
-        if let Look::Intersects = look {
+        if let PairLook::Intersects = look {
             *answer = INSCRIBED;
         } else {
             *answer = PairAnswer::default();
@@ -351,10 +357,10 @@ impl<'a> Pass<'a> {
 
     /// Lists the pair whose answer was written last; true if the query is to stop there.
     #[inline(always)]
-    fn list<C: Caches + ?Sized>(
+    fn list<C: PairCaches + ?Sized>(
         &self,
         pair: &NearPair,
-        mark: &mut Mark,
+        mark: &mut PairMark,
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<bool> {
@@ -372,7 +378,13 @@ impl<'a> Pass<'a> {
 
     /// Asks the pair layer.
     #[inline(always)]
-    fn test(&self, pair: &mut NearPair, mark: &mut Mark, cache: &mut PairCache, answer: &mut PairAnswer) -> Result<()> {
+    fn test(
+        &self,
+        pair: &mut NearPair,
+        mark: &mut PairMark,
+        cache: &mut PairCache,
+        answer: &mut PairAnswer,
+    ) -> Result<()> {
         let [a, b] = pair.proxies.map(|proxy| proxy as usize);
         let placed = |i: usize| self.proxies.shapes[i].at(&self.proxies.poses[i]);
         // Nothing is left to refuse: shapes are sound once made, poses and tolerances have been checked.
@@ -391,11 +403,11 @@ impl<'a> Pass<'a> {
 
     /// Finds the details asked for beside the answer that was written last.
     #[inline(never)]
-    fn find_details<C: Caches + ?Sized>(
+    fn find_details<C: PairCaches + ?Sized>(
         &self,
         details: &Details,
         pair: &NearPair,
-        mark: &mut Mark,
+        mark: &mut PairMark,
         caches: &mut C,
         findings: &mut Findings,
     ) -> Result<()> {

@@ -11,9 +11,9 @@ use crate::base::workers::Workers;
 use crate::manifold::Reference;
 use crate::pair::{DepthCache, PairCache};
 use crate::scene::near::contact_memory::ContactMemory;
-use crate::scene::near::near_pairs::{Mark, NearPair, NearPairs};
+use crate::scene::near::near_pairs::{NearPair, NearPairs, PairMark};
 use crate::scene::search::findings::Findings;
-use crate::scene::search::narrow_phase::{BLOCK, Caches, Pass};
+use crate::scene::search::narrow_phase::{BLOCK, PairCaches, Pass};
 
 /// The findings of a part, kept from pass to pass.
 #[derive(Debug, Default)]
@@ -54,7 +54,7 @@ struct Together<'a> {
     written: &'a mut Written,
 }
 
-impl Caches for Together<'_> {
+impl PairCaches for Together<'_> {
     #[inline(always)]
     fn prefetch(&self, place: u32) {
         prefetch(&self.caches[place as usize]);
@@ -104,7 +104,7 @@ pub(crate) fn run_in_parts(
     reserve(kept, count.saturating_sub(kept.len()))?;
     kept.resize_with(count.max(kept.len()), PartFindings::default);
     let kept = &mut kept[..count];
-    let run = |((pairs, marks), found): ((&mut [NearPair], &mut [Mark]), &mut PartFindings)| {
+    let run = |((pairs, marks), found): ((&mut [NearPair], &mut [PairMark]), &mut PartFindings)| {
         let PartFindings { findings, written } = found;
         findings.clear();
         written.clear();

@@ -8,7 +8,7 @@
 use crate::base::error::Result;
 use crate::base::memory::push;
 use crate::pair::least_error;
-use crate::scene::near::near_pairs::{Mark, NearPair, UNLISTED};
+use crate::scene::near::near_pairs::{NearPair, PairMark, UNLISTED};
 use crate::scene::search::request::Request;
 use crate::scene::world::proxies::Proxies;
 use crate::scene::world::rows::are_far_apart;
@@ -36,7 +36,7 @@ pub(crate) fn deal(
     budget: f64,
     proxies: &Proxies,
     pairs: &mut [NearPair],
-    marks: &[Mark],
+    marks: &[PairMark],
     needs: &mut Vec<Need>,
 ) -> Result<Deal> {
     needs.clear();

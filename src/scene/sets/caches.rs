@@ -11,11 +11,11 @@ const SLOTS: usize = 1024;
 /// holds, it is safe for any pair.
 #[derive(Debug, Default)]
 pub(crate) struct Caches {
-    slots: Vec<Slot>,
+    slots: Vec<CacheSlot>,
 }
 
 #[derive(Debug, Clone, Copy, Default)]
-struct Slot {
+struct CacheSlot {
     pair: [u32; 2],
     cache: PairCache,
 }
@@ -27,7 +27,7 @@ impl Caches {
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn make_room(&mut self) -> Result<()> {
         if self.slots.is_empty() {
-            self.slots = filled(Slot::default(), SLOTS)?;
+            self.slots = filled(CacheSlot::default(), SLOTS)?;
         }
         Ok(())
     }
@@ -39,7 +39,7 @@ impl Caches {
         let mixed = (a.rotate_left(32) ^ b).wrapping_mul(0x9e37_79b9_7f4a_7c15);
         let slot = &mut self.slots[(mixed >> 32) as usize % SLOTS];
         if slot.pair != pair {
-            *slot = Slot { pair, cache: PairCache::default() };
+            *slot = CacheSlot { pair, cache: PairCache::default() };
         }
         &mut slot.cache
     }

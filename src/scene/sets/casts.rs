@@ -4,7 +4,7 @@
 use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
 use crate::base::memory::push;
-use crate::motion::{self, Carried, CastAnswer, CastConfig, CastOutcome, Motion, Place, Swept};
+use crate::motion::{self, Carried, CastAnswer, CastConfig, CastOutcome, Motion, PartEnd, Swept};
 use crate::scene::near::tree::Branch;
 use crate::scene::search::query::PairResult;
 use crate::scene::sets::caches::Caches;
@@ -46,7 +46,7 @@ impl Default for SceneCastAnswer {
 
 /// The question.
 #[derive(Clone, Copy)]
-pub(crate) struct Question<'a> {
+pub(crate) struct CastQuestion<'a> {
     pub others: Others<'a>,
     /// One for all objects of the set, or one for each.
     pub motions: &'a [Motion<'a>],
@@ -54,7 +54,7 @@ pub(crate) struct Question<'a> {
 }
 
 /// The room that the question is worked in.
-pub(crate) struct Room<'a> {
+pub(crate) struct CastRoom<'a> {
     pub movers: &'a mut Vec<Mover>,
     pub boxes: &'a mut Vec<SweptBox>,
     pub open: &'a mut Vec<Branch>,
@@ -87,11 +87,11 @@ pub(crate) struct SweptBox {
 pub(crate) struct Approach {
     from: f64,
     mover: u32,
-    target: Target,
+    target: CastTarget,
 }
 
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-enum Target {
+enum CastTarget {
     /// A piece where the scene has it.
     Piece(u32),
     /// Another moving piece.
@@ -103,7 +103,7 @@ enum Target {
 /// # Errors
 /// [`Error::Handle`] for an id that names no object of the scene; [`Error::Argument`] unless there is one motion or one for each
 /// object, and same as for [`crate::motion::cast`]; [`Error::Pose`], [`Error::Memory`].
-pub(crate) fn cast(question: Question, room: &mut Room) -> Result<SceneCastAnswer> {
+pub(crate) fn cast(question: CastQuestion, room: &mut CastRoom) -> Result<SceneCastAnswer> {
     question.config.check()?;
     room.caches.make_room()?;
     list_movers(&question, room)?;
@@ -111,7 +111,7 @@ pub(crate) fn cast(question: Question, room: &mut Room) -> Result<SceneCastAnswe
     cast_all(&question, room)
 }
 
-impl<'a> Question<'a> {
+impl<'a> CastQuestion<'a> {
     fn motion(&self, of: u32) -> &'a Motion<'a> {
         // One for all, or one for each.
         &self.motions[(of as usize).min(self.motions.len() - 1)]
@@ -127,10 +127,10 @@ impl<'a> Question<'a> {
 }
 
 /// The moving pieces, and the boxes that each sweeps over.
-fn list_movers(question: &Question, room: &mut Room) -> Result<()> {
-    let Question { others, motions, config, .. } = question;
+fn list_movers(question: &CastQuestion, room: &mut CastRoom) -> Result<()> {
+    let CastQuestion { others, motions, config, .. } = question;
     let (world, ids) = (others.world, others.set.ids);
-    let Room { movers, boxes, .. } = room;
+    let CastRoom { movers, boxes, .. } = room;
     movers.clear();
     boxes.clear();
     if ids.is_empty() || !(motions.len() == 1 || motions.len() == ids.len()) {
@@ -158,7 +158,7 @@ fn list_boxes(body: Carried, config: &CastConfig, boxes: &mut Vec<SweptBox>) -> 
     let swept = Swept::new(body, config.range())?;
     let mut before = None;
     for place in swept.places() {
-        let Place { time, pose, off } = place?;
+        let PartEnd { time, pose, off } = place?;
         let (spheres, _) = placed(body.shape, &pose, pose.rotation_defect());
         let here = grown_box(body.shape, &pose, &spheres, (off + config.max_distance).next_up());
         if let Some((from, there)) = before.replace((time, here)) {
@@ -169,16 +169,16 @@ fn list_boxes(body: Carried, config: &CastConfig, boxes: &mut Vec<SweptBox>) -> 
 }
 
 /// The pairs whose boxes overlap, the earliest first.
-fn list_approaches(question: &Question, room: &mut Room) -> Result<()> {
-    let Question { others, .. } = question;
-    let Room { movers, boxes, open, found, approaches, .. } = room;
+fn list_approaches(question: &CastQuestion, room: &mut CastRoom) -> Result<()> {
+    let CastQuestion { others, .. } = question;
+    let CastRoom { movers, boxes, open, found, approaches, .. } = room;
     approaches.clear();
     let boxes_of = |mover: &Mover| &boxes[mover.boxes[0] as usize..mover.boxes[1] as usize];
     for (k, mover) in (0..).zip(&**movers) {
         for swept in boxes_of(mover) {
             others.list(open, found, |bounds| bounds.overlaps(&swept.bounds))?;
             for &other in &**found {
-                push(approaches, Approach { from: swept.from, mover: k, target: Target::Piece(other) })?;
+                push(approaches, Approach { from: swept.from, mover: k, target: CastTarget::Piece(other) })?;
             }
         }
         for second in (k + 1..movers.len() as u32).take_while(|_| others.set.among) {
@@ -186,7 +186,7 @@ fn list_approaches(question: &Question, room: &mut Room) -> Result<()> {
             let overlapping = boxes_of(mover).iter().find(|a| beside.iter().any(|b| b.bounds.overlaps(&a.bounds)));
             if overlapping.is_some() {
                 let from = question.config.time_begin;
-                push(approaches, Approach { from, mover: k, target: Target::Mover(second) })?;
+                push(approaches, Approach { from, mover: k, target: CastTarget::Mover(second) })?;
             }
         }
     }
@@ -198,9 +198,9 @@ fn list_approaches(question: &Question, room: &mut Room) -> Result<()> {
 }
 
 /// Casts the pairs, each up to the earliest time that is known.
-fn cast_all(question: &Question, room: &mut Room) -> Result<SceneCastAnswer> {
-    let Question { others, config, .. } = question;
-    let Room { movers, approaches, caches, .. } = room;
+fn cast_all(question: &CastQuestion, room: &mut CastRoom) -> Result<SceneCastAnswer> {
+    let CastQuestion { others, config, .. } = question;
+    let CastRoom { movers, approaches, caches, .. } = room;
     let world = others.world;
     let mut earliest =
         SceneCastAnswer { outcome: CastOutcome::Free, time_lower: config.time_end, ..SceneCastAnswer::default() };
@@ -213,8 +213,8 @@ fn cast_all(question: &Question, room: &mut Room) -> Result<SceneCastAnswer> {
         let mover = &movers[approach.mover as usize];
         let rests;
         let (other, second) = match approach.target {
-            Target::Mover(k) => (movers[k as usize].proxy, question.carried(&movers[k as usize])),
-            Target::Piece(proxy) => {
+            CastTarget::Mover(k) => (movers[k as usize].proxy, question.carried(&movers[k as usize])),
+            CastTarget::Piece(proxy) => {
                 rests = Motion::Fixed(world.proxies.poses[proxy as usize]);
                 let shape = &world.proxies.shapes[proxy as usize];
                 (proxy, Carried { shape, motion: &rests, place: None })

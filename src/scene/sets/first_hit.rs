@@ -37,7 +37,7 @@ pub struct FirstHit {
 
 /// The question.
 #[derive(Clone, Copy)]
-pub(crate) struct Question<'a> {
+pub(crate) struct FirstHitQuestion<'a> {
     pub others: Others<'a>,
     /// Those of all objects at the first time, then at the second, and so on.
     pub poses: &'a [Pose],
@@ -47,7 +47,7 @@ pub(crate) struct Question<'a> {
 }
 
 /// The room that the question is worked in.
-pub(crate) struct Room<'a> {
+pub(crate) struct FirstHitRoom<'a> {
     pub members: &'a mut Vec<Member>,
     pub open: &'a mut Vec<Branch>,
     pub found: &'a mut Vec<u32>,
@@ -59,8 +59,8 @@ pub(crate) struct Room<'a> {
 /// # Errors
 /// [`Error::Argument`] for a `max_distance` that is negative or NaN, and for poses that do not come out even, those of
 /// [`members::list`].
-pub(crate) fn first_hit(question: Question, room: &mut Room) -> Result<FirstHit> {
-    let Question { others, poses, order, max_distance } = question;
+pub(crate) fn first_hit(question: FirstHitQuestion, room: &mut FirstHitRoom) -> Result<FirstHit> {
+    let FirstHitQuestion { others, poses, order, max_distance } = question;
     check_range("max_distance", max_distance, 0.0..=f64::MAX)?;
     let objects = others.set.ids.len();
     if objects == 0 || !poses.len().is_multiple_of(objects) {
@@ -95,8 +95,8 @@ fn in_order(order: PoseOrder, count: usize) -> impl Iterator<Item = usize> {
 }
 
 /// A pair of the set where it is that is no farther apart than `max_distance`.
-fn hit(others: &Others, room: &mut Room, max_distance: f64) -> Result<Option<PairResult>> {
-    let Room { members, open, found, caches } = room;
+fn hit(others: &Others, room: &mut FirstHitRoom, max_distance: f64) -> Result<Option<PairResult>> {
+    let FirstHitRoom { members, open, found, caches } = room;
     let (world, proxies) = (others.world, &others.world.proxies);
     let mut look = |members: [u32; 2], spheres: [&Spheres; 2], bodies: [Placed; 2]| {
         let [one, other] = spheres;

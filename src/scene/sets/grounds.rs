@@ -62,7 +62,7 @@ pub(crate) enum Floor<'a> {
 
 /// The question: about all objects, or about a set, which `others` leave out.
 #[derive(Clone, Copy)]
-pub(crate) struct Question<'a> {
+pub(crate) struct GroundQuestion<'a> {
     pub others: Others<'a>,
     pub set: Option<&'a ObjectSet<'a>>,
     pub floor: Floor<'a>,
@@ -71,7 +71,7 @@ pub(crate) struct Question<'a> {
 }
 
 /// The room that the question is worked in, and the findings.
-pub(crate) struct Room<'a> {
+pub(crate) struct SetGroundRoom<'a> {
     pub members: &'a mut Vec<Member>,
     pub open: &'a mut Vec<Branch>,
     pub rows: &'a mut Vec<u32>,
@@ -84,9 +84,9 @@ pub(crate) struct Room<'a> {
 /// # Errors
 /// As `ground::ground_contacts` and `manifold::half_space_manifold`, and for
 /// the set as [`members::list`].
-pub(crate) fn find(question: Question, room: &mut Room) -> Result<()> {
-    let Question { others, set, floor, config, filter } = question;
-    let Room { members, open, rows, ground, contacts } = room;
+pub(crate) fn find(question: GroundQuestion, room: &mut SetGroundRoom) -> Result<()> {
+    let GroundQuestion { others, set, floor, config, filter } = question;
+    let SetGroundRoom { members, open, rows, ground, contacts } = room;
     contacts.clear();
     ground.points.clear();
     let within = Within::new(floor, config)?;

@@ -37,7 +37,7 @@ impl Default for LeastDistance {
 
 /// A candidate that may hold a nearer pair than the nearest known.
 #[derive(Debug, Clone, Copy, PartialEq)]
-struct Candidate {
+struct SetCandidate {
     /// No pair of it is nearer.
     bound: f64,
     /// Which piece of the first set.
@@ -58,15 +58,15 @@ enum Target {
     First(u32),
 }
 
-impl Eq for Candidate {}
+impl Eq for SetCandidate {}
 
-impl PartialOrd for Candidate {
+impl PartialOrd for SetCandidate {
     fn partial_cmp(&self, other: &Self) -> Option<Ordering> {
         Some(self.cmp(other))
     }
 }
 
-impl Ord for Candidate {
+impl Ord for SetCandidate {
     /// The greatest of a heap has the least bound.
     fn cmp(&self, other: &Self) -> Ordering {
         other.bound.total_cmp(&self.bound).then(other.member.cmp(&self.member))
@@ -75,9 +75,9 @@ impl Ord for Candidate {
 
 /// Room for candidates.
 #[derive(Debug, Default)]
-pub(crate) struct Candidates {
-    heap: BinaryHeap<Candidate>,
-    row: Vec<Candidate>,
+pub(crate) struct SetCandidates {
+    heap: BinaryHeap<SetCandidate>,
+    row: Vec<SetCandidate>,
     /// Pieces that are in no tree.
     loose: Vec<u32>,
 }
@@ -93,7 +93,7 @@ pub(crate) enum Against<'a> {
 
 /// The question.
 #[derive(Clone, Copy)]
-pub(crate) struct Question<'a> {
+pub(crate) struct NearestQuestion<'a> {
     pub world: &'a World,
     pub members: &'a [Member],
     pub against: Against<'a>,
@@ -108,9 +108,9 @@ pub(crate) struct Question<'a> {
 /// So many of a piece's pairs with the least bounds may turn out not to be tested before all are put in order.
 const MOST_TRIES: usize = 4;
 
-struct Search<'a> {
-    question: Question<'a>,
-    candidates: &'a mut Candidates,
+struct NearestSearch<'a> {
+    question: NearestQuestion<'a>,
+    candidates: &'a mut SetCandidates,
     caches: &'a mut Caches,
     best: LeastDistance,
     /// Nothing farther apart need be asked: the least upper bound, or the cut-off.
@@ -123,8 +123,8 @@ struct Search<'a> {
 /// [`Error::Argument`](crate::base::error::Error::Argument) for a cut-off that is negative or NaN,
 /// [`Error::Memory`](crate::base::error::Error::Memory).
 pub(crate) fn least_distance(
-    question: Question,
-    candidates: &mut Candidates,
+    question: NearestQuestion,
+    candidates: &mut SetCandidates,
     caches: &mut Caches,
 ) -> Result<LeastDistance> {
     check_range("max_distance", question.max_distance, 0.0..=f64::INFINITY)?;
@@ -132,16 +132,16 @@ pub(crate) fn least_distance(
     candidates.heap.clear();
     let enough = question.max_distance;
     let best = LeastDistance { lower: enough, upper: f64::INFINITY, nearest: PairResult::default() };
-    let mut search = Search { question, candidates, caches, best, enough };
+    let mut search = NearestSearch { question, candidates, caches, best, enough };
     search.begin()?;
     search.finish()?;
     Ok(search.best)
 }
 
-impl<'a> Search<'a> {
+impl<'a> NearestSearch<'a> {
     /// Collects the first candidates: pairs with what is listed, and the trees.
     fn begin(&mut self) -> Result<()> {
-        let Question { world, members, against, among, .. } = self.question;
+        let NearestQuestion { world, members, against, among, .. } = self.question;
         let mut loose = std::mem::take(&mut self.candidates.loose);
         loose.clear();
         if let Against::Others(others) = against {
@@ -164,7 +164,7 @@ impl<'a> Search<'a> {
                     for (tree, fitted) in others.trees.into_iter().flatten().enumerate() {
                         if let Some(root) = fitted.root() {
                             let bound = of_boxes(&member.bounds, fitted.bounds(root, &world.proxies.boxes));
-                            self.add(Candidate { bound, member: k, target: Target::Branch(tree, root) })?;
+                            self.add(SetCandidate { bound, member: k, target: Target::Branch(tree, root) })?;
                         }
                     }
                 }
@@ -182,7 +182,7 @@ impl<'a> Search<'a> {
         for (target, other, of_other) in others {
             let bound = of_spheres(&spheres, &of_other);
             if bound <= self.enough && self.may_meet(proxy, other) {
-                push(&mut row, Candidate { bound, member, target })?;
+                push(&mut row, SetCandidate { bound, member, target })?;
             }
         }
         for _ in 0..MOST_TRIES {
@@ -201,12 +201,12 @@ impl<'a> Search<'a> {
 
     #[inline(always)]
     fn may_meet(&self, a: u32, b: u32) -> bool {
-        let Question { world, moved, .. } = self.question;
+        let NearestQuestion { world, moved, .. } = self.question;
         let (a, b) = (a as usize, b as usize);
         if moved { world.proxies.may_meet_moved(a, b) } else { world.proxies.may_meet(a, b) }
     }
 
-    fn add(&mut self, candidate: Candidate) -> Result<()> {
+    fn add(&mut self, candidate: SetCandidate) -> Result<()> {
         if candidate.bound <= self.enough { push_to_heap(&mut self.candidates.heap, candidate) } else { Ok(()) }
     }
 
@@ -226,13 +226,15 @@ impl<'a> Search<'a> {
 
     /// Replaces a branch by its content.
     fn open(&mut self, member: u32, tree: usize, branch: Branch) -> Result<()> {
-        let Question { world, members, against: Against::Others(others), .. } = self.question else { return Ok(()) };
+        let NearestQuestion { world, members, against: Against::Others(others), .. } = self.question else {
+            return Ok(());
+        };
         let Some(fitted) = others.trees.map(|trees| &trees[tree]) else { return Ok(()) };
         let Member { proxy, spheres, bounds, .. } = &members[member as usize];
         match fitted.held(branch) {
             Held::Branches(parts) => parts.into_iter().try_for_each(|part| {
                 let bound = of_boxes(bounds, fitted.bounds(part, &world.proxies.boxes));
-                self.add(Candidate { bound, member, target: Target::Branch(tree, part) })
+                self.add(SetCandidate { bound, member, target: Target::Branch(tree, part) })
             }),
             Held::Proxy(other) => {
                 if !(others.has_in_tree(other as usize) && self.may_meet(*proxy, other)) {
@@ -240,14 +242,14 @@ impl<'a> Search<'a> {
                 }
                 let by_boxes = of_boxes(bounds, &world.proxies.boxes[other as usize]);
                 let bound = by_boxes.max(of_spheres(spheres, &world.proxies.spheres(other as usize)));
-                self.add(Candidate { bound, member, target: Target::Piece(other) })
+                self.add(SetCandidate { bound, member, target: Target::Piece(other) })
             }
         }
     }
 
     /// Asks the pair of a candidate, if it is tested; whether it is.
-    fn ask(&mut self, candidate: &Candidate) -> Result<bool> {
-        let Question { world, members, against, moved, .. } = self.question;
+    fn ask(&mut self, candidate: &SetCandidate) -> Result<bool> {
+        let NearestQuestion { world, members, against, moved, .. } = self.question;
         let member = &members[candidate.member as usize];
         let other = match (candidate.target, against) {
             (Target::Piece(proxy), _) => {

@@ -42,7 +42,7 @@ pub struct SceneRayHit {
 
 /// The question.
 #[derive(Clone, Copy)]
-pub(crate) struct Question<'a> {
+pub(crate) struct RayQuestion<'a> {
     pub others: Others<'a>,
     pub ray: &'a Ray,
     pub hits: RayHits,
@@ -51,7 +51,7 @@ pub(crate) struct Question<'a> {
 }
 
 /// The room that the question is worked in.
-pub(crate) struct Room<'a> {
+pub(crate) struct RayRoom<'a> {
     pub open: &'a mut Vec<Branch>,
     pub found: &'a mut Vec<u32>,
     pub nearing: &'a mut Vec<Nearing>,
@@ -70,10 +70,10 @@ pub(crate) struct Nearing {
 /// # Errors
 /// [`Error::Argument`](crate::base::error::Error::Argument) for a ray that is refused, as in [`cast_ray`],
 /// [`Error::Memory`](crate::base::error::Error::Memory).
-pub(crate) fn cast(question: Question, room: &mut Room) -> Result<()> {
-    let Question { others, ray, hits: wanted, mask } = question;
+pub(crate) fn cast(question: RayQuestion, room: &mut RayRoom) -> Result<()> {
+    let RayQuestion { others, ray, hits: wanted, mask } = question;
     ray.check()?;
-    let Room { open, found, nearing, hits } = room;
+    let RayRoom { open, found, nearing, hits } = room;
     hits.clear();
     nearing.clear();
     others.list(open, found, |bounds| entry(ray, bounds).is_some())?;

@@ -6,7 +6,7 @@ use crate::scene::sets::caches::Caches;
 use crate::scene::sets::casts::{Approach, Mover, SweptBox};
 use crate::scene::sets::grounds::SceneGroundContact;
 use crate::scene::sets::members::Member;
-use crate::scene::sets::nearest::Candidates;
+use crate::scene::sets::nearest::SetCandidates;
 use crate::scene::sets::rays::{Nearing, SceneRayHit};
 
 /// Scratch memory for questions that threads ask a scene at once: about sets of objects, and about rays, grounds and half-spaces.
@@ -20,7 +20,7 @@ pub struct SetScratch {
     pub(crate) members: Vec<Member>,
     /// The members of the second set.
     pub(crate) second: Vec<Member>,
-    pub(crate) candidates: Candidates,
+    pub(crate) candidates: SetCandidates,
     pub(crate) caches: Caches,
     /// Branches of a tree that still must be looked at.
     pub(crate) open: Vec<Branch>,

@@ -9,7 +9,7 @@ use crate::base::memory::{reserve_sparingly, with_capacity};
 use crate::base::simd::environment::with_default;
 use crate::scene::world::boxes::Aabb;
 use crate::scene::world::object::ObjectId;
-use crate::scene::world::rows::{Label, Motion, Rows, Spheres, placed};
+use crate::scene::world::rows::{Label, RowMotion, Rows, Spheres, placed};
 use crate::shape::Shape;
 
 /// A piece to be added.
@@ -24,7 +24,7 @@ const FEW_ROWS: usize = 6;
 
 /// A row whose spheres and whose way do not know its last moves yet.
 #[derive(Debug)]
-struct Behind {
+struct StaleRow {
     proxy: u32,
     /// The pose that they know.
     pose: Pose,
@@ -36,8 +36,8 @@ pub(crate) struct Proxies {
     pub shapes: Vec<Arc<Shape>>,
     pub poses: Vec<Pose>,
     spheres: Vec<Spheres>,
-    behind: Vec<Behind>,
-    pub motions: Vec<Motion>,
+    behind: Vec<StaleRow>,
+    pub motions: Vec<RowMotion>,
     pub boxes: Vec<Aabb>,
     pub labels: Vec<Label>,
     /// The first row of the same object.
@@ -81,7 +81,7 @@ impl Proxies {
         self.shapes.push(new.shape);
         self.poses.push(new.pose);
         self.spheres.push(spheres);
-        self.motions.push(Motion::new(rigid));
+        self.motions.push(RowMotion::new(rigid));
         self.boxes.push(Aabb::EVERYWHERE);
         self.firsts.push(self.labels.len() as u32 - new.label.piece);
         self.labels.push(new.label);
@@ -171,7 +171,7 @@ impl Proxies {
         self.motions[proxy].moved = passes;
         if !self.spheres[proxy].are_behind() {
             debug_assert!(self.behind.len() < self.behind.capacity());
-            self.behind.push(Behind { proxy: proxy as u32, pose: *old });
+            self.behind.push(StaleRow { proxy: proxy as u32, pose: *old });
             self.spheres[proxy].outer = f32::NAN;
         }
         *old = *pose;
@@ -189,7 +189,7 @@ impl Proxies {
     #[inline(never)]
     fn settle_all(&mut self) {
         let mut behind = std::mem::take(&mut self.behind);
-        for Behind { proxy, pose } in behind.drain(..) {
+        for StaleRow { proxy, pose } in behind.drain(..) {
             let proxy = proxy as usize;
             let defect = self.poses[proxy].rotation_defect();
             let has_escaped = self.rows().follow(proxy, &pose, defect);

@@ -40,7 +40,7 @@ pub(crate) struct Spheres {
 
 /// How a piece has moved.
 #[derive(Debug, Clone, Copy)]
-pub(crate) struct Motion {
+pub(crate) struct RowMotion {
     /// No point of the piece has travelled farther in all its moves.
     pub odometer: f64,
     /// While the odometer is not above this, the piece is in its box.
@@ -56,10 +56,10 @@ pub(crate) struct Motion {
     pub has_escaped: bool,
 }
 
-impl Motion {
+impl RowMotion {
     /// The motion of a piece that has no box yet.
-    pub fn new(rigid: bool) -> Motion {
-        Motion { odometer: 0.0, limit: NO_BOX, moved: 0, rate: 0.0, rigid, has_escaped: false }
+    pub fn new(rigid: bool) -> RowMotion {
+        RowMotion { odometer: 0.0, limit: NO_BOX, moved: 0, rate: 0.0, rigid, has_escaped: false }
     }
 
     /// Whether the box has no end: however the piece moves, it does not leave it.
@@ -108,7 +108,7 @@ pub(crate) struct Rows<'a> {
     pub labels: &'a [Label],
     pub poses: &'a mut [Pose],
     pub spheres: &'a mut [Spheres],
-    pub motions: &'a mut [Motion],
+    pub motions: &'a mut [RowMotion],
     pub boxes: &'a mut [Aabb],
 }
 

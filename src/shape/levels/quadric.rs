@@ -141,7 +141,7 @@ impl Quadric {
 
 /// A half-edge waiting for its turn; the least key first, among equal ones the lowest index.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Waiting {
+struct WaitingEdge {
     /// The bits of a number ≥ 0, which are ordered as the numbers are.
     key: u64,
     half_edge: u32,
@@ -153,10 +153,10 @@ struct Waiting {
 /// of about the least key are in one.
 struct Queue {
     /// By the key's exponent and first bits of its mantissa: all keys in one are below those in the next.
-    buckets: Vec<Vec<Reverse<Waiting>>>,
+    buckets: Vec<Vec<Reverse<WaitingEdge>>>,
     /// Index of the next bucket; all of those before are in the heap.
     next: usize,
-    heap: BinaryHeap<Reverse<Waiting>>,
+    heap: BinaryHeap<Reverse<WaitingEdge>>,
 }
 
 impl Queue {
@@ -170,7 +170,7 @@ impl Queue {
         Ok(Queue { buckets: filled(Vec::new(), Queue::BUCKETS)?, next: 0, heap: BinaryHeap::new() })
     }
 
-    fn push(&mut self, waiting: Waiting) -> Result<()> {
+    fn push(&mut self, waiting: WaitingEdge) -> Result<()> {
         let bucket = ((waiting.key >> Queue::SHIFT) as usize).min(Queue::BUCKETS - 1);
         if bucket < self.next {
             push_to_heap(&mut self.heap, Reverse(waiting))
@@ -180,7 +180,7 @@ impl Queue {
     }
 
     /// The first, taken out.
-    fn pop(&mut self) -> Option<Waiting> {
+    fn pop(&mut self) -> Option<WaitingEdge> {
         while self.heap.is_empty() && self.next < self.buckets.len() {
             let bucket = std::mem::take(&mut self.buckets[self.next]);
             self.heap = BinaryHeap::from(bucket);
@@ -279,7 +279,7 @@ impl Collapse {
                 match self.best_place(h) {
                     // Its better places turn triangles over; its turn comes later.
                     Some(place) if place.key.to_bits() > waiting.key => {
-                        self.queue.push(Waiting { key: place.key.to_bits(), ..waiting })?;
+                        self.queue.push(WaitingEdge { key: place.key.to_bits(), ..waiting })?;
                     }
                     Some(place) => self.collapse(h, &place.at)?,
                     None => {}
@@ -304,10 +304,10 @@ impl Collapse {
     fn enqueue(&mut self, h: u32) -> Result<()> {
         let (_, places) = self.places(h);
         let key = places.iter().map(|place| place.key).fold(f64::INFINITY, f64::min).to_bits();
-        self.queue.push(Waiting { key, half_edge: h, stamp: self.stamp(h) })
+        self.queue.push(WaitingEdge { key, half_edge: h, stamp: self.stamp(h) })
     }
 
-    fn is_current(&self, waiting: &Waiting) -> bool {
+    fn is_current(&self, waiting: &WaitingEdge) -> bool {
         self.tail(waiting.half_edge) != GONE && self.stamp(waiting.half_edge) == waiting.stamp
     }
 
@@ -491,7 +491,7 @@ mod tests {
                 2 => 100.0,
                 _ => random.uniform(0.0, 1.0).powi(9),
             };
-            let waiting = Waiting { key: key.to_bits(), half_edge, stamp: half_edge % 7 };
+            let waiting = WaitingEdge { key: key.to_bits(), half_edge, stamp: half_edge % 7 };
             queue.push(waiting).unwrap();
             heap.push(Reverse(waiting));
             if half_edge % 3 == 0 {

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 
 use dashu_ratio::RBig;
-use swiftprox::body::polyhedron::{Edge, Face, NONE, PlaneBlock, Polyhedron};
+use swiftprox::body::polyhedron::{Edge, MergedFace, NONE, PlaneBlock, Polyhedron};
 use swiftprox::math::Vector;
 
 use testkit::random::Random;
@@ -229,11 +229,11 @@ fn edges(p: &Polyhedron) {
     assert_eq!(bevels, p.bevels.len());
 }
 
-fn sides<'a>(p: &'a Polyhedron, face: &Face) -> &'a [u32] {
+fn sides<'a>(p: &'a Polyhedron, face: &MergedFace) -> &'a [u32] {
     &p.sides[face.first_side as usize..(face.first_side + face.side_count) as usize]
 }
 
-fn side_plane<'a>(p: &'a Polyhedron, face: &'a Face, i: usize) -> (&'a PlaneBlock, usize) {
+fn side_plane<'a>(p: &'a Polyhedron, face: &'a MergedFace, i: usize) -> (&'a PlaneBlock, usize) {
     if i < 3 { (&face.planes, i + 1) } else { (&p.more_sides[face.first_more as usize + (i - 3) / 4], (i - 3) % 4) }
 }
 

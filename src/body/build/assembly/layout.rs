@@ -8,7 +8,7 @@ use crate::base::progress::Progress;
 use crate::body::build::merge::MergedFaces;
 use crate::body::build::slack::RiseBounds;
 use crate::body::polyhedron::triangulation::Triangulation;
-use crate::body::polyhedron::{Bevel, Edge, Face, NONE, NeighbourBlock, PlaneBlock, Polyhedron, Vertex};
+use crate::body::polyhedron::{Bevel, Edge, MergedFace, NONE, NeighbourBlock, PlaneBlock, Polyhedron, Vertex};
 
 /// The neighbours of a vertex with the edges to them: those along edges first, else counter-clockwise, each once (in a flat
 /// hull a diagonal occurs on both sides).
@@ -250,7 +250,7 @@ impl Polyhedron {
             }
             set_plane(&mut planes, 0, normal, -0.5 * (low + high));
             let first_sides = [0, 1, 2].map(|side| self.sides[first_side + side]);
-            self.faces.push(Face {
+            self.faces.push(MergedFace {
                 planes,
                 slack: slacks[face],
                 first_side: first_side as u32,

@@ -81,8 +81,8 @@ pub fn check_convexity(
     let origin = exact.approximate(hull.vertices[0]);
     let position: Vec<Vector> = collected((0..exact.len() as u32).map(|v| exact.approximate(v) - origin))?;
     let boundary = Boundary::new(hull, &position, &mut progress.part(0.0, 0.2))?;
-    let polygon = |f: usize| Polygon::new(mesh.face(f), &position);
-    let surface = Extent::of((0..mesh.face_count()).map(polygon), &mut progress.part(0.2, 0.3))?;
+    let polygon = |f: usize| CheckedPolygon::new(mesh.face(f), &position);
+    let surface = SurfaceMeasures::of((0..mesh.face_count()).map(polygon), &mut progress.part(0.2, 0.3))?;
     if hull.dimension == 3 && surface.is_inside_out() {
         return violation("the mesh is inside out: face 0 and all others run clockwise seen from outside".into());
     }
@@ -123,8 +123,8 @@ pub fn is_inside_out(mesh: &PolygonMesh, progress: &mut Progress) -> Result<bool
     let exact = ExactPoints::new(&mesh.vertices)?;
     let origin = exact.approximate(mesh.indices[0]);
     let position: Vec<Vector> = collected((0..exact.len() as u32).map(|v| exact.approximate(v) - origin))?;
-    let polygon = |f: usize| Polygon::new(mesh.face(f), &position);
-    Ok(Extent::of((0..mesh.face_count()).map(polygon), progress)?.is_inside_out())
+    let polygon = |f: usize| CheckedPolygon::new(mesh.face(f), &position);
+    Ok(SurfaceMeasures::of((0..mesh.face_count()).map(polygon), progress)?.is_inside_out())
 }
 
 /// A vertex farther from a plane than allowed.
@@ -134,7 +134,7 @@ struct Outside {
 }
 
 /// A face with its measures.
-struct Polygon<'a> {
+struct CheckedPolygon<'a> {
     corners: &'a [u32],
     /// The mean of the corners.
     centre: Vector,
@@ -143,8 +143,8 @@ struct Polygon<'a> {
     perimeter: f64,
 }
 
-impl<'a> Polygon<'a> {
-    fn new(corners: &'a [u32], position: &[Vector]) -> Polygon<'a> {
+impl<'a> CheckedPolygon<'a> {
+    fn new(corners: &'a [u32], position: &[Vector]) -> CheckedPolygon<'a> {
         let at = |i: usize| position[corners[i % corners.len()] as usize];
         let (mut centre, mut area, mut perimeter) = (Vector::zeros(), Vector::zeros(), 0.0);
         for i in 0..corners.len() {
@@ -152,7 +152,7 @@ impl<'a> Polygon<'a> {
             area += 0.5 * (at(i) - at(0)).cross(&(at(i + 1) - at(0)));
             perimeter += (at(i + 1) - at(i)).norm();
         }
-        Polygon { corners, centre: centre / corners.len() as f64, area, perimeter }
+        CheckedPolygon { corners, centre: centre / corners.len() as f64, area, perimeter }
     }
 
     /// All vertices of the mesh at most `allowed` outside of the face's plane, its own on either
@@ -202,7 +202,7 @@ impl<'a> Polygon<'a> {
 }
 
 /// An edge as it runs around one of its faces.
-pub(super) struct Side {
+pub(super) struct CheckedSide {
     /// That face and the one across.
     pub(super) faces: [u32; 2],
     pub(super) ends: [u32; 2],
@@ -212,14 +212,15 @@ pub(super) struct Side {
 /// if none does, rounding apart.
 pub(super) fn most_inward(
     mesh: &PolygonMesh,
-    sides: impl Iterator<Item = Side>,
+    sides: impl Iterator<Item = CheckedSide>,
     progress: &mut Progress,
-) -> Result<Option<Side>> {
+) -> Result<Option<CheckedSide>> {
     let exact = ExactPoints::new(&mesh.vertices)?;
     let position: Vec<Vector> = collected((0..exact.len() as u32).map(|v| exact.approximate(v)))?;
-    let polygon = |f: usize| Polygon::new(mesh.face(f), &position);
+    let polygon = |f: usize| CheckedPolygon::new(mesh.face(f), &position);
     // The faces may all run clockwise.
-    let outward = Extent::of((0..mesh.face_count()).map(polygon), &mut progress.part(0.0, 0.2))?.volume.signum();
+    let outward =
+        SurfaceMeasures::of((0..mesh.face_count()).map(polygon), &mut progress.part(0.0, 0.2))?.volume.signum();
     let mut best = (ROUNDING, None);
     let progress = &mut progress.part(0.2, 1.0);
     for (done, side) in sides.enumerate() {
@@ -237,7 +238,7 @@ pub(super) fn most_inward(
 }
 
 /// Measures of a whole surface.
-struct Extent {
+struct SurfaceMeasures {
     area: f64,
     /// Signed: positive when the faces run counter-clockwise seen from outside.
     volume: f64,
@@ -248,9 +249,12 @@ struct Extent {
     faces: usize,
 }
 
-impl Extent {
-    fn of<'a>(polygons: impl ExactSizeIterator<Item = Polygon<'a>>, progress: &mut Progress) -> Result<Extent> {
-        let mut sum = Extent { area: 0.0, volume: 0.0, perimeter: 0.0, squares: 0.0, faces: 0 };
+impl SurfaceMeasures {
+    fn of<'a>(
+        polygons: impl ExactSizeIterator<Item = CheckedPolygon<'a>>,
+        progress: &mut Progress,
+    ) -> Result<SurfaceMeasures> {
+        let mut sum = SurfaceMeasures { area: 0.0, volume: 0.0, perimeter: 0.0, squares: 0.0, faces: 0 };
         let all = polygons.len();
         for p in polygons {
             progress.steps(p.corners.len(), sum.faces, all)?;
@@ -280,12 +284,13 @@ impl Extent {
 fn check_single_cover(
     mesh: &PolygonMesh,
     boundary: &Boundary,
-    surface: &Extent,
+    surface: &SurfaceMeasures,
     allowed: f64,
     progress: &mut Progress,
 ) -> Result<()> {
     let position = boundary.position;
-    let whole = Extent::of(boundary.hull.triangles.iter().map(|t| Polygon::new(t, position)), progress)?;
+    let whole =
+        SurfaceMeasures::of(boundary.hull.triangles.iter().map(|t| CheckedPolygon::new(t, position)), progress)?;
     let area_allowed = 2.0 * allowed * (surface.perimeter + whole.perimeter);
     let volume_allowed =
         2.0 * allowed * (surface.area + whole.area) + surface.volume_rounding() + whole.volume_rounding();
@@ -436,7 +441,7 @@ impl<'a> Boundary<'a> {
     }
 
     fn largest_triangle(&self) -> usize {
-        let area = |t: &usize| Polygon::new(&self.hull.triangles[*t], self.position).area.norm();
+        let area = |t: &usize| CheckedPolygon::new(&self.hull.triangles[*t], self.position).area.norm();
         (0..self.hull.triangles.len()).max_by(|s, t| area(s).total_cmp(&area(t))).unwrap_or(0)
     }
 

@@ -12,7 +12,7 @@ use crate::base::memory::{collected, filled, listed, push, with_capacity};
 use crate::base::progress::Progress;
 use crate::body::build::hull::convex_hull_in_steps;
 use crate::body::mesh::{PolygonMesh, check_vertex};
-use convexity::{Side, most_inward};
+use convexity::{CheckedSide, most_inward};
 pub use convexity::{check_convexity, is_inside_out};
 pub(crate) use duplicates::first_of_equal;
 use edges::{Matching, match_edges};
@@ -55,7 +55,7 @@ pub fn check_mesh_in_steps(
 /// want to go on.
 pub fn check_surface(mesh: &PolygonMesh, progress: &mut Progress) -> Result<()> {
     check_indices(mesh)?;
-    let corners = Corners::new(mesh, &mut progress.part(0.0, 0.3))?;
+    let corners = MergedCorners::new(mesh, &mut progress.part(0.0, 0.3))?;
     corners.check_faces(&mut progress.part(0.3, 0.4))?;
     if let Some(v) = corners.unused_vertex()? {
         return violation(format!("vertex {v} belongs to no face"));
@@ -73,7 +73,7 @@ pub fn check_surface(mesh: &PolygonMesh, progress: &mut Progress) -> Result<()> 
 /// Same as [`check_surface`], for faults of the indices alone.
 pub fn vertex_of_no_face(mesh: &PolygonMesh, progress: &mut Progress) -> Result<Option<usize>> {
     check_indices(mesh)?;
-    Corners::new(mesh, progress)?.unused_vertex()
+    MergedCorners::new(mesh, progress)?.unused_vertex()
 }
 
 /// Keeps the other checks from failing on indices: [`PolygonMesh`] has public fields.
@@ -96,7 +96,7 @@ pub(crate) fn check_indices(mesh: &PolygonMesh) -> Result<()> {
 /// The faces over merged vertices: exactly equal ones are replaced by the first, and a vertex that
 /// thus follows itself in a face is left out once. A corner of a face stands for the directed edge
 /// to the next corner.
-struct Corners {
+struct MergedCorners {
     /// For every vertex of the mesh the first one that equals it.
     first: Vec<u32>,
     /// The (first equal) vertex of each corner, face by face.
@@ -109,9 +109,9 @@ struct Corners {
     starts: Vec<u32>,
 }
 
-impl Corners {
-    fn new(mesh: &PolygonMesh, progress: &mut Progress) -> Result<Corners> {
-        let mut corners = Corners {
+impl MergedCorners {
+    fn new(mesh: &PolygonMesh, progress: &mut Progress) -> Result<MergedCorners> {
+        let mut corners = MergedCorners {
             first: first_of_equal(&mesh.vertices, &mut progress.part(0.0, 0.5))?,
             vertex: with_capacity(mesh.indices.len())?,
             given: with_capacity(mesh.indices.len())?,
@@ -272,10 +272,10 @@ impl Corners {
         }
         let side = |(corner, twin): (u32, &u32)| {
             let ends = [corner, self.next(corner)].map(|c| self.given[c as usize]);
-            Side { faces: [corner, *twin].map(|c| self.face[c as usize]), ends }
+            CheckedSide { faces: [corner, *twin].map(|c| self.face[c as usize]), ends }
         };
         let bend = match most_inward(mesh, (0..).zip(twins).map(side), progress)? {
-            Some(Side { faces: [face, across], ends: [tail, head] }) => {
+            Some(CheckedSide { faces: [face, across], ends: [tail, head] }) => {
                 let (low, high) = (tail.min(head), tail.max(head));
                 format!("; at edge {low}-{high} face {across} bends out of the plane of face {face}")
             }

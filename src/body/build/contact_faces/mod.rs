@@ -59,7 +59,7 @@ pub fn find_contact_faces(polyhedron: &Polyhedron, noise: f64, progress: &mut Pr
     if polyhedron.dimension < 3 || !is_in_range || SLAB * noise <= merge_bound(polyhedron.radius) {
         return Ok(none);
     }
-    let hull = Hull::new(polyhedron, noise, &mut progress.part(0.0, 0.3))?;
+    let hull = FaceHull::new(polyhedron, noise, &mut progress.part(0.0, 0.3))?;
     let seeds = hull.seeds(&mut progress.part(0.3, 0.5))?;
     if seeds.is_empty() {
         return Ok(none);
@@ -137,7 +137,7 @@ impl ReferenceTriangle {
 }
 
 /// The triangles of a hull, and by how much their corners may be off.
-struct Hull<'a> {
+struct FaceHull<'a> {
     polyhedron: &'a Polyhedron,
     noise: f64,
     positions: Vec<Vector>,
@@ -149,8 +149,8 @@ struct Hull<'a> {
     has_plane: Vec<bool>,
 }
 
-impl<'a> Hull<'a> {
-    fn new(polyhedron: &'a Polyhedron, noise: f64, progress: &mut Progress) -> Result<Hull<'a>> {
+impl<'a> FaceHull<'a> {
+    fn new(polyhedron: &'a Polyhedron, noise: f64, progress: &mut Progress) -> Result<FaceHull<'a>> {
         let positions: Vec<Vector> = collected(polyhedron.vertices.iter().map(|v| v.position))?;
         let count = polyhedron.triangles.len();
         let (mut normals, mut sizes) = (with_capacity(count)?, with_capacity(count)?);
@@ -165,7 +165,7 @@ impl<'a> Hull<'a> {
         let triangles = copied(&polyhedron.triangles)?;
         let surface = Triangulation::new_in_steps(triangles, &normals, positions.len(), of_surface)?;
         let has_plane = filled(false, polyhedron.faces.len())?;
-        let mut hull = Hull { polyhedron, noise, positions, surface, normals, sizes, has_plane };
+        let mut hull = FaceHull { polyhedron, noise, positions, surface, normals, sizes, has_plane };
         for t in 0..count as u32 {
             let face = hull.face(t) as usize;
             hull.has_plane[face] |= !hull.is_thin(t);
@@ -237,7 +237,7 @@ impl<'a> Hull<'a> {
 
 /// Groups of triangles while they are found.
 struct Groups<'a> {
-    hull: &'a Hull<'a>,
+    hull: &'a FaceHull<'a>,
     /// The group of each triangle: its contact face, or [`UNCHANGED`].
     group_of: Vec<u32>,
     /// The last seed whose region a triangle was in.
@@ -253,7 +253,7 @@ struct Groups<'a> {
 const UNCHANGED: u32 = u32::MAX - 1;
 
 impl<'a> Groups<'a> {
-    fn new(hull: &'a Hull<'a>) -> Result<Groups<'a>> {
+    fn new(hull: &'a FaceHull<'a>) -> Result<Groups<'a>> {
         let count = hull.surface.triangles.len();
         let (group_of, region_of) = (filled(NONE, count)?, filled(NONE, count)?);
         let (failures, seen_in) = (filled(0, count)?, filled(0, hull.positions.len())?);
@@ -284,7 +284,7 @@ impl<'a> Groups<'a> {
 
     /// Triangles around a seed that could be in one plane with it, and their mean normal.
     fn grow(&mut self, seed: u32, tell: &mut impl FnMut(usize) -> Result<()>) -> Result<(Vec<u32>, Vector)> {
-        let Hull { surface, normals, sizes, noise, .. } = self.hull;
+        let FaceHull { surface, normals, sizes, noise, .. } = self.hull;
         let mut reference = self.hull.reference(seed);
         let mut sum = normals[seed as usize] * sizes[seed as usize];
         self.region_of[seed as usize] = seed;
@@ -317,7 +317,7 @@ impl<'a> Groups<'a> {
     /// All vertices within the slab below the support plane along a normal: they are connected, as those of a convex body beyond
     /// any plane.
     fn slab(&mut self, normal: &Vector, seed: u32, tell: &mut impl FnMut(usize) -> Result<()>) -> Result<Slab> {
-        let Hull { polyhedron, noise, positions, surface, .. } = self.hull;
+        let FaceHull { polyhedron, noise, positions, surface, .. } = self.hull;
         let (top, _) = polyhedron.support(normal, surface.tail(3 * seed));
         let bottom = normal.dot(&positions[top as usize]) - SLAB * noise;
         self.round += 1;

@@ -9,14 +9,14 @@ use crate::base::memory::{collected, filled, push, with_capacity};
 
 /// A point seen along the direction.
 #[derive(Debug, Clone, Copy)]
-struct Spot {
+struct OutlineSpot {
     x: f64,
     y: f64,
     vertex: u32,
 }
 
 /// Twice the signed area of a triangle.
-fn turn(a: &Spot, b: &Spot, c: &Spot) -> f64 {
+fn turn(a: &OutlineSpot, b: &OutlineSpot, c: &OutlineSpot) -> f64 {
     (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x)
 }
 
@@ -30,16 +30,16 @@ pub fn outline(positions: &[Vector], vertices: &[u32], normal: &Vector, toleranc
     let across = normal.cross(&aside);
     let spot = |&vertex: &u32| {
         let position = &positions[vertex as usize];
-        Spot { x: aside.dot(position), y: across.dot(position), vertex }
+        OutlineSpot { x: aside.dot(position), y: across.dot(position), vertex }
     };
     let hull = hull_of(collected(vertices.iter().map(spot))?)?;
     without_flat_corners(&hull, tolerance)
 }
 
 /// The hull of spots, counter-clockwise (A. M. Andrew, "Another Efficient Algorithm for Convex Hulls in Two Dimensions", 1979).
-fn hull_of(mut spots: Vec<Spot>) -> Result<Vec<Spot>> {
+fn hull_of(mut spots: Vec<OutlineSpot>) -> Result<Vec<OutlineSpot>> {
     spots.sort_unstable_by(|a, b| a.x.total_cmp(&b.x).then(a.y.total_cmp(&b.y)).then(a.vertex.cmp(&b.vertex)));
-    let mut hull: Vec<Spot> = with_capacity(2 * spots.len())?;
+    let mut hull: Vec<OutlineSpot> = with_capacity(2 * spots.len())?;
     for _ in 0..2 {
         let first = hull.len();
         for spot in &spots {
@@ -57,7 +57,7 @@ fn hull_of(mut spots: Vec<Spot>) -> Result<Vec<Spot>> {
 
 /// Takes corners away while one is within the tolerance of the line through its neighbours, the nearest to it first: outlines only
 /// shrink.
-fn without_flat_corners(hull: &[Spot], tolerance: f64) -> Result<Vec<u32>> {
+fn without_flat_corners(hull: &[OutlineSpot], tolerance: f64) -> Result<Vec<u32>> {
     let count = hull.len();
     let mut neighbours: Vec<[usize; 2]> = collected((0..count).map(|i| [(i + count - 1) % count, (i + 1) % count]))?;
     let mut is_there = filled(true, count)?;

@@ -42,7 +42,7 @@ const MANY_FACETS: usize = 32;
 const WORK_OF_FARTHEST: usize = 16;
 
 /// A triangle of the growing hull.
-struct Facet {
+struct HullFacet {
     /// Counter-clockwise from outside.
     corners: [u32; 3],
     /// `neighbours[i]` is across the edge from `corners[i]` to `corners[(i + 1) % 3]`.
@@ -51,7 +51,7 @@ struct Facet {
     /// The list of points whose turn comes with this facet; all see it. Continued in
     /// `Quickhull::next_outside`.
     first_outside: u32,
-    /// The point of the list that becomes a vertex: that with the largest value of [`Choice`], the lowest index among equals.
+    /// The point of the list that becomes a vertex: that with the largest value of [`ApexRule`], the lowest index among equals.
     apex: u32,
     value_of_apex: f64,
     /// Seen by a point that became a vertex; no longer part of the hull.
@@ -80,7 +80,7 @@ struct HorizonEdge {
 
 /// The rule for the next vertex in a facet's list; see this file's head.
 #[derive(Debug, Clone, Copy, PartialEq)]
-enum Choice {
+enum ApexRule {
     Farthest,
     Random,
 }
@@ -101,7 +101,7 @@ fn random_value(p: u32) -> f64 {
 pub(super) struct Quickhull<'a> {
     points: &'a ExactPoints,
     /// Never more than the largest hull on the way has, 2n − 4: removed ones are reused.
-    facets: Vec<Facet>,
+    facets: Vec<HullFacet>,
     /// Removed facets.
     free: Vec<u32>,
     /// Facets that had points in their lists, for the next round. One that was removed, and perhaps reused, while it waited does no
@@ -112,7 +112,7 @@ pub(super) struct Quickhull<'a> {
     /// The new facet whose first corner a point is, per point; valid while the facets of one new
     /// vertex are joined.
     new_facet_from: Vec<u32>,
-    choice: Choice,
+    choice: ApexRule,
     /// Tests of a point and facets made.
     work: usize,
     vertex_count: usize,
@@ -131,7 +131,7 @@ impl<'a> Quickhull<'a> {
             waiting: Vec::new(),
             next_outside: filled(NONE, points.len())?,
             new_facet_from: filled(NONE, points.len())?,
-            choice: Choice::Farthest,
+            choice: ApexRule::Farthest,
             work: 0,
             vertex_count: 4,
         };
@@ -152,11 +152,11 @@ impl<'a> Quickhull<'a> {
                 hull.begin_round(&mut round)?;
             }
             let Some((_, f)) = round.pop() else { break };
-            let Facet { first_outside, apex, .. } = *hull.facet(f);
+            let HullFacet { first_outside, apex, .. } = *hull.facet(f);
             if first_outside != NONE {
                 hull.vertex_count += 1;
                 if hull.work > work_of_farthest {
-                    hull.choice = Choice::Random;
+                    hull.choice = ApexRule::Random;
                 }
                 hull.remove_visible(f, apex, &mut cap, progress)?;
                 hull.take_outside(&cap.visible, apex, &mut outside, progress)?;
@@ -201,13 +201,13 @@ impl<'a> Quickhull<'a> {
         collected((0..self.points.len() as u32).filter(|v| sharp_edges[*v as usize] >= 3))
     }
 
-    fn facet(&self, f: u32) -> &Facet {
+    fn facet(&self, f: u32) -> &HullFacet {
         &self.facets[f as usize]
     }
 
     /// There is room for it.
     fn add_facet(&mut self, corners: [u32; 3], neighbours: [u32; 3]) -> u32 {
-        let facet = Facet {
+        let facet = HullFacet {
             corners,
             neighbours,
             plane: self.points.plane(corners),
@@ -241,8 +241,8 @@ impl<'a> Quickhull<'a> {
                 if fan.is_empty() { self.first_seen(facets, p) } else { self.first_seen_in_fan(&fan, p) };
             if let Some((f, height)) = seen {
                 let value = match self.choice {
-                    Choice::Farthest => height,
-                    Choice::Random => random_value(p),
+                    ApexRule::Farthest => height,
+                    ApexRule::Random => random_value(p),
                 };
                 let facet = &mut self.facets[f as usize];
                 let is_tie = value == facet.value_of_apex;
@@ -305,7 +305,7 @@ impl<'a> Quickhull<'a> {
         if ends.is_some() {
             return (ends, tests);
         }
-        let Facet { corners: [start, _, apex], .. } = *self.facet(fan[0]);
+        let HullFacet { corners: [start, _, apex], .. } = *self.facet(fan[0]);
         let (mut low, mut high) = (1, last);
         while high - low > 1 {
             let middle = usize::midpoint(low, high);
@@ -335,7 +335,7 @@ impl<'a> Quickhull<'a> {
         push(visible, start)?;
         let mut done = 0;
         while done < visible.len() {
-            let Facet { corners, neighbours, .. } = *self.facet(visible[done]);
+            let HullFacet { corners, neighbours, .. } = *self.facet(visible[done]);
             done += 1;
             self.count(3, progress)?;
             for side in 0..3 {
@@ -444,7 +444,7 @@ mod tests {
             waiting: Vec::new(),
             next_outside: Vec::new(),
             new_facet_from: Vec::new(),
-            choice: Choice::Farthest,
+            choice: ApexRule::Farthest,
             work: 0,
             vertex_count: 4,
         };

@@ -24,7 +24,7 @@ use crate::base::progress::Progress;
 use crate::body::polyhedron::NONE;
 use relaxation::Cone;
 pub use surface::DobkinKirkpatrick;
-use surface::{Triangle, normal, place_of};
+use surface::{SurfaceTriangle, normal, place_of};
 
 /// Vertices above this importance are peaks, and stay: without them the level would have to be scaled by much (Ehmann & Lin
 /// 2000, §4.4). A corner of a box has importance 3, so a box gets no level.
@@ -254,7 +254,7 @@ impl DobkinKirkpatrick<'_> {
     /// A new triangle; `across` is beyond the edge from its last corner to its first.
     fn add(&mut self, corners: [u32; 3], across: u32) -> Result<u32> {
         let normal = normal(&self.rays, corners);
-        let new = Triangle { corners, neighbours: [NONE, NONE, across], normal, region: NONE, is_free: false };
+        let new = SurfaceTriangle { corners, neighbours: [NONE, NONE, across], normal, region: NONE, is_free: false };
         let t = match self.free.pop() {
             Some(t) => {
                 self.triangles[t as usize] = new;

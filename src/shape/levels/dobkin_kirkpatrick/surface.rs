@@ -15,7 +15,7 @@ pub struct DobkinKirkpatrick<'a> {
     /// The body's vertices as seen from its centre of mass.
     pub(super) rays: Vec<Vector>,
     /// Free ones, to be reused, only while vertices are removed.
-    pub(super) triangles: Vec<Triangle>,
+    pub(super) triangles: Vec<SurfaceTriangle>,
     pub(super) free: Vec<u32>,
     /// For each vertex that is left one of its triangles; NONE for the others.
     pub(super) triangle_at: Vec<u32>,
@@ -27,7 +27,7 @@ pub struct DobkinKirkpatrick<'a> {
 }
 
 /// A triangle of the hull of the vertices that are left.
-pub(super) struct Triangle {
+pub(super) struct SurfaceTriangle {
     /// Counter-clockwise from outside; vertices of the body.
     pub(super) corners: [u32; 3],
     /// `neighbours[k]` is across the edge from `corners[k]` to `corners[(k + 1) % 3]`.
@@ -57,7 +57,7 @@ impl<'a> DobkinKirkpatrick<'a> {
         let mut triangles = with_capacity(base.triangles.len())?;
         for (t, (&corners, &normal)) in base.triangles.iter().zip(&normals).enumerate() {
             let neighbours = [0, 1, 2].map(|k| surface.twins[3 * t + k] / 3);
-            triangles.push(Triangle { corners, neighbours, normal, region: NONE, is_free: false });
+            triangles.push(SurfaceTriangle { corners, neighbours, normal, region: NONE, is_free: false });
             for v in corners {
                 triangle_at[v as usize] = t as u32;
             }
@@ -123,7 +123,7 @@ impl<'a> DobkinKirkpatrick<'a> {
 }
 
 /// The corner of a triangle that a vertex is.
-pub(super) fn place_of(triangle: &Triangle, v: u32) -> usize {
+pub(super) fn place_of(triangle: &SurfaceTriangle, v: u32) -> usize {
     debug_assert!(triangle.corners.contains(&v));
     triangle.corners.iter().position(|w| *w == v).unwrap_or(0)
 }

@@ -76,7 +76,7 @@ struct DualTriangle {
 
 /// A corner waiting to be cut: the bits of a deviation ≥ 0, which are ordered as the numbers are; among equal ones the oldest.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
-struct Waiting {
+struct WaitingCut {
     deviation: u64,
     corner: Reverse<u32>,
 }
@@ -89,7 +89,7 @@ pub struct Cuts<'a> {
     corners: Vec<DualTriangle>,
     /// Corners that are not removed.
     corner_count: usize,
-    queue: BinaryHeap<Waiting>,
+    queue: BinaryHeap<WaitingCut>,
     /// The new corner whose first plane is this one; valid while the corners of one cut are joined.
     new_corner_from: Vec<u32>,
 }
@@ -150,7 +150,7 @@ impl<'a> Cuts<'a> {
 
     /// An upper bound of how far a corner stands off, the rounding of corners apart.
     pub fn deviation(&mut self) -> f64 {
-        while let Some(&Waiting { deviation, corner: Reverse(corner) }) = self.queue.peek() {
+        while let Some(&WaitingCut { deviation, corner: Reverse(corner) }) = self.queue.peek() {
             if !self.corners[corner as usize].removed {
                 return f64::from_bits(deviation);
             }
@@ -184,7 +184,7 @@ impl<'a> Cuts<'a> {
         let position = self.place(planes);
         let index = self.corners.len() as u32;
         let NearestPoint { point: nearest, upper, vertex } = self.block.distance.nearest(&position, hint);
-        push_to_heap(&mut self.queue, Waiting { deviation: upper.to_bits(), corner: Reverse(index) })?;
+        push_to_heap(&mut self.queue, WaitingCut { deviation: upper.to_bits(), corner: Reverse(index) })?;
         push(&mut self.corners, DualTriangle { planes, neighbours, position, nearest, vertex, removed: false })?;
         self.corner_count += 1;
         Ok(index)
@@ -193,7 +193,7 @@ impl<'a> Cuts<'a> {
     /// Cuts off the corner that stands off farthest; `false` if none does.
     fn cut(&mut self) -> Result<bool> {
         while self.deviation() > LEAST_DEVIATION * self.block.base.radius {
-            let Some(Waiting { corner: Reverse(worst), .. }) = self.queue.pop() else {
+            let Some(WaitingCut { corner: Reverse(worst), .. }) = self.queue.pop() else {
                 break;
             };
             let DualTriangle { position, nearest, vertex, .. } = self.corners[worst as usize];
