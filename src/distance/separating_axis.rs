@@ -107,8 +107,9 @@ impl<L: Lanes> AxisTrial<L> {
         // |RᵀU| ≤ 1.02|U|.
         let length = 1.02 * square.sqrt();
         let towards = [body1.rotate_back(direction).negate(), body2.rotate_back(direction)];
-        let is_clear = climb(body1, &mut vertices[0], towards[0], length, longest_climb, &mut steps)
-            && climb(body2, &mut vertices[1], towards[1], length, longest_climb, &mut steps);
+        let [climb1, climb2] = towards.map(|towards| AxisClimb { towards, length, longest: longest_climb });
+        let is_clear =
+            climb1.run(body1, &mut vertices[0], &mut steps) && climb2.run(body2, &mut vertices[1], &mut steps);
         let position1 = &body1.polyhedron.vertices[vertices[0] as usize].position;
         let position2 = &body2.polyhedron.vertices[vertices[1] as usize].position;
         let difference = frame.difference(position1, position2);
@@ -175,17 +176,28 @@ fn farthest<L: Lanes>(frame: &Frame<L>, direction: L) -> Option<[u32; 2]> {
     }
 }
 
-/// Climbs to a vertex all of whose neighbours lie clearly behind in a direction; whether it reached one.
-#[inline(always)]
-fn climb<L: Lanes>(body: &Body<L>, vertex: &mut u32, towards: L, length: f64, longest: u32, steps: &mut u32) -> bool {
-    for _ in 0..longest {
-        *steps += 1;
-        let Some(corner) = Corner::of(body.polyhedron, *vertex) else { return false };
-        match test_vertex(Rule::Most, corner, towards, length, 0.0) {
-            VertexTest::Strict => return true,
-            VertexTest::Tied => return false,
-            VertexTest::Leaves { head, .. } => *vertex = head,
+/// A climb to a vertex all of whose neighbours lie clearly behind in a direction.
+struct AxisClimb<L> {
+    towards: L,
+    /// At least that of the direction.
+    length: f64,
+    /// The most vertices to look at.
+    longest: u32,
+}
+
+impl<L: Lanes> AxisClimb<L> {
+    /// Climbs from a vertex; whether it reached such a one.
+    #[inline(always)]
+    fn run(&self, body: &Body<L>, vertex: &mut u32, steps: &mut u32) -> bool {
+        for _ in 0..self.longest {
+            *steps += 1;
+            let Some(corner) = Corner::of(body.polyhedron, *vertex) else { return false };
+            match test_vertex(Rule::Most, corner, self.towards, self.length, 0.0) {
+                VertexTest::Strict => return true,
+                VertexTest::Tied => return false,
+                VertexTest::Leaves { head, .. } => *vertex = head,
+            }
         }
+        false
     }
-    false
 }

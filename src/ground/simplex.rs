@@ -74,7 +74,7 @@ pub(super) fn nearest(
                 return NearestOfTriangle::Open;
             }
             return match limit.distance([lower, upper], distance) {
-                Some(found) => NearestOfTriangle::Apart(simplex.contact(body, reach, triangle, &up, limit, found)),
+                Some(found) => NearestOfTriangle::Apart(simplex.contact(body, reach, triangle, &up, found)),
                 None => NearestOfTriangle::Open,
             };
         }
@@ -146,7 +146,6 @@ impl TriangleSimplex {
         reach: &GroundReach,
         triangle: &PlacedTriangle,
         up: &Vector,
-        limit: Limit,
         found: SignedDistance,
     ) -> SignedDistance {
         let (mut own, mut on) = (Vector::zeros(), Vector::zeros());
@@ -173,7 +172,7 @@ impl TriangleSimplex {
             [one, other] => (FeatureKind::Edge, [labels[one], labels[other]]),
             _ => (FeatureKind::Face, [triangle.own.label, 0]),
         };
-        let world1 = own - up * limit.radius;
+        let world1 = own - up * body.body.shape.swept_radius();
         SignedDistance {
             local1: local_point(pose, &world1).into(),
             local2: reach.point(&on).into(),

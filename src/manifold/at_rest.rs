@@ -838,7 +838,8 @@ mod tests {
                 dispatch_to_avx2(&mut Clipping { bodies: &bodies, contact: &contact, patches: &patches, writing })
             });
             add_points(&mut swept, |points| {
-                sweep(bodies, &patches, (&Reference::NONE, &mut reference), &config, &contact, points)
+                let writing = Writing { reference: &mut reference, config: &config, points };
+                sweep(bodies, &contact, &patches, &Reference::NONE, writing)
             })
             .unwrap();
             if is_found.unwrap().is_none() {

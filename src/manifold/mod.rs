@@ -35,7 +35,7 @@ use crate::shape::Placed;
 use answer::FOUR;
 pub(crate) use answer::Reference;
 pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
-use at_rest::{Answered, AtRest};
+use at_rest::{Answered, AtRest, Writing};
 use clip::Precision;
 pub(crate) use four::four_of_points;
 pub use half_space::half_space_manifold;
@@ -225,7 +225,7 @@ fn make(
         return answer;
     }
     if let Some(patches) = choose_patches(bodies, contact, &last) {
-        let found = clip(bodies, &patches, (&last, before), config, contact, points);
+        let found = clip(bodies, contact, &patches, &last, Writing { reference: before, config, points });
         if found > 0 {
             answer.reference = patches.reference as u32 + 1;
             (answer.point_count, answer.found_count) = (points.written as u32, found as u32);
@@ -260,11 +260,10 @@ const MOST_NAMED: usize = 1024;
 /// Writes the points that both patches have in common, of any poses and patches; how many there are.
 fn clip(
     bodies: [Placed; 2],
-    patches: &Patches,
-    (last, now): (&Reference, &mut Reference),
-    config: &ManifoldConfig,
     contact: &SignedDistance,
-    points: &mut Sink,
+    patches: &Patches,
+    last: &Reference,
+    Writing { reference: now, config, points }: Writing,
 ) -> usize {
     let pair = &Pair::of(&bodies);
     let Pair { polyhedra, poses } = *pair;

@@ -1,7 +1,7 @@
 //! The queries of a pair.
 
 use super::cache::PairCache;
-use super::ladder::{self, Glances};
+use super::ladder;
 use super::signed_distance::{self, SignedDistance, SignedDistanceCache};
 use super::swept;
 #[cfg(doc)]
@@ -29,7 +29,7 @@ pub fn distance(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    query_with(Query::Distance, Glances::Asked, &bodies, cache, config, answer)
+    query_with(Query::Distance, &bodies, cache, config, answer)
 }
 
 /// The verdict alone: [`Outcome::Separated`] with `lower` > 0 and a valid but not tight `upper`, or [`Outcome::Intersecting`]; and
@@ -43,7 +43,7 @@ pub fn intersection(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    query_with(Query::Intersection, Glances::Asked, &bodies, cache, config, answer)
+    query_with(Query::Intersection, &bodies, cache, config, answer)
 }
 
 /// As [`distance`], and for an intersecting pair a common point (as witness points of both objects), the unit normal along which
@@ -52,7 +52,7 @@ pub fn intersection(
 /// # Errors
 /// As [`distance`].
 pub fn contact(bodies: [Placed; 2], cache: &mut PairCache, config: &PairConfig, answer: &mut PairAnswer) -> Result<()> {
-    query_with(Query::Contact, Glances::Asked, &bodies, cache, config, answer)
+    query_with(Query::Contact, &bodies, cache, config, answer)
 }
 
 /// The distance as narrow as asked for, or as exact answers are: the interval holds the true distance, and the query stops as
@@ -72,7 +72,7 @@ pub fn approximate(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    query_with(Query::Approximate, Glances::Asked, &bodies, cache, config, answer)
+    query_with(Query::Approximate, &bodies, cache, config, answer)
 }
 
 /// As [`intersection`], by marching as Ehmann & Lin had it: neither bounding spheres nor the last separating axis are asked. For
@@ -87,13 +87,15 @@ pub fn intersection_by_marching(
     config: &PairConfig,
     answer: &mut PairAnswer,
 ) -> Result<()> {
-    query_with(Query::Intersection, Glances::LeftOut, &bodies, cache, config, answer)
+    if Radii::are_there(&bodies) {
+        return swept::query(Query::Intersection, &bodies, cache, config, answer);
+    }
+    ladder::intersection_by_marching(&bodies, cache, config, answer)
 }
 
 #[inline(always)]
 fn query_with(
     query: Query,
-    glances: Glances,
     bodies: &[Placed; 2],
     cache: &mut PairCache,
     config: &PairConfig,
@@ -102,7 +104,7 @@ fn query_with(
     if Radii::are_there(bodies) {
         return swept::query(query, bodies, cache, config, answer);
     }
-    ladder::ask(query, glances, bodies, cache, config, answer)
+    ladder::ask(query, bodies, cache, config, answer)
 }
 
 /// How deep two objects are in each other, see [`DepthAnswer`]. Separated objects are detected, but only a normal that separates

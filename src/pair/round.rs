@@ -20,10 +20,13 @@ use crate::shape::Placed;
 macro_rules! fill_surfaces {
     ($round:ident, $frame:ident, $nearest:ident, $answer:ident) => {
         $nearest.normal.store_vector(&mut $answer.normal);
-        let (local, world) = (&mut $answer.local1, &mut $answer.world1);
-        $answer.feature1 = $round.fill($frame, &$nearest, 0, -$round.radii.each[0], local, world);
-        let (local, world) = (&mut $answer.local2, &mut $answer.world2);
-        $answer.feature2 = $round.fill($frame, &$nearest, 1, $round.radii.each[1], local, world);
+        let [out1, out2] = [-$round.radii.each[0], $round.radii.each[1]];
+        $round.local($frame, &$nearest, 0, out1).store_vector(&mut $answer.local1);
+        $nearest.world($frame, 0, out1).store_vector(&mut $answer.world1);
+        $answer.feature1 = $nearest.feature($frame, 0);
+        $round.local($frame, &$nearest, 1, out2).store_vector(&mut $answer.local2);
+        $nearest.world($frame, 1, out2).store_vector(&mut $answer.world2);
+        $answer.feature2 = $nearest.feature($frame, 1);
     };
 }
 
@@ -139,27 +142,17 @@ impl Round<'_> {
         true
     }
 
-    /// Points on a body's surface, its radius from those of the polyhedron: `out` along the normal. Gives the feature.
+    /// A point on a body's surface in its frame, its radius from that of the polyhedron: `out` along the normal.
     #[inline(always)]
-    fn fill<L: Lanes>(
-        &self,
-        frame: &Frame<L>,
-        nearest: &NearestOfRound<L>,
-        i: usize,
-        out: f64,
-        local: &mut [f64; 3],
-        world: &mut [f64; 3],
-    ) -> Feature {
-        let (body, by) = (&frame.bodies[i], L::splat(out));
+    fn local<L: Lanes>(&self, frame: &Frame<L>, nearest: &NearestOfRound<L>, i: usize, out: f64) -> L {
+        let body = &frame.bodies[i];
         let turned = if frame.rigid {
             body.rotate_back(nearest.normal)
         } else {
             turned_back::<L>(self.bodies[i].pose, &nearest.normal.to_vector())
         };
         let point = nearest.points[i].add(L::from_vector(&body.polyhedron.centre));
-        turned.mul_add(by, point).store_vector(local);
-        nearest.normal.mul_add(by, nearest.rotated[i].add(body.translation)).store_vector(world);
-        label(body.polyhedron, nearest.features[i], &Vector::zeros())
+        turned.mul_add(L::splat(out), point)
     }
 }
 
@@ -204,6 +197,17 @@ struct NearestOfRound<L> {
 const PARALLEL: f64 = 1e-6;
 
 impl<L: Lanes> NearestOfRound<L> {
+    /// As [`Round::local`], in the world.
+    #[inline(always)]
+    fn world(&self, frame: &Frame<L>, i: usize, out: f64) -> L {
+        self.normal.mul_add(L::splat(out), self.rotated[i].add(frame.bodies[i].translation))
+    }
+
+    #[inline(always)]
+    fn feature(&self, frame: &Frame<L>, i: usize) -> Feature {
+        label(frame.bodies[i].polyhedron, self.features[i], &Vector::zeros())
+    }
+
     /// Any weights s and t of the ends make points of the bodies, and any direction a gap: what rounding makes of both costs width.
     #[inline(always)]
     fn of(frame: &Frame<L>) -> NearestOfRound<L> {

@@ -2,7 +2,7 @@
 //! where they overlap. One interval goes through zero; so do the normal and the witness points.
 
 use super::cache::PairCache;
-use super::ladder::{self, Glances};
+use super::ladder;
 use crate::answer::{Feature, Outcome, PairAnswer, PairConfig, Query};
 use crate::base::error::Result;
 use crate::base::simd::Lanes;
@@ -126,7 +126,7 @@ pub(crate) fn of_polyhedra(
         cache.depth.expect_apart();
     }
     let mut apart = PairAnswer::default();
-    ladder::ask(Query::Distance, Glances::Asked, bodies, &mut cache.distance, config, &mut apart)?;
+    ladder::ask(Query::Distance, bodies, &mut cache.distance, config, &mut apart)?;
     if !(apart.outcome == Outcome::Intersecting && overlaps(bodies, cache, answer)?) {
         *answer = SignedDistance::from(&apart);
     }

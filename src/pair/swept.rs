@@ -2,7 +2,7 @@
 //! they answer. If the interval does not tell on which side of 0 or of the tolerance the rest is, integers do.
 
 use super::cache::PairCache;
-use super::ladder::{self, Glances};
+use super::ladder;
 use super::round::{AnswerPlace, Round, are_round};
 use super::signed_distance::{SignedDistance, SignedDistanceCache, of_polyhedra};
 use crate::answer::{
@@ -56,13 +56,9 @@ pub(super) fn query(
     let needs_distance = !is_verdict || radii.deviation > 0.0;
     let asked = if query == Query::Intersection && needs_distance { Query::Distance } else { query };
     // A refusal leaves the answer as it was.
-    ladder::ask(asked, Glances::Asked, bodies, cache, &of_polyhedra, answer)?;
+    ladder::ask(asked, bodies, cache, &of_polyhedra, answer)?;
     let is_open = query == Query::Approximate && is_too_wide(answer, radii, config);
-    let asked = if is_open {
-        ladder::ask(Query::Distance, Glances::Asked, bodies, cache, &of_polyhedra, answer)
-    } else {
-        Ok(())
-    };
+    let asked = if is_open { ladder::ask(Query::Distance, bodies, cache, &of_polyhedra, answer) } else { Ok(()) };
     if let Err(error) = asked.and_then(|()| take_off(query, bodies, radii, tolerance, answer)) {
         *answer = PairAnswer::UNSAID;
         return Err(error);
@@ -212,7 +208,7 @@ pub(super) fn depth(
 fn distance_apart(bodies: &[Placed; 2], radii: &Radii) -> Result<Option<SignedDistance>> {
     let mut found = PairAnswer::default();
     let within = PairConfig { max_distance: radii.upper, ..PairConfig::default() };
-    ladder::ask(Query::Distance, Glances::Asked, bodies, &mut PairCache::default(), &within, &mut found)?;
+    ladder::ask(Query::Distance, bodies, &mut PairCache::default(), &within, &mut found)?;
     Ok((found.outcome != Outcome::Intersecting).then(|| SignedDistance::from(&found)))
 }
 

@@ -36,19 +36,17 @@ pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray, radius: f64)
             return answer;
         }
     }
-    swept_exact::cast(polyhedron, pose, ray, radius, guess, &mut answer);
-    answer
+    RayAnswer { steps: answer.steps, ..swept_exact::cast(polyhedron, pose, ray, radius, guess) }
 }
 
 /// The same, whatever doubles prove.
 pub(super) fn cast_in_integers(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray, radius: f64) -> RayAnswer {
-    let mut answer = cast(polyhedron, pose, ray, radius);
-    if answer.exact == 0 {
-        let guess = [answer.entry[0], answer.exit[0]];
-        answer = RayAnswer { steps: answer.steps, ..RayAnswer::default() };
-        swept_exact::cast(polyhedron, pose, ray, radius, guess, &mut answer);
+    let answer = cast(polyhedron, pose, ray, radius);
+    if answer.exact != 0 {
+        return answer;
     }
-    answer
+    let guess = [answer.entry[0], answer.exit[0]];
+    RayAnswer { steps: answer.steps, ..swept_exact::cast(polyhedron, pose, ray, radius, guess) }
 }
 
 /// Says what doubles prove, if that is all; and about where the ends are.

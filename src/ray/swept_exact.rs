@@ -17,21 +17,13 @@ use crate::placed::exact::dyadic::bounds_of_quotient_by_root;
 use crate::placed::exact::{BesideLine, LinePlace};
 
 /// Casts the ray anew; `guess` is where doubles have both ends, or NaN.
-pub(super) fn cast(
-    polyhedron: &Polyhedron,
-    pose: &Pose,
-    ray: &Ray,
-    radius: f64,
-    guess: [f64; 2],
-    answer: &mut RayAnswer,
-) {
+pub(super) fn cast(polyhedron: &Polyhedron, pose: &Pose, ray: &Ray, radius: f64, guess: [f64; 2]) -> RayAnswer {
     debug_assert!(radius > 0.0);
     let cast = SweptCast { line: BesideLine::new(polyhedron, pose, ray.origin, ray.direction), radius };
     let end = if ray.t_max < f64::INFINITY { CastStep::of(ray.t_max) } else { beyond(polyhedron, pose, ray, radius) };
-    answer.exact = 1;
-    answer.outcome = RayOutcome::Miss;
+    let mut answer = RayAnswer { outcome: RayOutcome::Miss, exact: 1, ..RayAnswer::default() };
     if cast.compare(CastStep::FIRST, end).is_gt() {
-        return;
+        return answer;
     }
     let origin = cast.line.nearest([CastStep::FIRST.place(); 2]);
     let at_origin = origin.compare(radius);
@@ -49,7 +41,7 @@ pub(super) fn cast(
     if begins_inside {
         answer.outcome = RayOutcome::Inside;
         answer.entry = [0.0; 2];
-        return;
+        return answer;
     }
     answer.outcome = RayOutcome::Hit;
     // Outside the body or on its surface, as near to where the ray comes in as doubles are.
@@ -63,6 +55,7 @@ pub(super) fn cast(
     let point: Vector = weighted.map(|(weight, &v)| polyhedron.vertices[v as usize].position * *weight).sum();
     let feature = feature_of_vertices(polyhedron, &vertices, &point, &pose.rotate_back(&normal), 0.0);
     answer.feature = label(polyhedron, feature, &point);
+    answer
 }
 
 struct SweptCast<'a> {

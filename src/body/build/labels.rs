@@ -20,6 +20,16 @@ const MOST_CORNERS_TRIED: usize = 8;
 /// Faces around a vertex beyond which only those that lie in a polygon's direction are candidates for it.
 const MOST_FACES_TRIED: usize = 32;
 
+/// The caller's polygons beside a hull.
+pub struct ScaledPolygons<'a> {
+    /// Their corners by index.
+    pub mesh: &'a PolygonMesh,
+    /// The vertices of the mesh, centred and scaled like the hull.
+    pub points: &'a [Vector],
+    /// How far off a face a polygon may be that is over it.
+    pub near: f64,
+}
+
 /// Labels every face by its own index: for a hull of bare points.
 ///
 /// # Errors
@@ -32,27 +42,25 @@ pub fn label_by_index(polyhedron: &mut Polyhedron) -> Result<()> {
 }
 
 /// Puts every polygon on the face it lies on, and gives a face that got none the label of a neighbour, or the one that is for
-/// bare faces. `points` are the mesh's vertices, centred like the polyhedron; `numbers` gives the labels of the mesh's faces, if
-/// they are not their indices.
+/// bare faces. `numbers` gives the labels of the mesh's faces, if they are not their indices.
 ///
 /// Polygons lie on the hull up to the convexity tolerance, so some of their vertices may not be hull vertices, or by an ulp only
 /// of the face beyond an edge. The candidates for a polygon are the faces around its hull vertices, or, where it has none,
 /// around the hull's support in its normal's direction. Among those whose planes hold it within rounding, or else hold it
 /// best, the one with the closest normal wins. A polygon that this face does not hold within rounding is on all that it lies over
-/// and is at most `near` off.
+/// and is at most [`ScaledPolygons::near`] off.
 ///
 /// # Errors
 /// [`crate::base::error::Error::Cancelled`] when the caller does not want to go on; [`crate::base::error::Error::Memory`].
 pub fn label_by_polygons(
     polyhedron: &mut Polyhedron,
-    points: &[Vector],
-    mesh: &PolygonMesh,
+    polygons: &ScaledPolygons,
     numbers: Option<&Numbers>,
-    near: f64,
     progress: &mut Progress,
 ) -> Result<()> {
+    let ScaledPolygons { mesh, points, .. } = *polygons;
     let face_count = polyhedron.faces.len();
-    let found = faces_of_polygons(polyhedron, points, mesh, near, &mut progress.part(0.0, 0.9))?;
+    let found = faces_of_polygons(polyhedron, polygons, &mut progress.part(0.0, 0.9))?;
     // From here on in the order of labels.
     let polygons = numbers.map(|numbers| places_of(&numbers.faces)).transpose()?;
     let polygon = |label: u32| polygons.as_ref().map_or(label, |polygons| polygons[label as usize]) as usize;
@@ -104,12 +112,10 @@ struct FacesOfPolygons {
     starts: Vec<u32>,
 }
 
-/// The faces on which each polygon lies, or over which, where it is at most `near` off them.
+/// The faces on which each polygon lies, or over which, where it is at most [`ScaledPolygons::near`] off them.
 fn faces_of_polygons(
     polyhedron: &Polyhedron,
-    points: &[Vector],
-    mesh: &PolygonMesh,
-    near: f64,
+    &ScaledPolygons { mesh, points, near }: &ScaledPolygons,
     progress: &mut Progress,
 ) -> Result<FacesOfPolygons> {
     debug_assert!(mesh.divides_indices());

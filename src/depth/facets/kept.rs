@@ -210,7 +210,8 @@ fn look_at_face<L: Lanes>(frame: &Frame<L>, body: usize, face: u32) -> Result<Pr
     // Sides and their offsets are right to some 10u of 3ρ, the place to less than `error`.
     let (inside, side) = least_inside(own.polyhedron, record, below);
     if !(inside > 0.0) {
-        return Err(next_across(frame, body, face, side, vertex, m));
+        let (edge, away) = side_of(own, record, side);
+        return Err(L::out_of_line(&mut GiftWrap { frame, body, edge, vertex, m, away, from: [face, NONE] }));
     }
     let [h, aside] = middle(frame, own, other, m, error);
     if !encloses(inside - 2.0 * error, h, aside, upper) {
@@ -251,16 +252,12 @@ fn least_inside<L: Lanes>(polyhedron: &Polyhedron, face: &MergedFace, place: L) 
     (inside, (first.to_array()[lane & 3] + lane as f64) as usize)
 }
 
-/// The facet across a side of a face.
+/// The edge at a side of a face, and the direction in the plane of the face away from it.
 #[inline(always)]
-fn next_across<L: Lanes>(frame: &Frame<L>, body: usize, face: u32, side: usize, vertex: u32, m: L) -> NextFacet {
-    let own = &frame.bodies[body];
-    let record = &own.polyhedron.faces[face as usize];
-    let side = side.min(record.side_count as usize - 1);
-    let [x, y, z, _] = own.polyhedron.side_plane(record, side);
-    let edge = own.polyhedron.side(record, side as u32);
-    let away = own.rotate(&Vector::new(x, y, z)).negate();
-    L::out_of_line(&mut GiftWrap { frame, body, edge, vertex, m, away, from: [face, NONE] })
+fn side_of<L: Lanes>(body: &Body<L>, face: &MergedFace, side: usize) -> (u32, L) {
+    let side = side.min(face.side_count as usize - 1);
+    let [x, y, z, _] = body.polyhedron.side_plane(face, side);
+    (body.polyhedron.side(face, side as u32), body.rotate(&Vector::new(x, y, z)).negate())
 }
 
 /// Gift wrapping: the facet across the side that an edge of a body and a vertex of the other make.

@@ -89,8 +89,10 @@ pub struct Demand {
     pub centre: Vector,
     /// Whether they are to look away from the origin instead of from the centre.
     pub about_origin: bool,
-    /// No plane may be nearer to the origin than this.
+    /// No plane may be nearer to the origin than this, …
     pub least: f64,
+    /// … by more than rounding.
+    pub rounding: PairRounding,
 }
 
 /// Triangles beyond which no more are taken in that are not as demanded.
@@ -104,11 +106,10 @@ pub fn insert<L: Lanes, const V: usize, const T: usize, const W: usize>(
     edges: &mut Edges<V, W>,
     beyond: usize,
     apex: Apex,
-    rounding: &PairRounding,
     demand: &Demand,
 ) -> bool {
-    let mut region = visible::<L, V, T>(polytope, beyond, apex.vertex, rounding);
-    replace::<L, V, T, W>(polytope, edges, &mut region, apex, rounding, demand)
+    let mut region = visible::<L, V, T>(polytope, beyond, apex.vertex, &demand.rounding);
+    replace::<L, V, T, W>(polytope, edges, &mut region, apex, demand)
 }
 
 /// Takes a corner of a triangle out: what is around it gives way to the cone from another corner of the triangle.
@@ -117,14 +118,13 @@ pub fn take_out<L: Lanes, const V: usize, const T: usize, const W: usize>(
     polytope: &mut Polytope<V, T>,
     edges: &mut Edges<V, W>,
     triangle: usize,
-    rounding: &PairRounding,
     demand: &Demand,
 ) -> bool {
     let corners = polytope.corners_of(triangle);
     for (k, vertex) in [(1, 0), (2, 0), (2, 1), (0, 1), (0, 2), (1, 2)] {
         let mut region = around(polytope, triangle, corners[vertex]);
         let apex = Apex { vertex: corners[k], is_known: true };
-        if replace::<L, V, T, W>(polytope, edges, &mut region, apex, rounding, demand) {
+        if replace::<L, V, T, W>(polytope, edges, &mut region, apex, demand) {
             return true;
         }
     }
@@ -149,7 +149,6 @@ fn replace<L: Lanes, const V: usize, const T: usize, const W: usize>(
     edges: &mut Edges<V, W>,
     region: &mut Region,
     apex: Apex,
-    rounding: &PairRounding,
     demand: &Demand,
 ) -> bool {
     for _ in 0..MOST_TAKEN {
@@ -157,7 +156,7 @@ fn replace<L: Lanes, const V: usize, const T: usize, const W: usize>(
         let Some(to) = lay_cone(polytope, edges, region, apex.vertex) else { return false };
         let folded = if apex.is_known { folded(polytope, region, apex.vertex, from, to) } else { Folded::Nowhere };
         let wrong = match folded {
-            Folded::Nowhere => match judge::<L, V, T>(polytope, from, to, rounding, demand) {
+            Folded::Nowhere => match judge::<L, V, T>(polytope, from, to, demand) {
                 Verdict::AsDemanded => {
                     polytope.triangle_count = to;
                     remove(polytope, region);
@@ -374,15 +373,14 @@ fn judge<L: Lanes, const V: usize, const T: usize>(
     polytope: &mut Polytope<V, T>,
     from: usize,
     to: usize,
-    rounding: &PairRounding,
     demand: &Demand,
 ) -> Verdict {
-    let least = evaluate::<L, V, T>(polytope, rounding, &demand.centre, from, to);
+    let least = evaluate::<L, V, T>(polytope, &demand.rounding, &demand.centre, from, to);
     let side = if demand.about_origin { least.distance } else { least.height };
-    if side > 0.0 && least.distance + rounding.plane > demand.least {
+    if side > 0.0 && least.distance + demand.rounding.plane > demand.least {
         return Verdict::AsDemanded;
     }
-    find_wrong(polytope, from, to, rounding, demand)
+    find_wrong(polytope, from, to, demand)
 }
 
 /// The first triangle that looks the wrong way, before any that is too near.
@@ -392,7 +390,6 @@ fn find_wrong<const V: usize, const T: usize>(
     polytope: &Polytope<V, T>,
     from: usize,
     to: usize,
-    rounding: &PairRounding,
     demand: &Demand,
 ) -> Verdict {
     for triangle in from..to {
@@ -403,7 +400,7 @@ fn find_wrong<const V: usize, const T: usize>(
         if distance == NO_PLANE || !(side > 0.0) {
             return Verdict::Wrong(triangle);
         }
-        if !(distance + rounding.plane > demand.least) {
+        if !(distance + demand.rounding.plane > demand.least) {
             break;
         }
     }
@@ -463,14 +460,14 @@ mod tests {
     fn what_is_inserted_leaves_a_cycle_around_the_centre() {
         let mut random = Random::new(5);
         let (mut polytope, mut edges) = (tetrahedron(), Edges::<64, 1>::EMPTY);
-        let demand = Demand { centre: Vector::zeros(), about_origin: false, least: NO_PLANE };
+        let demand = Demand { centre: Vector::zeros(), about_origin: false, least: NO_PLANE, rounding: ROUNDING };
         for count in 5..60 {
             let point = random.direction() * 3_f64.sqrt();
             let vertex = polytope.add_vertex([count, 0], [point.x, point.y, point.z, 0.0]).unwrap();
             let farthest = (0..polytope.triangle_count).map(|t| polytope.normal(t).dot(&point) - polytope.distances[t]);
             let (beyond, _) = farthest.enumerate().max_by(|a, b| a.1.total_cmp(&b.1)).unwrap();
             let apex = Apex { vertex, is_known: false };
-            assert!(insert::<Portable, 64, 128, 1>(&mut polytope, &mut edges, beyond, apex, &ROUNDING, &demand));
+            assert!(insert::<Portable, 64, 128, 1>(&mut polytope, &mut edges, beyond, apex, &demand));
             assert_eq!(polytope.triangle_count, 2 * count as usize - 4);
             assert!(edges.are_cycle(&polytope.corners[..polytope.triangle_count], polytope.vertex_count));
             assert!(polytope.distances[..polytope.triangle_count].iter().all(|distance| *distance > 0.1));
@@ -501,9 +498,9 @@ mod tests {
         polytope.triangle_count = 6;
         let centre = Vector::new(0.0, 0.0, -0.4);
         evaluate::<Portable, 64, 128>(&mut polytope, &ROUNDING, &centre, 0, 6);
-        let demand = Demand { centre, about_origin: false, least: NO_PLANE };
+        let demand = Demand { centre, about_origin: false, least: NO_PLANE, rounding: ROUNDING };
         let apex = Apex { vertex: 3, is_known: true };
-        assert!(insert::<Portable, 64, 128, 1>(&mut polytope, &mut edges, 0, apex, &ROUNDING, &demand));
+        assert!(insert::<Portable, 64, 128, 1>(&mut polytope, &mut edges, 0, apex, &demand));
         assert_eq!(polytope.triangle_count, 6);
         assert!(edges.are_cycle(&polytope.corners[..6], 5));
         assert!(

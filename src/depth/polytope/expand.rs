@@ -106,12 +106,11 @@ pub fn expand<L: Lanes, const V: usize, const T: usize, const W: usize>(
     let rounding = PairRounding::of(frame);
     let mut search = Expander {
         frame,
-        rounding,
         share: 1.0 - 1.0 / (1.0 + wanted.relative),
         width: if wanted.width > rounding.provable { wanted.width } else { rounding.provable },
         best: NearestFacet { upper: f64::INFINITY, excess: 0.0, direction: Vector::zeros(), farthest: [0; 2] },
         lower: wanted.lower,
-        demand: Demand { centre: centre_of_differences(frame), about_origin: false, least: NO_PLANE },
+        demand: Demand { centre: centre_of_differences(frame), about_origin: false, least: NO_PLANE, rounding },
         edges: Edges::<V, W>::EMPTY,
         steps: 0,
         supports: 0,
@@ -146,7 +145,6 @@ struct NearestFacet {
 
 struct Expander<'a, L, const V: usize, const W: usize> {
     frame: &'a Frame<'a, L>,
-    rounding: PairRounding,
     /// How wide the interval may be …
     width: f64,
     /// … or as a share of its upper end.
@@ -219,7 +217,7 @@ impl<L: Lanes, const V: usize, const W: usize> Expander<'_, L, V, W> {
         known: Option<&Vector>,
         most_steps: u32,
     ) -> Option<Vector> {
-        let centre = first::make(self.frame, polytope, &self.rounding, known, &mut self.supports)?;
+        let centre = first::make(self.frame, polytope, &self.demand.rounding, known, &mut self.supports)?;
         if V > MOST_PROPOSED {
             return Some(centre);
         }
@@ -229,11 +227,11 @@ impl<L: Lanes, const V: usize, const W: usize> Expander<'_, L, V, W> {
         let [steps, supports] = propose::<L, V, T, W>(self.frame, polytope, &mut self.edges, &goal);
         self.steps += steps;
         self.supports += supports;
-        if evaluate::<L, V, T>(polytope, &self.rounding, &centre, 0, polytope.triangle_count).height > 0.0 {
+        if evaluate::<L, V, T>(polytope, &self.demand.rounding, &centre, 0, polytope.triangle_count).height > 0.0 {
             return Some(centre);
         }
         // Single precision has turned a triangle over.
-        first::make(self.frame, polytope, &self.rounding, known, &mut self.supports)
+        first::make(self.frame, polytope, &self.demand.rounding, known, &mut self.supports)
     }
 
     /// Upper bounds of differences too flat for a search: across the part of a polytope that exists, and along the axes of the
@@ -258,9 +256,9 @@ impl<L: Lanes, const V: usize, const W: usize> Expander<'_, L, V, W> {
     fn takes_over<const T: usize>(&mut self, polytope: &mut Polytope<V, T>, start: &SearchStart) -> bool {
         let count = polytope.triangle_count;
         let Some(triangle) = start.triangle.filter(|triangle| *triangle < count) else { return false };
-        let least = evaluate::<L, V, T>(polytope, &self.rounding, &self.demand.centre, 0, count);
+        let least = evaluate::<L, V, T>(polytope, &self.demand.rounding, &self.demand.centre, 0, count);
         let distance = polytope.distances[triangle];
-        let about_origin = !(least.height > self.rounding.plane);
+        let about_origin = !(least.height > self.demand.rounding.plane);
         // No support makes those fewer that are nearer than the plane that it is beyond.
         let is_far =
             (about_origin && !(least.distance > 0.0)) || nearer_than(polytope, distance - self.width) > MOST_STALE;
@@ -293,11 +291,11 @@ impl<L: Lanes, const V: usize, const W: usize> Expander<'_, L, V, W> {
         let value = self.best.upper - self.best.excess;
         let share = self.share * value;
         let target = value - if share > self.width { share } else { self.width };
-        let provable = value - self.rounding.provable;
+        let provable = value - self.demand.rounding.provable;
         let least = if provable > 0.0 { f64::MIN_POSITIVE } else { provable };
         let target = if target > least { target } else { least };
         // If the bounds meet, the planes' error still is between the distance of a triangle and the support beyond it, twice.
-        let lower = self.lower.min(value - 2.0 * self.rounding.plane);
+        let lower = self.lower.min(value - 2.0 * self.demand.rounding.plane);
         if target > lower { target } else { lower }
     }
 
@@ -305,7 +303,7 @@ impl<L: Lanes, const V: usize, const W: usize> Expander<'_, L, V, W> {
     #[inline(always)]
     fn ask(&mut self, direction: &Vector, from: Option<VertexPair>, enough: f64) -> Support {
         self.supports += 1;
-        let found = support(self.frame, &self.rounding, direction, from, enough);
+        let found = support(self.frame, &self.demand.rounding, direction, from, enough);
         if found.upper < self.best.upper {
             let Support { upper, excess, pair, .. } = found;
             self.best = NearestFacet { upper, excess, direction: *direction, farthest: pair };
@@ -355,7 +353,7 @@ impl<L: Lanes, const V: usize, const W: usize> Expander<'_, L, V, W> {
             let from = (!is_coarse).then_some(polytope.pairs[usize::from(highest)]);
             // Beyond the plane, and no less bound than is known: then it is a vertex to insert, whether it is the farthest or
             // not.
-            let beyond = highest_value + 2.0 * self.rounding.plane;
+            let beyond = highest_value + 2.0 * self.demand.rounding.plane;
             let found = self.ask(&normal, from, if self.best.upper > beyond { self.best.upper } else { beyond });
             if self.best.upper < 0.0 {
                 return Advance::Separated;
@@ -363,19 +361,19 @@ impl<L: Lanes, const V: usize, const W: usize> Expander<'_, L, V, W> {
             if polytope.distances[triangle] >= self.target() {
                 return Advance::On;
             }
-            if found.value - highest_value > self.rounding.plane && self.insert(polytope, triangle, &found) {
+            if found.value - highest_value > self.demand.rounding.plane && self.insert(polytope, triangle, &found) {
                 *straightened = None;
                 return Advance::On;
             }
             if *straightened != Some(triangle) {
                 *straightened = Some(triangle);
-                if straighten(self.frame, polytope, &self.rounding, triangle) {
+                if straighten(self.frame, polytope, &self.demand.rounding, triangle) {
                     return Advance::On;
                 }
             }
         }
         let direction = (self.best.upper < f64::INFINITY).then_some(&self.best.direction);
-        if sharpen(polytope, &self.rounding, triangle, direction) { Advance::On } else { Advance::Stuck }
+        if sharpen(polytope, &self.demand.rounding, triangle, direction) { Advance::On } else { Advance::Stuck }
     }
 
     /// Inserts a support vertex beyond a triangle. Where the polytope has it already, that has to raise the least distance, so that
@@ -387,10 +385,9 @@ impl<L: Lanes, const V: usize, const W: usize> Expander<'_, L, V, W> {
         let Some(vertex) = known.or_else(added) else { return false };
         let apex = Apex { vertex, is_known: known.is_some() && polytope.has_triangle(vertex) };
         let before = polytope.distances[triangle];
-        let raised = before + self.rounding.plane;
+        let raised = before + self.demand.rounding.plane;
         self.demand.least = if apex.is_known && before > 0.0 { raised + 1e-9 * raised } else { NO_PLANE };
-        insert::<L, V, T, W>(polytope, &mut self.edges, triangle, apex, &self.rounding, &self.demand)
-            || (apex.is_known
-                && take_out::<L, V, T, W>(polytope, &mut self.edges, triangle, &self.rounding, &self.demand))
+        insert::<L, V, T, W>(polytope, &mut self.edges, triangle, apex, &self.demand)
+            || (apex.is_known && take_out::<L, V, T, W>(polytope, &mut self.edges, triangle, &self.demand))
     }
 }

@@ -35,7 +35,9 @@ pub fn make<L: Lanes, const V: usize, const T: usize>(
         None => GENERIC,
     };
     for lean in LEANS {
-        if bipyramid(frame, polytope, rounding, &centre, &tips_and_sides(&tip, lean), supports) {
+        let is_there = bipyramid(frame, polytope, &tips_and_sides(&tip, lean), supports);
+        let count = polytope.triangle_count;
+        if is_there && evaluate::<L, V, T>(polytope, rounding, &centre, 0, count).height > rounding.plane {
             return Some(centre);
         }
     }
@@ -61,13 +63,11 @@ fn tips_and_sides(tip: &Vector, lean: f64) -> [Vector; 5] {
 }
 
 /// Two tips and three vertices around the line between them; those and the lower tip where the upper one is among them. No if two
-/// others are one, or the centre is not inside.
+/// others are one.
 #[inline(always)]
 fn bipyramid<L: Lanes, const V: usize, const T: usize>(
     frame: &Frame<L>,
     polytope: &mut Polytope<V, T>,
-    rounding: &PairRounding,
-    centre: &Vector,
     directions: &[Vector; 5],
     supports: &mut u32,
 ) -> bool {
@@ -94,7 +94,7 @@ fn bipyramid<L: Lanes, const V: usize, const T: usize>(
         polytope.corners[3] = [0, 1, 2, 0];
     }
     polytope.triangle_count = if has_tip { 6 } else { 4 };
-    evaluate::<L, V, T>(polytope, rounding, centre, 0, polytope.triangle_count).height > rounding.plane
+    true
 }
 
 /// Four differences far from each other, and their mean.

@@ -24,8 +24,7 @@ use crate::shape::Placed;
 use decision::Hint;
 pub(crate) use level_choice::least_error;
 use level_search::LevelSearched;
-pub(super) use query::Glances;
-use query::{Attempt, PairQuery};
+use query::{Attempt, Glances, PairQuery};
 
 /// A query of two polyhedra.
 ///
@@ -34,7 +33,6 @@ use query::{Attempt, PairQuery};
 #[inline(always)]
 pub(super) fn ask(
     query: Query,
-    glances: Glances,
     bodies: &[Placed; 2],
     cache: &mut PairCache,
     config: &PairConfig,
@@ -42,13 +40,32 @@ pub(super) fn ask(
 ) -> Result<()> {
     // Before there is a query in memory (R6), and before a number is refused, which comparing and printing may trap.
     if !environment::is_default() {
-        return ask_in_default(query, glances, bodies, cache, config, found);
+        return ask_in_default(query, bodies, cache, config, found);
     }
     // Not by `?`, which looks again whether the error in memory is one, and keeps what it needs if not in registers (R3).
     if !config.is_in_range(query) {
         return Err(config.first_fault());
     }
-    answer(query, &mut PairQuery { query, bodies, cache, config, answer: found }, glances)
+    answer(query, &mut PairQuery { query, bodies, cache, config, answer: found }, Glances::Asked)
+}
+
+/// The verdict alone, of marching: neither bounding spheres nor the last separating axis are asked.
+///
+/// # Errors
+/// As of [`distance`](crate::pair::distance).
+pub(super) fn intersection_by_marching(
+    bodies: &[Placed; 2],
+    cache: &mut PairCache,
+    config: &PairConfig,
+    found: &mut PairAnswer,
+) -> Result<()> {
+    let query = Query::Intersection;
+    with_default(|| {
+        if !config.is_in_range(query) {
+            return Err(config.first_fault());
+        }
+        answer(query, &mut PairQuery { query, bodies, cache, config, answer: found }, Glances::LeftOut)
+    })
 }
 
 /// Whether balls inside two bodies overlap; the answer then says so. Over the bodies balls are swept whose radii have this sum,
@@ -69,13 +86,12 @@ pub(super) fn swept_balls_overlap(
 #[inline(never)]
 fn ask_in_default(
     query: Query,
-    glances: Glances,
     bodies: &[Placed; 2],
     cache: &mut PairCache,
     config: &PairConfig,
     found: &mut PairAnswer,
 ) -> Result<()> {
-    with_default(|| ask(query, glances, bodies, cache, config, found))
+    with_default(|| ask(query, bodies, cache, config, found))
 }
 
 /// From the first rung. The query is also handed on by value (R6).

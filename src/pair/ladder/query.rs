@@ -15,7 +15,7 @@ use crate::shape::Placed;
 
 /// Whether the rungs that need no marching are asked first: bounding spheres and the last separating axis.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Glances {
+pub(super) enum Glances {
     Asked,
     /// For a figure of the paper, which knew neither.
     LeftOut,

@@ -15,7 +15,7 @@ use crate::scene::search::events::Events;
 use crate::scene::search::findings::{Before, Findings};
 use crate::scene::search::gathering::{all_pairs_of, near_pairs_of, pairs_of_last};
 use crate::scene::search::narrow_phase::{Own, Pass};
-use crate::scene::search::parts::{PartFindings, run_in_parts};
+use crate::scene::search::parts::PartFindings;
 use crate::scene::search::query::{PlacedBody, SceneAnswer, SceneEvents, SceneQuery, Subject};
 use crate::scene::search::request::Request;
 use crate::scene::search::shares::{Need, deal};
@@ -190,18 +190,20 @@ impl Search {
 
     /// True if the query stopped at an intersecting pair, the last result.
     fn ask_all(&mut self, searched: &mut Searched, request: &Request) -> Result<bool> {
-        let Some(budget) = request.error_budget else { return self.pass_over_all(searched, request) };
+        if request.error_budget.is_none() {
+            return self.pass_over_all(searched, request);
+        }
         if !searched.world.keeps_list(request.tolerance) {
             // Which pairs may take shares is known of near pairs alone.
             return self.pass_over_all(searched, &request.with_share(None));
         }
         self.bring_up_to_date(searched, request.tolerance)?;
-        let share = self.share(searched, request, budget)?;
+        let share = self.share(searched, request)?;
         self.pass_over_all(searched, &request.with_share(Some(share)))
     }
 
     /// The share of each pair that has one in a budget: while nothing moves, it stays the same.
-    fn share(&mut self, searched: &mut Searched, request: &Request, budget: f64) -> Result<f64> {
+    fn share(&mut self, searched: &mut Searched, request: &Request) -> Result<f64> {
         let (proxies, list) = (&searched.world.proxies, &mut searched.near.list);
         let Kept { pass, asked, .. } = &mut self.kept[self.latest];
         if let (Some(pass), Some(asked)) = (&pass, &asked)
@@ -212,7 +214,7 @@ impl Search {
         {
             return Ok(share);
         }
-        let dealt = deal(request, budget, proxies, &mut list.pairs, &list.marks[self.latest], &mut self.needs)?;
+        let dealt = deal(request, proxies, &mut list.pairs, &list.marks[self.latest], &mut self.needs)?;
         if !dealt.is_for_all {
             *pass = None;
         }
@@ -261,7 +263,7 @@ impl Search {
         let pass = Pass::new(request, proxies, gives_again.then_some(&self.before));
         let looks = if gives_again { self.before.looks(pairs, finds_contacts) } else { pairs };
         let stopped = if searched.workers.share(looks) && !request.early_exit {
-            run_in_parts(searched.workers, &mut self.parts, &pass, list, kind, findings)?;
+            pass.run_in_parts(searched.workers, &mut self.parts, list, kind, findings)?;
             false
         } else {
             let NearPairs { pairs, marks, caches, contacts, .. } = list;

@@ -85,44 +85,46 @@ impl PairCaches for Together<'_> {
     }
 }
 
-/// As [`Pass::run`] over all near pairs with the marks of a kind, which never stops early, by several threads.
-///
-/// # Errors
-/// [`Error::Memory`](crate::base::error::Error::Memory).
-pub(crate) fn run_in_parts(
-    workers: &Workers,
-    kept: &mut Vec<PartFindings>,
-    pass: &Pass,
-    near: &mut NearPairs,
-    kind: usize,
-    findings: &mut Findings,
-) -> Result<()> {
-    let NearPairs { pairs, marks, caches, contacts, .. } = near;
-    let marks = &mut marks[kind];
-    let size = workers.part_size(pairs.len()).next_multiple_of(BLOCK);
-    let count = pairs.len().div_ceil(size);
-    reserve(kept, count.saturating_sub(kept.len()))?;
-    kept.resize_with(count.max(kept.len()), PartFindings::default);
-    let kept = &mut kept[..count];
-    let run = |((pairs, marks), found): ((&mut [NearPair], &mut [PairMark]), &mut PartFindings)| {
-        let PartFindings { findings, written } = found;
-        findings.clear();
-        written.clear();
-        pass.run(pairs, marks, &mut Together { caches, contacts, written }, findings)
-    };
-    let results = workers.map(pairs.chunks_mut(size).zip(marks.chunks_mut(size)).zip(kept.iter_mut()), run)?;
-    let (mut firsts, mut new) = (with_capacity(count)?, 0);
-    for (result, PartFindings { findings: found, written }) in results.into_iter().zip(&*kept) {
-        result?;
-        firsts.push(findings.append(found, new)?);
-        new += found.slots.count();
-        written.put(contacts)?;
+impl Pass<'_> {
+    /// As [`Pass::run`] over all near pairs with the marks of a kind, which never stops early, by several threads.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub(crate) fn run_in_parts(
+        &self,
+        workers: &Workers,
+        kept: &mut Vec<PartFindings>,
+        near: &mut NearPairs,
+        kind: usize,
+        findings: &mut Findings,
+    ) -> Result<()> {
+        let NearPairs { pairs, marks, caches, contacts, .. } = near;
+        let marks = &mut marks[kind];
+        let size = workers.part_size(pairs.len()).next_multiple_of(BLOCK);
+        let count = pairs.len().div_ceil(size);
+        reserve(kept, count.saturating_sub(kept.len()))?;
+        kept.resize_with(count.max(kept.len()), PartFindings::default);
+        let kept = &mut kept[..count];
+        let run = |((pairs, marks), found): ((&mut [NearPair], &mut [PairMark]), &mut PartFindings)| {
+            let PartFindings { findings, written } = found;
+            findings.clear();
+            written.clear();
+            self.run(pairs, marks, &mut Together { caches, contacts, written }, findings)
+        };
+        let results = workers.map(pairs.chunks_mut(size).zip(marks.chunks_mut(size)).zip(kept.iter_mut()), run)?;
+        let (mut firsts, mut new) = (with_capacity(count)?, 0);
+        for (result, PartFindings { findings: found, written }) in results.into_iter().zip(&*kept) {
+            result?;
+            firsts.push(findings.append(found, new)?);
+            new += found.slots.count();
+            written.put(contacts)?;
+        }
+        let rooms = findings.rooms(kept.iter().map(|part| &part.findings))?;
+        let parts = marks.chunks_mut(size).zip(firsts).zip(rooms).zip(&*kept);
+        workers.map(parts, |(((marks, first), mut room), part)| {
+            room.fill(&part.findings);
+            marks.iter_mut().for_each(|mark| mark.shift_result(first));
+        })?;
+        Ok(())
     }
-    let rooms = findings.rooms(kept.iter().map(|part| &part.findings))?;
-    let parts = marks.chunks_mut(size).zip(firsts).zip(rooms).zip(&*kept);
-    workers.map(parts, |(((marks, first), mut room), part)| {
-        room.fill(&part.findings);
-        marks.iter_mut().for_each(|mark| mark.shift_result(first));
-    })?;
-    Ok(())
 }

@@ -27,19 +27,19 @@ pub(crate) struct Deal {
 /// The need of the maps or the levels of a pair, and its place in the list.
 pub(crate) type Need = (f64, u32);
 
-/// Says of each pair whether it takes a share. `marks` are those of the last pass that asked the same.
+/// Says of each pair whether it takes a share of the request's budget; none does without one. `marks` are those of the last pass that asked the same.
 ///
 /// # Errors
 /// [`Error::Memory`](crate::base::error::Error::Memory).
 pub(crate) fn deal(
     request: &Request,
-    budget: f64,
     proxies: &Proxies,
     pairs: &mut [NearPair],
     marks: &[PairMark],
     needs: &mut Vec<Need>,
 ) -> Result<Deal> {
     needs.clear();
+    let budget = request.error_budget.unwrap_or(0.0);
     for (k, (pair, mark)) in (0..).zip(pairs.iter_mut().zip(marks)) {
         pair.takes_share = false;
         let [a, b] = pair.proxies.map(|proxy| proxy as usize);

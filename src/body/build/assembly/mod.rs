@@ -14,7 +14,7 @@ use crate::base::normal::{area_vector, normal_of};
 use crate::base::progress::Progress;
 use crate::body::build::fan::fan_of;
 use crate::body::build::hull::{Hull, convex_hull};
-use crate::body::build::labels::{label_by_index, label_by_polygons};
+use crate::body::build::labels::{ScaledPolygons, label_by_index, label_by_polygons};
 use crate::body::build::mass::mass_properties;
 use crate::body::build::merge::{MergedFaces, Triangles, merge_bound, merge_faces};
 use crate::body::build::outlines::outlines_of;
@@ -65,7 +65,8 @@ pub fn build_in_steps(
     match polygons {
         Some(mesh) if polyhedron.dimension >= 2 && mesh.face_count() > 0 => {
             let near = numbers.map_or(f64::INFINITY, |numbers| numbers.near) * factor;
-            label_by_polygons(&mut polyhedron, &scaled, mesh, numbers, near, &mut progress.part(0.88, 0.97))?;
+            let polygons = ScaledPolygons { mesh, points: &scaled, near };
+            label_by_polygons(&mut polyhedron, &polygons, numbers, &mut progress.part(0.88, 0.97))?;
         }
         _ => label_by_index(&mut polyhedron)?,
     }
