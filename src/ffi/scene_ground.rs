@@ -140,7 +140,7 @@ unsafe fn find<'a>(
     })
 }
 
-/// The objects whose contacts are sought.
+/// The ground or half-space that objects may meet.
 enum FloorInput<'a> {
     Ground(PlacedGround<'a>),
     HalfSpace(&'a HalfSpace),
