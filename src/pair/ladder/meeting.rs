@@ -36,15 +36,15 @@ impl PairQuery<'_> {
         self.query == Query::Intersection
             && self.config.start == Start::Automatic
             && self.is_simple()
-            && simd::dispatch_to_avx2(&mut Meeting { pair: self })
+            && simd::dispatch_to_avx2(&mut OverlapWalk { pair: self })
     }
 }
 
-struct Meeting<'a, 'b> {
+struct OverlapWalk<'a, 'b> {
     pair: &'a mut PairQuery<'b>,
 }
 
-impl Kernel for Meeting<'_, '_> {
+impl Kernel for OverlapWalk<'_, '_> {
     type Output = bool;
 
     #[inline(always)]
