@@ -21,7 +21,7 @@ const MOST_EXCHANGES: u32 = 10;
 const GENERIC: Vector = Vector::new(0.48, 0.31, 0.82);
 
 /// Where the walk ended; nothing of it is proved yet but the enclosure.
-enum End<L> {
+enum WalkEnd<L> {
     /// The tetrahedron holds the origin.
     Encloses([VertexPair; 4]),
     /// No vertex of the difference seems to lie as far as the origin along a direction.
@@ -57,7 +57,7 @@ impl Kernel for OverlapWalk<'_, '_> {
         }
         let (end, supports) = walk(&frame);
         match end {
-            End::Encloses(pairs) => {
+            WalkEnd::Encloses(pairs) => {
                 pair.cache.remember_enclosure(&pairs);
                 frame.mark(&mut pair.cache.marker);
                 let polyhedra = pair.polyhedra();
@@ -70,7 +70,7 @@ impl Kernel for OverlapWalk<'_, '_> {
                 contact::fill_nothing(answer);
                 true
             }
-            End::Apart(direction, vertices) => {
+            WalkEnd::Apart(direction, vertices) => {
                 let trial = AxisTrial::along(&frame, direction.negate(), vertices);
                 let is_answer = trial.separates() && pair.is_settled_by(&trial.interval);
                 if is_answer {
@@ -80,14 +80,14 @@ impl Kernel for OverlapWalk<'_, '_> {
                 }
                 is_answer
             }
-            End::Unclear => false,
+            WalkEnd::Unclear => false,
         }
     }
 }
 
 /// Walks, and counts the support vertices.
 #[inline(always)]
-fn walk<L: Lanes>(frame: &Frame<L>) -> (End<L>, u32) {
+fn walk<L: Lanes>(frame: &Frame<L>) -> (WalkEnd<L>, u32) {
     let mut pairs = [[0; 2]; 4];
     let mut corners = [L::splat(0.0); 4];
     // From the centres' difference to the origin, then back, around the line between both, and out of the triangle.
@@ -95,10 +95,10 @@ fn walk<L: Lanes>(frame: &Frame<L>) -> (End<L>, u32) {
     let is_off = centre.dot(centre) > 1e-12 * frame.size * frame.size;
     let mut direction = if is_off { centre.negate() } else { L::from_vector(&GENERIC) };
     for k in 0..4 {
-        let Some(unit) = unit(direction) else { return (End::Unclear, k as u32) };
+        let Some(unit) = unit(direction) else { return (WalkEnd::Unclear, k as u32) };
         let (pair, corner) = rough_support(frame, unit, None);
         if unit.dot(corner) < 0.0 {
-            return (End::Apart(unit, pair), k as u32 + 1);
+            return (WalkEnd::Apart(unit, pair), k as u32 + 1);
         }
         (pairs[k], corners[k]) = (pair, corner);
         direction = match k {
@@ -110,7 +110,7 @@ fn walk<L: Lanes>(frame: &Frame<L>) -> (End<L>, u32) {
     for supports in 4..4 + MOST_EXCHANGES {
         let sides = sides_of_faces(frame, &corners);
         if sides.certain == 4 {
-            return (End::Encloses(pairs), supports);
+            return (WalkEnd::Encloses(pairs), supports);
         }
         let mut outermost = 0;
         for k in 1..4 {
@@ -122,18 +122,18 @@ fn walk<L: Lanes>(frame: &Frame<L>) -> (End<L>, u32) {
         let normal = b.sub(a).cross(c.sub(a));
         let is_inward = normal.dot(corners[outermost].sub(a)) > 0.0;
         let Some(outward) = unit(if is_inward { normal.negate() } else { normal }) else {
-            return (End::Unclear, supports);
+            return (WalkEnd::Unclear, supports);
         };
         let (pair, corner) = rough_support(frame, outward, None);
         if outward.dot(corner) < 0.0 {
-            return (End::Apart(outward, pair), supports + 1);
+            return (WalkEnd::Apart(outward, pair), supports + 1);
         }
         if pairs.contains(&pair) {
-            return (End::Unclear, supports + 1);
+            return (WalkEnd::Unclear, supports + 1);
         }
         (pairs[outermost], corners[outermost]) = (pair, corner);
     }
-    (End::Unclear, 4 + MOST_EXCHANGES)
+    (WalkEnd::Unclear, 4 + MOST_EXCHANGES)
 }
 
 /// Of unit length; `None` of a direction too short for that.

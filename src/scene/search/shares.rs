@@ -27,7 +27,8 @@ pub(crate) struct Deal {
 /// The need of the maps or the levels of a pair, and its place in the list.
 pub(crate) type Need = (f64, u32);
 
-/// Says of each pair whether it takes a share of the request's budget; none does without one. `marks` are those of the last pass that asked the same.
+/// Says of each pair whether it takes a share of the request's budget; none does without one. `marks` are
+/// those of the last pass that asked the same.
 ///
 /// # Errors
 /// [`Error::Memory`](crate::base::error::Error::Memory).

@@ -1,5 +1,5 @@
-// Bullet's btGjkPairDetector of its own primitives, in double precision (Debian's bullet-float64): the last separating axis is kept,
-// and depths come of its penetration solver by EPA.
+// Bullet's btGjkPairDetector of its own primitives, in double precision (Debian's bullet-float64): the last separating axis is
+// kept, and depths come of its penetration solver by EPA.
 
 #include <BulletCollision/CollisionShapes/btBoxShape.h>
 #include <BulletCollision/CollisionShapes/btCapsuleShape.h>
