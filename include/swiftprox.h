@@ -548,7 +548,7 @@ typedef enum swiftprox_decided_by SWIFTPROX_INT32 {
   SWIFTPROX_DECIDED_BY_MARCHING = 1,
   /** What proved the last verdict, or nearly that: vertex pairs that enclose the origin, or a separating axis. */
   SWIFTPROX_DECIDED_BY_COHERENCE = 2,
-  /** Gilbert-Johnson-Keerthi in floating point. */
+  /** Support vertices of the Minkowski difference, in floating point: a walk for a verdict, else Gilbert-Johnson-Keerthi. */
   SWIFTPROX_DECIDED_BY_FALLBACK = 3,
   /** Integer arithmetic. */
   SWIFTPROX_DECIDED_BY_INTEGERS = 4,
@@ -593,7 +593,7 @@ typedef struct swiftprox_feature {
 typedef struct swiftprox_statistics {
   /** Voronoi marching: feature pairs visited. */
   uint32_t marching_steps;
-  /** Gilbert-Johnson-Keerthi iterations in floating point: of the fallback, and of approximate queries. */
+  /** Support vertices of a verdict's walk; else Gilbert-Johnson-Keerthi iterations, of the fallback and of approximate queries. */
   uint32_t fallback_iterations;
   /** Iterations in integer arithmetic. It allocates, and so does a query that makes a table or levels. */
   uint32_t exact_iterations;

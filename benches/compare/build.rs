@@ -35,7 +35,7 @@ fn main() {
     Shim { peer: "mujoco", sources: &["src/peers/mujoco.c"], flags: mujoco }.link(cc::Build::new().std("c99"));
     Shim { peer: "jolt", sources: &["src/peers/jolt.cpp"], flags: jolt() }
         .link(cc::Build::new().cpp(true).std("c++17"));
-    for header in ["src/peers/hull.h", "src/peers/peer.h", "src/cast/peer.h"] {
+    for header in ["src/peers/bullet.h", "src/peers/hull.h", "src/peers/peer.h", "src/cast/peer.h"] {
         println!("cargo:rerun-if-changed={header}");
     }
 }

@@ -31,7 +31,7 @@ pub enum DecidedBy {
     Marching = 1,
     /// What proved the last verdict, or nearly that: vertex pairs that enclose the origin, or a separating axis.
     Coherence = 2,
-    /// Gilbert-Johnson-Keerthi in floating point.
+    /// Support vertices of the Minkowski difference, in floating point: a walk for a verdict, else Gilbert-Johnson-Keerthi.
     Fallback = 3,
     /// Integer arithmetic.
     Integers = 4,
@@ -79,7 +79,7 @@ pub struct Feature {
 pub struct Statistics {
     /// Voronoi marching: feature pairs visited.
     pub marching_steps: u32,
-    /// Gilbert-Johnson-Keerthi iterations in floating point: of the fallback, and of approximate queries.
+    /// Support vertices of a verdict's walk; else Gilbert-Johnson-Keerthi iterations, of the fallback and of approximate queries.
     pub fallback_iterations: u32,
     /// Iterations in integer arithmetic. It allocates, and so does a query that makes a table or levels.
     pub exact_iterations: u32,

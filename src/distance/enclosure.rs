@@ -23,6 +23,9 @@ pub struct Enclosure {
 /// The faces opposite the four corners, each ordered so that the determinants of a tetrahedron around the origin have one sign.
 pub const FACES: [[usize; 3]; 4] = [[1, 3, 2], [0, 2, 3], [0, 3, 1], [0, 1, 2]];
 
+/// In general position to anything a model or a scene is likely to be aligned with.
+pub const GENERIC: Vector = Vector::new(0.48, 0.31, 0.82);
+
 /// Exchanges of a corner before the search is given up: some Minkowski differences have no such tetrahedron, and some bodies hardly
 /// overlap.
 const EXCHANGE_LIMIT: u32 = 12;
@@ -205,12 +208,10 @@ fn complete<L: Lanes>(
     for k in 0..count {
         corners[k] = gjk::difference(frame, pairs[k]);
     }
-    // In general position to anything a model or a scene is likely to be aligned with.
-    let generic = Vector::new(0.48, 0.31, 0.82);
     while count < 4 {
         let direction = match count {
-            1 => generic,
-            2 => (corners[1] - corners[0]).cross(&generic),
+            1 => GENERIC,
+            2 => (corners[1] - corners[0]).cross(&GENERIC),
             _ => (corners[1] - corners[0]).cross(&(corners[2] - corners[0])),
         };
         let [up, down] = [supports.farthest(frame, &direction), supports.farthest(frame, &-direction)];

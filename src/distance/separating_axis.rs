@@ -121,7 +121,7 @@ impl<L: Lanes> AxisTrial<L> {
 
     /// The next axis to try.
     #[inline(always)]
-    fn next(&self, frame: &Frame<L>) -> AxisTrial<L> {
+    pub fn next(&self, frame: &Frame<L>) -> AxisTrial<L> {
         let unit = self.direction.mul(L::splat(self.inverse));
         let direction = if self.is_clear {
             self.difference.negated_mul_add(L::splat(2.0 * self.gap / divisor(self.distance * self.distance)), unit)

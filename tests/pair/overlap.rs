@@ -5,11 +5,12 @@ use swiftprox::base::simd::Portable;
 use swiftprox::distance::enclosure::encloses_origin;
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::pair::contact;
-use swiftprox::pair::{Outcome, PairAnswer, PairCache, PairConfig, distance, intersection};
+use swiftprox::pair::{DecidedBy, Outcome, PairAnswer, PairCache, PairConfig, distance, intersection};
 use swiftprox::placed::Pair;
 use swiftprox::placed::exact;
 use swiftprox::placed::frame::Frame;
 use swiftprox::shape::Shape;
+use swiftprox::verify::verify;
 use testkit::random::Random;
 use testkit::shapes::{cuboid, hull};
 
@@ -210,4 +211,36 @@ fn a_cache_never_changes_a_verdict() {
         }
     }
     assert!((1000..4000).contains(&intersecting), "{intersecting}");
+}
+
+/// A verdict about bodies of which nothing is known walks to the origin. What it leaves open, and poses that are not rigid to the last
+/// digits, marching answers.
+#[test]
+fn cold_verdicts_walk_to_the_truth() {
+    let mut random = Random::new(0x3a1c);
+    let round: Vec<Vector> = (0..40).map(|_| random.direction()).collect();
+    let flat: Vec<Vector> = round.iter().map(|v| v.component_mul(&Vector::new(1.0, 1.0, 0.1))).collect();
+    let shapes = [cuboid([1.0, 1.0, 1.0]), cuboid([1.0, 0.5, 0.1]), octahedron(), hull(&round), hull(&flat)];
+    let (mut walked, mut marched, mut intersecting) = (0, 0, 0);
+    for _ in 0..4_000 {
+        let [a, b] = [0, 1].map(|_| &shapes[random.below(shapes.len())]);
+        let pose1 = Pose::new(&random.rotation(), &random.vector());
+        let away = random.direction() * random.uniform(0.5, 2.5);
+        let pose2 = Pose::new(&random.rotation(), &(pose1.translation() + away));
+        let mut answer = PairAnswer::default();
+        intersection([a.at(&pose1), b.at(&pose2)], &mut PairCache::default(), &PairConfig::default(), &mut answer)
+            .unwrap();
+        verify([a.at(&pose1), b.at(&pose2)], &answer).unwrap();
+        let truth =
+            exact::solve(&Pair { polyhedra: [a.polyhedron(), b.polyhedron()], poses: [&pose1, &pose2] }, &[[0, 0]]);
+        assert_eq!(answer.outcome == Outcome::Intersecting, truth.intersecting, "{pose1:?} {pose2:?} {answer:?}");
+        intersecting += usize::from(truth.intersecting);
+        match answer.decided_by {
+            DecidedBy::Fallback if answer.statistics.marching_steps == 0 => walked += 1,
+            DecidedBy::BoundingSpheres | DecidedBy::InscribedSpheres => {}
+            _ => marched += 1,
+        }
+    }
+    assert!((1_000..3_000).contains(&intersecting), "{intersecting}");
+    assert!(marched < walked / 10, "{marched} marched, {walked} walked");
 }

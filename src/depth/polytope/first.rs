@@ -6,15 +6,13 @@ use super::support::{Support, rough_support, vertex_beyond};
 use super::{PairRounding, SHORTEST_NORMAL, centre_of_differences};
 use crate::base::math::Vector;
 use crate::base::simd::Lanes;
+use crate::distance::enclosure::GENERIC;
 use crate::placed::exact::VertexPair;
 use crate::placed::frame::Frame;
 
 /// How far the three sides of the bipyramid lean towards its tip, and how far where those are too few vertices. (Equatorial ones
 /// leave 23 steps where the first leave 17.)
 const LEANS: [f64; 2] = [1.4, 0.35];
-
-/// In general position to anything a model or a scene is likely to be aligned with.
-const GENERIC: Vector = Vector::new(0.48, 0.31, 0.82);
 
 /// Makes the first polytope. Returns the point inside from which to look at it; `None` where the differences are flat as far as
 /// rounding lets one see.

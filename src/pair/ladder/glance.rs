@@ -8,7 +8,7 @@ use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::SMALLEST;
 use crate::distance::certificate::reciprocal_length;
 use crate::distance::separating_axis::{self, AxisSearch, AxisTrial};
-use crate::placed::frame::are_acceptable;
+use crate::placed::frame::{Frame, are_acceptable};
 use crate::shape::Placed;
 
 impl PairQuery<'_> {
@@ -159,20 +159,25 @@ impl Kernel for SeparationGlance<'_, '_> {
         }
         let mut search = AxisSearch { frame: &frame, trial };
         L::out_of_line(&mut search);
-        let trial = &search.trial;
-        let is_answer = trial.separates() && pair.is_settled_by(&trial.interval);
-        if is_answer {
-            let unit = trial.direction.mul(L::splat(trial.inverse));
-            pair.cache.remember_axis(trial.vertices, frame.bodies[0].rotate_back(unit).to_vector());
-            fill_trial(trial, pair);
-        }
-        is_answer
+        is_answered_by(&search.trial, &frame, pair)
     }
+}
+
+/// Whether a new axis separates and settles the tolerance; then the answer says so, and the cache keeps it.
+#[inline(always)]
+pub(super) fn is_answered_by<L: Lanes>(trial: &AxisTrial<L>, frame: &Frame<L>, pair: &mut PairQuery) -> bool {
+    let is_answer = trial.separates() && pair.is_settled_by(&trial.interval);
+    if is_answer {
+        let unit = trial.direction.mul(L::splat(trial.inverse));
+        pair.cache.remember_axis(trial.vertices, frame.bodies[0].rotate_back(unit).to_vector());
+        fill_trial(trial, pair);
+    }
+    is_answer
 }
 
 /// The answer of an axis that separates.
 #[inline(always)]
-pub(super) fn fill_trial<L: Lanes>(trial: &AxisTrial<L>, pair: &mut PairQuery) {
+fn fill_trial<L: Lanes>(trial: &AxisTrial<L>, pair: &mut PairQuery) {
     pair.answer.decided_by = DecidedBy::Coherence;
     pair.answer.statistics = Statistics { marching_steps: trial.steps, ..Statistics::default() };
     pair.set_interval(&trial.interval, trial.distance);

@@ -2,23 +2,20 @@
 //! the origin, until it provably holds it or a direction separates the bodies. Marching, which looks for nearest points, would
 //! first have to find that there are none.
 
-use super::glance::fill_trial;
+use super::glance::is_answered_by;
 use super::query::PairQuery;
 use crate::answer::{DecidedBy, Outcome, Query, Start, Statistics, contact};
-use crate::base::math::{UNIT_ROUNDOFF, Vector};
+use crate::base::math::UNIT_ROUNDOFF;
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::depth::polytope::rough_support;
 use crate::distance::certificate::reciprocal_length;
-use crate::distance::enclosure::{FACES, sides_of_faces};
+use crate::distance::enclosure::{FACES, GENERIC, sides_of_faces};
 use crate::distance::separating_axis::AxisTrial;
 use crate::placed::exact::VertexPair;
 use crate::placed::frame::Frame;
 
 /// Exchanged corners before marching takes over: bodies that hardly overlap or hardly miss each other.
 const MOST_EXCHANGES: u32 = 10;
-
-/// In general position to anything a model or a scene is likely to be aligned with.
-const GENERIC: Vector = Vector::new(0.48, 0.31, 0.82);
 
 /// Where the walk ended; nothing of it is proved yet but the enclosure.
 enum WalkEnd<L> {
@@ -30,7 +27,7 @@ enum WalkEnd<L> {
 }
 
 impl PairQuery<'_> {
-    /// Whether such a walk answers. The cache must hold no enclosure that still is one.
+    /// Whether such a walk answers: asked where the cache has neither an axis that separates nor an enclosure that holds.
     #[inline(always)]
     pub(super) fn meets_or_misses(&mut self) -> bool {
         self.query == Query::Intersection
@@ -63,25 +60,25 @@ impl Kernel for OverlapWalk<'_, '_> {
                 let polyhedra = pair.polyhedra();
                 let answer = &mut *pair.answer;
                 answer.outcome = Outcome::Intersecting;
-                answer.decided_by = DecidedBy::Fallback;
-                answer.statistics = Statistics { fallback_iterations: supports, ..Statistics::default() };
                 (answer.distance, answer.lower, answer.upper) = (0.0, 0.0, 0.0);
                 contact::fill_proof(answer, polyhedra, &pairs);
                 contact::fill_nothing(answer);
-                true
             }
             WalkEnd::Apart(direction, vertices) => {
-                let trial = AxisTrial::along(&frame, direction.negate(), vertices);
-                let is_answer = trial.separates() && pair.is_settled_by(&trial.interval);
-                if is_answer {
-                    let unit = trial.direction.mul(L::splat(trial.inverse));
-                    pair.cache.remember_axis(trial.vertices, frame.bodies[0].rotate_back(unit).to_vector());
-                    fill_trial(&trial, pair);
+                let mut trial = AxisTrial::along(&frame, direction.negate(), vertices);
+                // A face's normal has several support vertices, of which none is clear.
+                if !trial.separates() {
+                    trial = trial.next(&frame);
                 }
-                is_answer
+                if !is_answered_by(&trial, &frame, pair) {
+                    return false;
+                }
             }
-            WalkEnd::Unclear => false,
+            WalkEnd::Unclear => return false,
         }
+        pair.answer.decided_by = DecidedBy::Fallback;
+        pair.answer.statistics = Statistics { fallback_iterations: supports, ..Statistics::default() };
+        true
     }
 }
 

@@ -10,6 +10,8 @@
 #include <memory>
 #include <vector>
 
+#include "../peers/bullet.h"
+
 extern "C" {
 #include "peer.h"
 }
@@ -22,11 +24,6 @@ struct caster {
     btVoronoiSimplexSolver simplex;
     btGjkEpaPenetrationDepthSolver depth;
 };
-
-btTransform transform(const double *m)
-{
-    return btTransform(btMatrix3x3(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]), btVector3(m[3], m[7], m[11]));
-}
 
 } // namespace
 
@@ -44,9 +41,7 @@ void *bullet_cast_create(const peer_mesh *meshes, const double *poses, size_t co
         made->hulls[k]->setMargin(0);
         made->hulls[k]->recalcLocalAabb();
     }
-    for (size_t i = 0; i < 4 * count; ++i) {
-        made->poses.push_back(transform(poses + 12 * i));
-    }
+    made->poses = bullet_transforms(poses, 4 * count);
     return made.release();
 }
 

@@ -2,13 +2,14 @@
 // and its 64 vertices are written into the header. The support climbs, where btConvexHullShape looks at all vertices.
 
 #define BT_USE_DOUBLE_PRECISION
-#include <LinearMath/btTransform.h>
 #include <BulletCollision/NarrowPhaseCollision/btGjkEpa3.h>
 
 #include <limits>
 #include <vector>
 
+#include "bullet.h"
 #include "hull.h"
+
 extern "C" {
 #include "peer.h"
 }
@@ -36,11 +37,6 @@ struct Placed {
         return btVector3(vertex[0], vertex[1], vertex[2]);
     }
 };
-
-btTransform transform(const double *m)
-{
-    return btTransform(btMatrix3x3(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]), btVector3(m[3], m[7], m[11]));
-}
 
 } // namespace
 
@@ -107,10 +103,7 @@ peer *bullet_peer_create(const peer_mesh *meshes, double)
 
 void bullet_peer_load(peer *peer, const double *poses, size_t count)
 {
-    peer->poses.clear();
-    for (size_t i = 0; i < 2 * count; ++i) {
-        peer->poses.push_back(transform(poses + 12 * i));
-    }
+    peer->poses = bullet_transforms(poses, 2 * count);
 }
 
 double bullet_distance(peer *peer, size_t i, double *normal)

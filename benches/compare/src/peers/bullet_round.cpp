@@ -14,6 +14,8 @@
 #include <memory>
 #include <vector>
 
+#include "bullet.h"
+
 extern "C" {
 #include "peer.h"
 }
@@ -91,12 +93,7 @@ void bullet_round_free(peer *peer)
 
 void bullet_round_load(peer *peer, const double *poses, size_t count)
 {
-    peer->poses.clear();
-    for (size_t i = 0; i < 2 * count; ++i) {
-        const double *m = poses + 12 * i;
-        peer->poses.push_back(
-            btTransform(btMatrix3x3(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]), btVector3(m[3], m[7], m[11])));
-    }
+    peer->poses = bullet_transforms(poses, 2 * count);
 }
 
 double bullet_round_distance(peer *peer, size_t i, double *normal)

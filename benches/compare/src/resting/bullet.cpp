@@ -12,6 +12,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "../peers/bullet.h"
+
 extern "C" {
 #include "../peers/peer.h"
 }
@@ -68,12 +70,7 @@ peer *bullet_rest_create(const peer_mesh *meshes, double)
 
 void bullet_rest_load(peer *peer, const double *poses, size_t count)
 {
-    peer->poses.clear();
-    for (size_t i = 0; i < 2 * count; ++i) {
-        const double *m = poses + 12 * i;
-        peer->poses.push_back(
-            btTransform(btMatrix3x3(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]), btVector3(m[3], m[7], m[11])));
-    }
+    peer->poses = bullet_transforms(poses, 2 * count);
 }
 
 double bullet_rest_manifold(peer *peer, size_t i, double *normal)
