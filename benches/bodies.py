@@ -36,6 +36,7 @@ WAYS = {
     OWN: Style("swiftprox", charts.BLUE),
     LEVELS: Style("swiftprox, levels", charts.SKY, DASHED, "D"),
     "parry-hc": Style("parry3d-f64, climbing", charts.RED, marker="s"),
+    "parry-round": Style("parry3d-f64, primitives", charts.RED, DASHED, "s"),
     "coal": Style("coal", charts.INDIGO, marker="D"),
     "mujoco": Style("MuJoCo", charts.PINK, DASHED, "v"),
     "jolt": Style("Jolt", charts.GREEN, marker="p"),
@@ -47,12 +48,15 @@ WAYS = {
     "fcl-indep": Style("FCL's own solver", charts.OLIVE, DASHED, "X"),
 }
 FRONT = "front"
-FAMILIES = {"paper": "ellipsoids of 1,002 vertices", "real": "real hulls", "cad": "CAD-like bodies", "unlike": "a box beside each"}
+FAMILIES = {"paper": "ellipsoids of 1,002 vertices", "real": "real hulls", "cad": "CAD-like bodies", "unlike": "a box beside each",
+            "round": "round bodies"}
 QUERIES = {"distance": "small", "verdict": "small", "depth": "deep"}
 # Of each query the strongest way of each library, which is measured of all bodies.
 STRONGEST = {"distance": (OWN, "parry-hc", "coal-1e-10", "mujoco-1e-6", "jolt-1e-6"),
              "verdict": (OWN, "parry-hc", "coal-1e-6", "libccd-mpr-1e-4", "jolt-1e-6"),
              "depth": (OWN, "parry-hc", "coal-1e-10", "mujoco-1e-6", "jolt-1e-6")}
+# Of round bodies the libraries' own primitives.
+PRIMITIVES = ("parry-round", "coal-round-1e-10", "bullet-round-1e-6")
 STEPS = ("0.1", "1", "10", "random")
 ERRORS = Axis("", 1e-17, 4.0, [(10.0**e, f"1e{e}" if e else "1") for e in range(-16, 1, 4)])
 LEAST_ERROR = 1e-16  # what is less is rounding, and drawn at this place
@@ -83,7 +87,7 @@ def others_of(rows):
 
 def strongest(rows):
     """Of the three queries, each on its orbit, the rows of the strongest methods."""
-    return [row for row in rows if QUERIES.get(row["query"]) == row["orbit"] and row["method"] in STRONGEST[row["query"]]]
+    return [row for row in rows if QUERIES.get(row["query"]) == row["orbit"] and row["method"] in STRONGEST[row["query"]] + PRIMITIVES]
 
 
 def mean(rows):
@@ -165,7 +169,7 @@ def ratios(rows, step, cost="best_ns"):
 def grid_lines(rows):
     """A line's name and its rows: an ellipsoid's sizes, a kind of real hulls, a solid in all its forms."""
     lines = []
-    for family in ("paper", "real", "cad"):
+    for family in ("paper", "real", "cad", "round"):
         here = of(rows, family=family)
         name = (lambda row: row["body"].split("/")[0] if row["family"] == "real" else
                 f"{row['body']} {int(row['form']):,}" if row["family"] == "paper" else row["body"])
@@ -206,7 +210,7 @@ def grid(where, rows):
 # ---- time over motion, vertices and sides ----
 
 def over_motion(where, rows):
-    rows = [row for row in strongest(rows) if row["form"] in ("1002", "hull", "turned")]
+    rows = [row for row in strongest(rows) if row["form"] in ("1002", "hull", "turned", "primitives")]
     x, place = charts.motion_axis(STEPS)
     made = []
     for query in QUERIES:
@@ -221,7 +225,7 @@ def over_motion(where, rows):
             panels.append(Panel(f"{query}, {FAMILIES[family].replace(' of 1,002 vertices', '')}", curves))
         made.append(Row(panels, charts.value_axis("time a query", times, charts.duration), 140))
     return Panels("Time a query over motion", where, x, legend_of(rows), made,
-                  "Geometric means over the bodies of a family: ellipsoids of 1,002 vertices, real hulls, CAD-like bodies, and a box beside each of those.\n"
+                  "Geometric means over the bodies of a family; of round bodies the others have primitives.\n"
                   "A library that refuses bodies, Jolt those of more than 256 vertices, has its mean over the others.")
 
 
