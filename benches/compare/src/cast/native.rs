@@ -6,18 +6,11 @@ use swiftprox::mesh::PolygonMesh;
 
 use super::scenes::Scene;
 use super::{Caster, Said};
-
-#[repr(C)]
-pub struct PeerMesh {
-    vertices: *const f64,
-    vertex_count: usize,
-    corners: *const u32,
-    triangle_count: usize,
-}
+use crate::peers::Mesh;
 
 /// Its functions under the names of one library.
 pub struct Functions {
-    pub create: unsafe extern "C" fn(*const PeerMesh, *const f64, usize) -> *mut c_void,
+    pub create: unsafe extern "C" fn(*const Mesh, *const f64, usize) -> *mut c_void,
     pub ask: unsafe extern "C" fn(*mut c_void, usize) -> f64,
     pub free: unsafe extern "C" fn(*mut c_void),
 }
@@ -37,12 +30,7 @@ impl Native {
         let arrays = [0, 1].map(|k| arrays(&scene.meshes[k]));
         let meshes = [0, 1].map(|k| {
             let (vertices, corners): &(Vec<f64>, Vec<u32>) = &arrays[k];
-            PeerMesh {
-                vertices: vertices.as_ptr(),
-                vertex_count: vertices.len() / 3,
-                corners: corners.as_ptr(),
-                triangle_count: corners.len() / 3,
-            }
+            Mesh::new(vertices, corners, 0.0)
         });
         // SAFETY: two meshes, and so many poses as 48 numbers a motion are, which live as long as the peer.
         let peer = unsafe { (functions.create)(meshes.as_ptr(), poses.as_ptr(), scene.cases.len()) };

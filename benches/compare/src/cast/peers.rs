@@ -16,9 +16,10 @@ pub fn casters(scene: &Scene) -> Result<Vec<Box<dyn Caster>>, String> {
 
 #[cfg(fcl)]
 fn fcl(scene: &Scene) -> Result<super::native::Native, String> {
-    use super::native::{Functions, Native, PeerMesh};
+    use super::native::{Functions, Native};
+    use crate::peers::Mesh;
     unsafe extern "C" {
-        fn fcl_cast_create(meshes: *const PeerMesh, poses: *const f64, count: usize) -> *mut std::ffi::c_void;
+        fn fcl_cast_create(meshes: *const Mesh, poses: *const f64, count: usize) -> *mut std::ffi::c_void;
         fn fcl_cast_ask(peer: *mut std::ffi::c_void, motion: usize) -> f64;
         fn fcl_cast_free(peer: *mut std::ffi::c_void);
     }
@@ -27,9 +28,10 @@ fn fcl(scene: &Scene) -> Result<super::native::Native, String> {
 
 #[cfg(bullet64)]
 fn bullet(scene: &Scene) -> Result<super::native::Native, String> {
-    use super::native::{Functions, Native, PeerMesh};
+    use super::native::{Functions, Native};
+    use crate::peers::Mesh;
     unsafe extern "C" {
-        fn bullet_cast_create(meshes: *const PeerMesh, poses: *const f64, count: usize) -> *mut std::ffi::c_void;
+        fn bullet_cast_create(meshes: *const Mesh, poses: *const f64, count: usize) -> *mut std::ffi::c_void;
         fn bullet_cast_ask(peer: *mut std::ffi::c_void, motion: usize) -> f64;
         fn bullet_cast_free(peer: *mut std::ffi::c_void);
     }

@@ -24,13 +24,22 @@ struct Handle {
     _opaque: [u8; 0],
 }
 
+/// As peer.h has it.
 #[repr(C)]
-struct Mesh {
+pub struct Mesh {
     vertices: *const f64,
     vertex_count: usize,
     corners: *const u32,
     triangle_count: usize,
     radius: f64,
+}
+
+impl Mesh {
+    /// Points to the arrays, three numbers a vertex and three corners a triangle.
+    pub fn new(vertices: &[f64], corners: &[u32], radius: f64) -> Mesh {
+        let (vertex_count, triangle_count) = (vertices.len() / 3, corners.len() / 3);
+        Mesh { vertices: vertices.as_ptr(), vertex_count, corners: corners.as_ptr(), triangle_count, radius }
+    }
 }
 
 /// What is asked of a library.
@@ -173,13 +182,7 @@ impl Peer {
         let given = [0, 1].map(|i| {
             let mesh = meshes[i];
             assert_eq!(mesh.indices.len(), 3 * mesh.face_count(), "peers are given triangles only");
-            Mesh {
-                vertices: vertices[i].as_ptr(),
-                vertex_count: mesh.vertices.len(),
-                corners: mesh.indices.as_ptr(),
-                triangle_count: mesh.face_count(),
-                radius: radii[i],
-            }
+            Mesh::new(&vertices[i], &mesh.indices, radii[i])
         });
         // SAFETY: the pointers are to arrays of the lengths that are passed; the shim copies them.
         let handle = unsafe { (functions.create)(&given, tolerance) };
