@@ -159,20 +159,20 @@ impl Kernel for SeparationGlance<'_, '_> {
         }
         let mut search = AxisSearch { frame: &frame, trial };
         L::out_of_line(&mut search);
-        is_answered_by(&search.trial, &frame, pair)
+        let is_answer = search.trial.separates() && pair.is_settled_by(&search.trial.interval);
+        if is_answer {
+            answer_by_axis(&search.trial, &frame, pair);
+        }
+        is_answer
     }
 }
 
-/// Whether a new axis separates and settles the tolerance; then the answer says so, and the cache keeps it.
+/// The answer of a new axis that separates; the cache keeps it beside the features that it has.
 #[inline(always)]
-pub(super) fn is_answered_by<L: Lanes>(trial: &AxisTrial<L>, frame: &Frame<L>, pair: &mut PairQuery) -> bool {
-    let is_answer = trial.separates() && pair.is_settled_by(&trial.interval);
-    if is_answer {
-        let unit = trial.direction.mul(L::splat(trial.inverse));
-        pair.cache.remember_axis(trial.vertices, frame.bodies[0].rotate_back(unit).to_vector());
-        fill_trial(trial, pair);
-    }
-    is_answer
+pub(super) fn answer_by_axis<L: Lanes>(trial: &AxisTrial<L>, frame: &Frame<L>, pair: &mut PairQuery) {
+    let unit = trial.direction.mul(L::splat(trial.inverse));
+    pair.cache.remember_axis(trial.vertices, frame.bodies[0].rotate_back(unit).to_vector());
+    fill_trial(trial, pair);
 }
 
 /// The answer of an axis that separates.

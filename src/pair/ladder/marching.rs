@@ -3,7 +3,7 @@
 
 use super::acceptance::{Acceptance, AtFirst};
 use super::query::{Attempt, Open, PairQuery};
-use crate::answer::Statistics;
+use crate::answer::{Query, Statistics};
 use crate::base::simd::{self, Kernel, Lanes, Work};
 use crate::body::polyhedron::Polyhedron;
 use crate::distance::marching::{self, March, Transition, step_limit};
@@ -88,6 +88,12 @@ impl Kernel for Coherent<'_, '_> {
             Transition::Minimum => return Attempt::Open(Open { at: state, is_minimum: true, steps: 1 }),
             Transition::Nowhere => return Attempt::Untried,
             Transition::Move | Transition::Behind | Transition::Crossing => {}
+        }
+        // A verdict after a jump is for a walk.
+        if self.pair.query == Query::Intersection
+            && self.pair.last_marker().is_some_and(|marker| policy::has_jumped(&frame, marker))
+        {
+            return Attempt::Untried;
         }
         // In line (R3).
         MarchOn { pair: self.pair, frame, start: step.at, steps: 1, leg: Leg::Trial }.run()

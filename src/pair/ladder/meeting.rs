@@ -2,7 +2,7 @@
 //! the origin, until it provably holds it or a direction separates the bodies. Marching, which looks for nearest points, would
 //! first have to find that there are none.
 
-use super::glance::is_answered_by;
+use super::glance::answer_by_axis;
 use super::query::PairQuery;
 use crate::answer::{DecidedBy, Outcome, Query, Start, Statistics, contact};
 use crate::base::math::UNIT_ROUNDOFF;
@@ -13,6 +13,7 @@ use crate::distance::enclosure::{FACES, GENERIC, sides_of_faces};
 use crate::distance::separating_axis::AxisTrial;
 use crate::placed::exact::VertexPair;
 use crate::placed::frame::Frame;
+use crate::placed::state::State;
 
 /// Exchanged corners before marching takes over: bodies that hardly overlap or hardly miss each other.
 const MOST_EXCHANGES: u32 = 10;
@@ -56,7 +57,6 @@ impl Kernel for OverlapWalk<'_, '_> {
         match end {
             WalkEnd::Encloses(pairs) => {
                 pair.cache.remember_enclosure(&pairs);
-                frame.mark(&mut pair.cache.marker);
                 let polyhedra = pair.polyhedra();
                 let answer = &mut *pair.answer;
                 answer.outcome = Outcome::Intersecting;
@@ -70,12 +70,16 @@ impl Kernel for OverlapWalk<'_, '_> {
                 if !trial.separates() {
                     trial = trial.next(&frame);
                 }
-                if !is_answered_by(&trial, &frame, pair) {
+                if !(trial.separates() && pair.is_settled_by(&trial.interval)) {
                     return false;
                 }
+                // From where marching begins, should the bodies come nearer.
+                pair.cache.remember_features(State::vertex_vertex(trial.vertices));
+                answer_by_axis(&trial, &frame, pair);
             }
             WalkEnd::Unclear => return false,
         }
+        frame.mark(&mut pair.cache.marker);
         pair.answer.decided_by = DecidedBy::Fallback;
         pair.answer.statistics = Statistics { fallback_iterations: supports, ..Statistics::default() };
         true

@@ -172,7 +172,7 @@ fn answer_by_bodies(query: Query, pair: &mut PairQuery, glances: Glances) -> Res
 #[inline(never)]
 fn answer_on(pair: &mut PairQuery, mut attempt: Attempt) -> Result<()> {
     pair.forget()?;
-    if pair.meets_or_misses() {
+    if matches!(attempt, Attempt::Untried | Attempt::NotEnclosed) && pair.meets_or_misses() {
         return Ok(());
     }
     let enclosure = pair.cache.enclosure(pair.polyhedra());

@@ -48,7 +48,9 @@ pub fn run(options: &Options, wanted: &[String]) -> Result<(), String> {
         let mut methods = Methods::new(body)?;
         for (question, orbit) in ASKED {
             let is_asked = options.asked.is_empty() || options.asked.iter().any(|name| name == question.name());
-            if is_asked && is_measured(body.extent, question, orbit) {
+            // How bodies that meet are told from those that nearly do is a question where nothing is known of them.
+            let is_cold_alone = question == Question::Verdict && orbit == "deep";
+            if is_asked && (options.cold || !is_cold_alone) && is_measured(body.extent, question, orbit) {
                 for &step in &options.steps {
                     rows.extend(measure(body, &mut methods, (question, orbit, step), options)?);
                 }
