@@ -1,6 +1,7 @@
 /*
  * Fixed warm queries through C, for instructions.py to count under callgrind: a function call `measured` for each case.
  * Bodies as CAD systems have them and a hull of points on a sphere, each beside another like it, on an orbit; and round bodies.
+ * Distances are of bodies apart, verdicts of bodies that are in and out of each other.
  */
 #include <math.h>
 #include <stdint.h>
@@ -194,8 +195,8 @@ static const body box = {"box", 4, {{1, -0.5}, {1, 0.5}}, 0, 0, 0, 0}, wedge = {
 
 static double poses[POSES][12];
 
-/* Steps of so many degrees along the orbit, or "random": anywhere in any orientation. */
-static void fly(const char *step)
+/* Steps of so many degrees along an orbit of so many radii, or "random": anywhere in any orientation. */
+static void fly(const char *step, double radii)
 {
     const double degrees = strtod(step, NULL);
     int i;
@@ -209,9 +210,9 @@ static void fly(const char *step)
         } else {
             turn(cos(half), 0.36 * sin(half), 0.48 * sin(half), 0.8 * sin(half), poses[i]);
         }
-        poses[i][3] = 2 * cos(angle);
-        poses[i][7] = 2.4 * sin(angle);
-        poses[i][11] = 1.8 * sin(angle);
+        poses[i][3] = radii * cos(angle);
+        poses[i][7] = 1.2 * radii * sin(angle);
+        poses[i][11] = 0.9 * radii * sin(angle);
     }
 }
 
@@ -223,48 +224,57 @@ static const struct {
     const char *step;
     /* Another body beside it, if not another like it. */
     const body *beside;
+    int is_verdict;
 } cases[] = {
-    {&box, "1", NULL},
-    {&box, "random", NULL},
-    {&wedge, "10", NULL},
-    {&nut, "random", NULL},
-    {&cylinder_16, "random", NULL},
-    {&cylinder_64, "1", NULL},
-    {&cylinder_500, "0.1", NULL},
-    {&cylinder_500, "1", NULL},
-    {&cylinder_500, "10", NULL},
-    {&cylinder_500, "random", NULL},
-    {&disc_500, "1", NULL},
-    {&disc_500, "10", NULL},
-    {&rod_64, "10", NULL},
-    {&cone_200, "0.1", NULL},
-    {&cone_200, "random", NULL},
-    {&egg, "1", NULL},
-    {&lens, "10", NULL},
-    {&sphere, "0.1", NULL},
-    {&sphere, "1", NULL},
-    {&sphere, "10", NULL},
-    {&sphere, "random", NULL},
-    {&ball, "random", NULL},
-    {&capsule, "random", NULL},
-    {&ball, "1", &sphere},
+    {&box, "1", NULL, 0},
+    {&box, "random", NULL, 0},
+    {&wedge, "10", NULL, 0},
+    {&nut, "random", NULL, 0},
+    {&cylinder_16, "random", NULL, 0},
+    {&cylinder_64, "1", NULL, 0},
+    {&cylinder_500, "0.1", NULL, 0},
+    {&cylinder_500, "1", NULL, 0},
+    {&cylinder_500, "10", NULL, 0},
+    {&cylinder_500, "random", NULL, 0},
+    {&disc_500, "1", NULL, 0},
+    {&disc_500, "10", NULL, 0},
+    {&rod_64, "10", NULL, 0},
+    {&cone_200, "0.1", NULL, 0},
+    {&cone_200, "random", NULL, 0},
+    {&egg, "1", NULL, 0},
+    {&lens, "10", NULL, 0},
+    {&sphere, "0.1", NULL, 0},
+    {&sphere, "1", NULL, 0},
+    {&sphere, "10", NULL, 0},
+    {&sphere, "random", NULL, 0},
+    {&ball, "random", NULL, 0},
+    {&capsule, "random", NULL, 0},
+    {&ball, "1", &sphere, 0},
+    {&box, "1", NULL, 1},
+    {&box, "random", NULL, 1},
+    {&cylinder_64, "0.1", NULL, 1},
+    {&lens, "1", NULL, 1},
+    {&lens, "random", NULL, 1},
 };
+
+typedef swiftprox_status (*query)(swiftprox_placed, swiftprox_placed, swiftprox_pair_cache *, const swiftprox_pair_config *,
+                                  swiftprox_pair_answer *);
 
 #if defined(__GNUC__)
 __attribute__((noinline))
 #endif
-void measured(const swiftprox_shape *shape, const swiftprox_shape *other, const swiftprox_pair_config *config);
+void measured(query ask, const swiftprox_shape *shape, const swiftprox_shape *other, const swiftprox_pair_config *config);
 
 /* One flight, the cache cold at its beginning. */
-void measured(const swiftprox_shape *shape, const swiftprox_shape *other, const swiftprox_pair_config *config)
+void measured(query ask, const swiftprox_shape *shape, const swiftprox_shape *other, const swiftprox_pair_config *config)
 {
     static const double origin[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0};
     swiftprox_pair_cache cache = {{0}};
     swiftprox_pair_answer answer;
     int i, failed = 0;
     for (i = 0; i < POSES; ++i) {
-        failed += swiftprox_pair_distance((swiftprox_placed){shape, origin}, (swiftprox_placed){other, poses[i]}, &cache,
-                                          config, &answer) != SWIFTPROX_OK;
+        failed += ask((swiftprox_placed){shape, origin}, (swiftprox_placed){other, poses[i]}, &cache, config, &answer) !=
+                  SWIFTPROX_OK;
         failed += answer.outcome == SWIFTPROX_OUTCOME_NONE;
     }
     CHECK(failed == 0);
@@ -279,12 +289,12 @@ int main(void)
     config.tuning = &tuning;
     for (i = 0; i < sizeof cases / sizeof *cases; ++i) {
         const swiftprox_shape *shape = make(cases[i].of), *other = make(cases[i].beside ? cases[i].beside : cases[i].of);
-        fly(cases[i].step);
+        fly(cases[i].step, cases[i].is_verdict ? 1.2 : 2);
         CHECK_OK(swiftprox_shape_prepare(shape, NULL, NULL));
         CHECK_OK(swiftprox_shape_prepare(other, NULL, NULL));
-        measured(shape, other, &config);
-        printf("%s%s%s %s\n", cases[i].of->name, cases[i].beside ? "-" : "", cases[i].beside ? cases[i].beside->name : "",
-               cases[i].step);
+        measured(cases[i].is_verdict ? swiftprox_pair_intersection : swiftprox_pair_distance, shape, other, &config);
+        printf("%s%s%s%s %s\n", cases[i].of->name, cases[i].beside ? "-" : "", cases[i].beside ? cases[i].beside->name : "",
+               cases[i].is_verdict ? " verdict" : "", cases[i].step);
         swiftprox_shape_release(shape);
         swiftprox_shape_release(other);
     }
