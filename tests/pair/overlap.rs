@@ -213,8 +213,8 @@ fn a_cache_never_changes_a_verdict() {
     assert!((1000..4000).contains(&intersecting), "{intersecting}");
 }
 
-/// A verdict about bodies of which nothing is known walks to the origin. What it leaves open, and poses that are not rigid to the last
-/// digits, marching answers.
+/// A verdict about bodies of which nothing is known walks to the origin. Marching answers what the walk leaves open, and poses that
+/// are not rigid to the last digits.
 #[test]
 fn cold_verdicts_walk_to_the_truth() {
     let mut random = Random::new(0x3a1c);
