@@ -27,13 +27,14 @@ def micro(ns):
     return f"{value:,.0f}" if value >= 10 else f"{value:.1f}" if value >= 1 else f"{value:.2f}"
 
 
-def faults(row):
-    """What a method said wrongly: missed hits, hits of free motions, hits at another time, no answer. Samples know no time between
-    two of them."""
+def faults(row, most=4):
+    """What a method said wrongly, the most frequent kinds: missed hits, hits of free motions, hits at another time, no answer.
+    Samples know no time between two of them."""
     named = [("m", "misses"), ("f", "false_hits"), ("t", "off"), ("u", "unknown")]
     if row["method"].startswith("samples"):
         named.remove(("t", "off"))
-    return " ".join(f"{letter} {int(row[column])}" for letter, column in named if row[column])
+    least = sorted((row[column] for _, column in named), reverse=True)[:most][-1]
+    return " ".join(f"{letter} {int(row[column])}" for letter, column in named if row[column] and row[column] >= least)
 
 
 def wrong(row):
@@ -45,7 +46,8 @@ def cell(row):
         return Cell("–", "", charts.REFUSED)
     share = wrong(row) / row["count"]
     colour = next(colour for limit, colour in SHARES if share <= limit) if share else charts.GOOD
-    return Cell(micro(row["best_ns"]), faults(row), colour)
+    # A cell has room for two.
+    return Cell(micro(row["best_ns"]), faults(row, 2), colour)
 
 
 def chart(head, rows):
@@ -54,7 +56,7 @@ def chart(head, rows):
     lines = [Line(scene, [cell(found.get((scene, method))) for method in methods]) for scene in in_order(r["scene"] for r in rows)]
     legend = [(charts.GOOD, "none wrong")] + [(colour, f"up to {100 * share:g} %") for share, colour in SHARES]
     return Cells("Casts of moving bodies", machine(head),
-                 "µs a motion; beside it m missed hits, f hits of free motions, t times off by more than 1e-3, u no answer",
+                 "µs a motion; beside it the most frequent two of m missed hits, f hits of free motions, t times off by more than 1e-3, u no answer",
                  [METHODS[method] for method in methods], lines, legend + [(charts.REFUSED, "not asked")], 130)
 
 
