@@ -241,8 +241,8 @@ def draw(path, chart, csv_paths):
 
 
 def compact(svg):
-    """A third as long: no comments, indents, empty groups or turns by nothing; lengths to a hundredth of a point; styles as classes;
-    short names."""
+    """A third as long: no comments, indents, groups of one text or none, or turns by nothing; lengths to a hundredth of a point;
+    styles as classes; short names."""
     for useless in (r"\n *<!--.*?-->", r"(?<=\n) +", r' transform="rotate\(-?0 [^"]*"', r'<g id="\w+"/>\n',
                     r' *\n(?=[Lz]\b|" style)'):
         svg = re.sub(useless, "", svg)
@@ -253,6 +253,7 @@ def compact(svg):
     svg = re.sub(r"<(?:path|use|text)\b[^>]*>", lambda tag: re.sub(r"-?\d+\.\d{3,}", shorter, tag[0]), svg)
     names = list(dict.fromkeys(re.findall(r'id="([mp][0-9a-f]{10})"', svg)))
     svg = re.sub(r'(?<=[#"])[mp][0-9a-f]{10}\b', lambda name: f"{name[0][0]}{names.index(name[0])}", svg)
+    svg = re.sub(r'<g id="text_\d+">\n(<text\b.*</text>)\n</g>', r"\1", svg)
     styles = list(dict.fromkeys(re.findall(r' style="([^"]*)"', svg)))
     svg = re.sub(r' style="([^"]*)"', lambda style: f' class="s{styles.index(style[1])}"', svg)
     return svg.replace("</style>", "".join(f"\n.s{k}{{{style}}}" for k, style in enumerate(styles)) + "</style>", 1)
