@@ -4,6 +4,7 @@
 //! For a hull of up to four corners with a ball, it is the first of the touches with its points, sides and triangles. The line
 //! goes from the origin along a unit vector.
 
+use crate::answer::normalised;
 use crate::base::math::{Vector, is_unit};
 
 /// A vertex in the world, relative to the ray's origin.
@@ -71,7 +72,8 @@ pub(super) fn sooner_touch(along: &Vector, radius: f64, corners: &[RoundedCorner
             if across.dot(along) > 0.0 { -across } else { across }
         }
     };
-    Some(RoundedTouch { at: first, members, weights, foot, normal: normal * (1.0 / normal.norm()) })
+    // For a radius whose square underflows the way may have no length: then this is a NaN, which proves nothing.
+    Some(RoundedTouch { at: first, members, weights, foot, normal: normalised(&normal).into() })
 }
 
 /// The feature of some corners that is nearest to the line, seen along it.

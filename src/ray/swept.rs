@@ -13,7 +13,7 @@ use super::line::{Chord, Line};
 use super::rounded::{Beside, RoundedCorner, RoundedTouch, nearest_beside, sooner_touch};
 use super::search::fill;
 use super::{Ray, RayAnswer, RayOutcome, swept_exact};
-use crate::answer::{feature_of_vertices, label};
+use crate::answer::{feature_of_vertices, label, normalised};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, is_unit};
 use crate::base::simd::{Lanes, Portable};
 use crate::body::polyhedron::Polyhedron;
@@ -110,7 +110,7 @@ fn prove_ball(line: &Line, ray: &Ray, answer: &mut RayAnswer) -> bool {
     }
     if answer.outcome == RayOutcome::Hit {
         let way = line.direction * entry[0] - centre;
-        answer.normal = (way * (1.0 / way.norm())).into();
+        answer.normal = normalised(&way);
         answer.feature = label(line.polyhedron, FeatureId::Vertex(0), &Vector::zeros());
     }
     true
@@ -159,7 +159,7 @@ fn first(line: &Line, along: &Vector, steps: &mut u32) -> SweptEnd {
                     return ended;
                 }
                 nearest = distance;
-                (members, across * (-1.0 / distance), corners[0].place)
+                (members, -Vector::from(normalised(&across)), corners[0].place)
             }
         };
         let kept = members.indices.map(|k| corners[k]);

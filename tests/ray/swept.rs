@@ -291,6 +291,23 @@ fn magnitudes_of_all_doubles() {
     assert_eq!(slow.normal, [-1.0, 0.0, 0.0]);
 }
 
+/// A ray begins so near to a corner that the square of the way between them underflows. Divided by its length, as doubles have it, the
+/// normal was infinite.
+#[test]
+fn a_way_whose_square_underflows() {
+    let corners = [[0.0, 0.0, 0.0], [2.0, 1.0, 1.0], [2.0, -1.0, 1.0], [2.0, 0.0, -1.0]].map(Vector::from);
+    let shape = body(&corners, 1e-300);
+    for scale in [5e-324, 1e-320, 1e-310, 1e-308, 1e-301] {
+        for way in [[-4.0, 1.0, 2.0], [-4.0, -1.0, 1.0], [-4.0, 2.0, -3.0], [-4.0, 0.0, 0.0]].map(Vector::from) {
+            // All of them begin in the ball around the corner, or next to it.
+            let answer = cast(&shape, &Pose::IDENTITY, (way * scale).into(), [1.0, 0.25, 0.5]);
+            let outcome = if scale < 1e-301 { RayOutcome::Inside } else { answer.outcome };
+            assert_eq!(answer.outcome, outcome, "{scale:e} {way:?} {answer:?}");
+            assert!(answer.exit[1] > 0.5, "{scale:e} {way:?} {answer:?}");
+        }
+    }
+}
+
 /// A pose does not stretch the ball.
 #[test]
 fn the_ball_stays_round_in_the_world() {
