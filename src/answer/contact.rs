@@ -1,7 +1,7 @@
 //! Witness points, normal and features of an answer, in the caller's frames and numbering.
 
 use crate::answer::pair_answer::{Feature, FeatureKind, PairAnswer};
-use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF, Vector, clamp, length};
+use crate::base::math::{Matrix, Pose, STRETCH, UNIT_ROUNDOFF, Vector, clamp, length};
 use crate::base::simd::{Lanes, Portable};
 use crate::body::polyhedron::{Edge, MergedFace, NONE, Polyhedron};
 use crate::distance::certificate::Minimum;
@@ -256,8 +256,8 @@ fn face_ahead(polyhedron: &Polyhedron, vertex: u32, point: &Vector, towards: &Ve
         let edges = polyhedron.sides[range].iter().map(|&side| &polyhedron.edges[side as usize]);
         best = edges.flat_map(|edge| [edge.left(), edge.right()]).fold(best, nearer);
         if best.0 == face {
-            // The plane's height is rounded; `within` may be exactly the way to it.
-            let reach = within + rounding(polyhedron);
+            // The plane's height is rounded; `within` may be exactly the way to it in the world, whose lengths a pose shrinks.
+            let reach = STRETCH * STRETCH * within + rounding(polyhedron);
             return (misses_face(polyhedron, face, point) <= reach).then_some(face);
         }
     }

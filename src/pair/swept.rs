@@ -120,7 +120,7 @@ fn take_off(query: Query, bodies: &[Placed; 2], radii: &Radii, tolerance: f64, a
                 (answer.outcome, answer.lower) = (Outcome::Undecided, 0.0);
             }
             let [lower, upper] = [answer.lower, answer.upper];
-            answer.distance = clamp(found - radii.each[0] - radii.each[1], lower, upper);
+            answer.distance = clamp(found - radii.each[0] - radii.each[1], lower, upper).min(f64::MAX);
             // A verdict has none.
             if answer.feature1.kind != FeatureKind::None {
                 let PairAnswer { local1, local2, world1, world2, normal, .. } = answer;

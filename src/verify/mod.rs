@@ -14,7 +14,7 @@ mod manifold;
 
 use crate::answer::{DecidedBy, Outcome, PairAnswer, Radii};
 use crate::base::error::{Error, Result};
-use crate::base::math::{Vector, length};
+use crate::base::math::{UNIT_ROUNDOFF as U, Vector, length};
 use crate::base::memory::listed;
 use crate::placed::Pair;
 use crate::placed::exact::{self, VertexPair};
@@ -102,9 +102,10 @@ fn check_answer(bodies: [Placed; 2], answer: &PairAnswer) -> Result<()> {
 
 fn verify_separated(pair: &Pair, radii: &Radii, answer: &PairAnswer) -> Result<()> {
     let PairAnswer { lower, upper, distance, .. } = *answer;
-    // A distance below the smallest double leaves `lower` at 0. Without an upper end is a distance above the largest, and one of
-    // which only a separating direction is known: that has no points.
-    let has_end = upper < f64::INFINITY || lower == f64::MAX || !are_points_said(&answer.into());
+    // A distance below the smallest double leaves `lower` at 0. Without an upper end is a distance above the largest, less what
+    // curved bodies deviate and the radii round, and one of which only a separating direction is known: that has no points.
+    let is_above_all = lower + 2.0 * radii.deviation >= f64::MAX * (1.0 - 8.0 * U);
+    let has_end = upper < f64::INFINITY || is_above_all || !are_points_said(&answer.into());
     if !(lower >= 0.0 && upper > 0.0 && lower <= distance && distance <= upper && has_end) {
         return Err(unverified(format!(
             "not 0 ≤ lower ≤ distance ≤ upper < ∞, 0 < upper: {lower:e}, {distance:e}, {upper:e}"

@@ -41,7 +41,8 @@ fn intervals_are_as_narrow_at_any_magnitude() {
 }
 
 /// Where only integers tell that bodies overlap, the upper end is the way to the face ahead. No face at the vertex where its search
-/// began looked there, so a side face was named: a pose that stretches has it farther off than that end.
+/// began looked there, so a side face was named: a pose that stretches has it farther off than that end. One that shrinks has it
+/// nearer in the world than in the body's frame, in which it seemed farther off.
 #[test]
 fn the_face_ahead_is_named_where_the_interval_ends_at_it() {
     for half in [3.367982276076923e201, 1e201, 7e230] {
@@ -50,15 +51,16 @@ fn the_face_ahead_is_named_where_the_interval_ends_at_it() {
             hull(&(0..8).map(|k| Vector::new(side(k, 0), side(k, 1), side(k, 2))).collect::<Vec<_>>())
         };
         let shapes = [cube(half), cube(5e-324)];
-        let placed = |x: f64, y: f64, z: f64| Pose {
-            rows: [[1.0, 0.0, 0.0, x], [0.0, 1.0000000037252903, 0.0, y], [0.0, 0.0, 1.0, z]],
-        };
-        let poses = [placed(-24.0, -24.0, -24.0), placed(5e-324, 25.0, 5e-324)];
-        let mut cache = DepthCache::default();
-        let answer = query([&shapes[0], &shapes[1]], [&poses[0], &poses[1]], &mut cache);
-        assert_eq!(answer.outcome, Outcome::Intersecting);
-        verify_depth([shapes[0].at(&poses[0]), shapes[1].at(&poses[1])], &cache, &answer)
-            .unwrap_or_else(|error| panic!("{half:e}: {error}: {answer:?}"));
+        for scale in [1.0000000037252903, 0.9999995231628418, 1.004, 0.996] {
+            let placed =
+                |x: f64, y: f64, z: f64| Pose { rows: [[1.0, 0.0, 0.0, x], [0.0, scale, 0.0, y], [0.0, 0.0, 1.0, z]] };
+            let poses = [placed(-24.0, -24.0, -24.0), placed(5e-324, 25.0, 5e-324)];
+            let mut cache = DepthCache::default();
+            let answer = query([&shapes[0], &shapes[1]], [&poses[0], &poses[1]], &mut cache);
+            assert_eq!(answer.outcome, Outcome::Intersecting);
+            verify_depth([shapes[0].at(&poses[0]), shapes[1].at(&poses[1])], &cache, &answer)
+                .unwrap_or_else(|error| panic!("{half:e} {scale}: {error}: {answer:?}"));
+        }
     }
 }
 

@@ -10,6 +10,7 @@ use swiftprox::pair::{
     HalfSpace, Outcome, PairAnswer, PairCache, PairConfig, SignedDistance, SignedDistanceCache, approximate, distance,
     half_space_distance, signed_distance,
 };
+use swiftprox::shape::Shape;
 use swiftprox::verify::{verify, verify_manifold};
 use testkit::cases::coordinates;
 use testkit::shapes::{at, lattice_box};
@@ -42,6 +43,29 @@ fn a_point_of_odd_subnormal_coordinates_is_its_own_centre() {
             let cache = &mut SignedDistanceCache::default();
             signed_distance(placed, cache, &PairConfig::default(), &mut answer).unwrap();
             assert!(truth.lies_between(answer.lower, answer.upper), "{units} {radii:?} {answer:?}");
+        }
+    }
+}
+
+/// What a cylinder deviates from its polyhedron takes a unit off the lower end, and leaves no upper one: the estimate was infinite,
+/// and the interval had no end for the check.
+#[test]
+fn curved_bodies_as_far_apart_as_the_largest_double() {
+    let drum = Shape::from_cylinder(1.0, 16.0, 1e-3).unwrap();
+    for other in [
+        Shape::from_cone(1.0, 1.0, 1e-3).unwrap(),
+        swept(&[Vector::zeros()], 1.0),
+        swept(&lattice_box([1.0; 3], 2), 0.0),
+    ] {
+        for height in [f64::MAX, f64::MAX.next_down(), f64::MAX.next_down().next_down()] {
+            let poses = [at(-32.0, -32.0, -16.0), at(160.0, 0.0, height)];
+            let placed = [drum.at(&poses[0]), other.at(&poses[1])];
+            for query in [distance, contact, approximate] {
+                let mut answer = PairAnswer::default();
+                query(placed, &mut PairCache::default(), &PairConfig::default(), &mut answer).unwrap();
+                assert!(answer.outcome == Outcome::Separated && answer.distance.is_finite(), "{answer:?}");
+                assert!(accepts(verify(placed, &answer)), "{answer:?}");
+            }
         }
     }
 }
