@@ -1,12 +1,13 @@
 /*
  * Fixed warm queries through C, for instructions.py to count under callgrind: a function call `measured` for each case.
  * Bodies as CAD systems have them and a hull of points on a sphere, each beside another like it, on an orbit; and round bodies.
- * Distances are of bodies apart, verdicts of bodies that are in and out of each other.
+ * Distances are of bodies apart, verdicts of bodies that are in and out of each other, contacts of bodies deep in each other.
  */
 #include <math.h>
 #include <stdint.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include "check.h"
 #include "swiftprox/tuning.h"
@@ -195,7 +196,8 @@ static const body box = {"box", 4, {{1, -0.5}, {1, 0.5}}, 0, 0, 0, 0}, wedge = {
 
 static double poses[POSES][12];
 
-/* Steps of so many degrees along an orbit of so many radii, or "random": anywhere in any orientation. */
+/* Steps of so many degrees along an orbit of so many radii, or "random": anywhere in any orientation; or "parallel": past each other
+ * without a turn. */
 static void fly(const char *step, double radii)
 {
     const double degrees = strtod(step, NULL);
@@ -204,6 +206,13 @@ static void fly(const char *step, double radii)
     for (i = 0; i < POSES; ++i) {
         const double part = degrees == 0 ? 0.5 * signed_unit() : degrees * i / 360;
         const double angle = full_turn * (0.1 + part), half = 0.559 * full_turn * part;
+        if (strcmp(step, "parallel") == 0) {
+            turn(1, 0, 0, 0, poses[i]);
+            poses[i][3] = radii;
+            poses[i][7] = 0.1 + 1e-3 * i;
+            poses[i][11] = 0.2;
+            continue;
+        }
         if (degrees == 0) {
             const double w = signed_unit(), x = signed_unit(), y = signed_unit(), z = signed_unit();
             turn(w, x, y, z, poses[i]);
@@ -219,42 +228,48 @@ static void fly(const char *step, double radii)
 /* --- Cases
  * -------------------------------------------------------------------------------------------------------------------- */
 
+typedef enum { DISTANCE, VERDICT, CONTACT } asked;
+
 static const struct {
     const body *of;
     const char *step;
     /* Another body beside it, if not another like it. */
     const body *beside;
-    int is_verdict;
+    asked query;
 } cases[] = {
-    {&box, "1", NULL, 0},
-    {&box, "random", NULL, 0},
-    {&wedge, "10", NULL, 0},
-    {&nut, "random", NULL, 0},
-    {&cylinder_16, "random", NULL, 0},
-    {&cylinder_64, "1", NULL, 0},
-    {&cylinder_500, "0.1", NULL, 0},
-    {&cylinder_500, "1", NULL, 0},
-    {&cylinder_500, "10", NULL, 0},
-    {&cylinder_500, "random", NULL, 0},
-    {&disc_500, "1", NULL, 0},
-    {&disc_500, "10", NULL, 0},
-    {&rod_64, "10", NULL, 0},
-    {&cone_200, "0.1", NULL, 0},
-    {&cone_200, "random", NULL, 0},
-    {&egg, "1", NULL, 0},
-    {&lens, "10", NULL, 0},
-    {&sphere, "0.1", NULL, 0},
-    {&sphere, "1", NULL, 0},
-    {&sphere, "10", NULL, 0},
-    {&sphere, "random", NULL, 0},
-    {&ball, "random", NULL, 0},
-    {&capsule, "random", NULL, 0},
-    {&ball, "1", &sphere, 0},
-    {&box, "1", NULL, 1},
-    {&box, "random", NULL, 1},
-    {&cylinder_64, "0.1", NULL, 1},
-    {&lens, "1", NULL, 1},
-    {&lens, "random", NULL, 1},
+    {&box, "1", NULL, DISTANCE},
+    {&box, "random", NULL, DISTANCE},
+    {&wedge, "10", NULL, DISTANCE},
+    {&nut, "random", NULL, DISTANCE},
+    {&cylinder_16, "random", NULL, DISTANCE},
+    {&cylinder_64, "1", NULL, DISTANCE},
+    {&cylinder_500, "0.1", NULL, DISTANCE},
+    {&cylinder_500, "1", NULL, DISTANCE},
+    {&cylinder_500, "10", NULL, DISTANCE},
+    {&cylinder_500, "random", NULL, DISTANCE},
+    {&disc_500, "1", NULL, DISTANCE},
+    {&disc_500, "10", NULL, DISTANCE},
+    {&rod_64, "10", NULL, DISTANCE},
+    {&cone_200, "0.1", NULL, DISTANCE},
+    {&cone_200, "random", NULL, DISTANCE},
+    {&egg, "1", NULL, DISTANCE},
+    {&lens, "10", NULL, DISTANCE},
+    {&sphere, "0.1", NULL, DISTANCE},
+    {&sphere, "1", NULL, DISTANCE},
+    {&sphere, "10", NULL, DISTANCE},
+    {&sphere, "random", NULL, DISTANCE},
+    {&ball, "random", NULL, DISTANCE},
+    {&capsule, "random", NULL, DISTANCE},
+    {&ball, "1", &sphere, DISTANCE},
+    {&box, "1", NULL, VERDICT},
+    {&box, "random", NULL, VERDICT},
+    {&cylinder_64, "0.1", NULL, VERDICT},
+    {&lens, "1", NULL, VERDICT},
+    {&lens, "random", NULL, VERDICT},
+    {&box, "parallel", NULL, DISTANCE},
+    {&cylinder_16, "parallel", NULL, DISTANCE},
+    {&box, "1", NULL, CONTACT},
+    {&lens, "1", NULL, CONTACT},
 };
 
 typedef swiftprox_status (*query)(swiftprox_placed, swiftprox_placed, swiftprox_pair_cache *, const swiftprox_pair_config *,
@@ -283,18 +298,21 @@ void measured(query ask, const swiftprox_shape *shape, const swiftprox_shape *ot
 /* Prints the cases as they are measured. What a query would make on first need is made before. */
 int main(void)
 {
+    static const query queries[] = {swiftprox_pair_distance, swiftprox_pair_intersection, swiftprox_pair_contact};
+    static const char *const names[] = {"", " verdict", " contact"};
+    static const double radii[] = {2, 1.2, 0.4};
     size_t i;
     swiftprox_pair_config config = SWIFTPROX_PAIR_CONFIG_DEFAULT;
     swiftprox_pair_tuning tuning = SWIFTPROX_PAIR_TUNING_DEFAULT;
     config.tuning = &tuning;
     for (i = 0; i < sizeof cases / sizeof *cases; ++i) {
         const swiftprox_shape *shape = make(cases[i].of), *other = make(cases[i].beside ? cases[i].beside : cases[i].of);
-        fly(cases[i].step, cases[i].is_verdict ? 1.2 : 2);
+        fly(cases[i].step, radii[cases[i].query]);
         CHECK_OK(swiftprox_shape_prepare(shape, NULL, NULL));
         CHECK_OK(swiftprox_shape_prepare(other, NULL, NULL));
-        measured(cases[i].is_verdict ? swiftprox_pair_intersection : swiftprox_pair_distance, shape, other, &config);
+        measured(queries[cases[i].query], shape, other, &config);
         printf("%s%s%s%s %s\n", cases[i].of->name, cases[i].beside ? "-" : "", cases[i].beside ? cases[i].beside->name : "",
-               cases[i].is_verdict ? " verdict" : "", cases[i].step);
+               names[cases[i].query], cases[i].step);
         swiftprox_shape_release(shape);
         swiftprox_shape_release(other);
     }

@@ -2,6 +2,8 @@
 #ifndef SWIFTPROX_MOTION_HPP
 #define SWIFTPROX_MOTION_HPP
 
+#include <algorithm>
+
 #include "pair.hpp"
 
 namespace swiftprox
@@ -12,6 +14,29 @@ struct MotionBetween {
     swiftprox_motion motion{};
     double end_error = 0;
 };
+
+/** Rests at a pose. */
+inline swiftprox_motion fixed_motion(const Pose &pose) noexcept
+{
+    swiftprox_motion motion{};
+    motion.kind = SWIFTPROX_MOTION_KIND_FIXED;
+    std::copy_n(pose.data(), 12, motion.start);
+    return motion;
+}
+/**
+ * From a pose at time 0 on with constant velocities, both in the world, the angular one in radians per unit of time. They are those
+ * of the centre, which is in the object's frame.
+ */
+inline swiftprox_motion screw_motion(const Pose &start, const std::array<double, 3> &velocity,
+                                     const std::array<double, 3> &rotation, const std::array<double, 3> &centre = {}) noexcept
+{
+    swiftprox_motion motion = fixed_motion(start);
+    motion.kind = SWIFTPROX_MOTION_KIND_SCREW;
+    std::copy_n(velocity.data(), 3, motion.velocity);
+    std::copy_n(rotation.data(), 3, motion.rotation);
+    std::copy_n(centre.data(), 3, motion.centre);
+    return motion;
+}
 
 /** A shape and how it moves. The motion is its own; a share of the shape must live on, so that a temporary Shape is refused. */
 class Moving

@@ -197,7 +197,13 @@ impl LeastFacet {
     #[inline(always)]
     pub fn rests(&self, before: Option<Vector>, size: f64) -> bool {
         let is_steady = |before: Vector| self.direction.dot(&before) > STEADY * before.norm();
-        self.upper <= SHALLOW * size && before.is_some_and(is_steady)
+        self.is_shallow(size) && before.is_some_and(is_steady)
+    }
+
+    /// Whether the overlap is small beside a pair of a size. A pyramid seldom lasts where it is not.
+    #[inline(always)]
+    pub fn is_shallow(&self, size: f64) -> bool {
+        self.upper <= SHALLOW * size
     }
 }
 

@@ -32,7 +32,8 @@ pub enum Pyramids {
     Unused,
     /// For pairs that seem to rest.
     AtRest,
-    Always,
+    /// For all that are hardly in each other.
+    Shallow,
 }
 
 /// The cost of looking at all facets: planes times corners of the pair, see [`facets::work`]. Below this it takes less time than
@@ -137,7 +138,7 @@ impl Kernel for DepthQuery<'_> {
             && match self.pyramids {
                 Pyramids::Unused => false,
                 Pyramids::AtRest => rests && !self.learn(&frame, &facet) && self.cache.may_raise(),
-                Pyramids::Always => true,
+                Pyramids::Shallow => facet.is_shallow(frame.size),
             }
         {
             resting::raise(&frame, self.cache, facet);

@@ -194,7 +194,7 @@ impl<L: Lanes> AxisClimb<L> {
             let Some(corner) = Corner::of(body.polyhedron, *vertex) else { return false };
             match test_vertex(Rule::Most, corner, self.towards, self.length, 0.0) {
                 VertexTest::Strict => return true,
-                VertexTest::Tied => return false,
+                VertexTest::Tied { .. } => return false,
                 VertexTest::Leaves { head, .. } => *vertex = head,
             }
         }

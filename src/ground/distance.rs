@@ -13,7 +13,7 @@ use crate::shape::TriangleShape;
 #[repr(C)]
 pub struct GroundDistance {
     /// Same as for a body and the surface as a set of points. Features of object 2 are in the ground's numbering: vertices, edges
-    /// by their vertices, a face is a triangle. For a pair beyond the tolerance only `lower` is reported.
+    /// by their vertices, a face is a triangle. For a pair beyond `max_distance` only `lower` is reported.
     pub answer: PairAnswer,
     /// The triangle that the answer is about: the nearest, or the first that was found to intersect. It is the number of triangles
     /// where the answer is about none.

@@ -34,7 +34,10 @@ pub enum VertexTest {
     /// All strictly behind, rounding included.
     Strict,
     /// None ahead by more than the tolerance, some not strictly behind.
-    Tied,
+    Tied {
+        /// The edge to the one farthest ahead, or NONE.
+        edge: u32,
+    },
     /// One is ahead: the edge to it, or NONE where there is no edge between merged faces, and the neighbour.
     Leaves {
         /// The edge, or NONE; for a [flat vertex](Polyhedron::edge_by_flat_vertex) it may lead elsewhere.
@@ -107,7 +110,7 @@ fn test_vertex_closely(polyhedron: &Polyhedron, vertex: u32, g: &Vector, length:
         Some(Steepest { slope, edge, head }) if slope > tolerance => {
             VertexTest::Leaves { edge, head, parameter: slope as f32 }
         }
-        Some(Steepest { slope, .. }) if !(slope < -STRICT * length) => VertexTest::Tied,
+        Some(Steepest { slope, edge, .. }) if !(slope < -STRICT * length) => VertexTest::Tied { edge },
         _ => VertexTest::Strict,
     }
 }

@@ -252,7 +252,7 @@ impl<L: Lanes> Work for Settle<'_, L> {
             let higher = match test_vertex(Rule::Most, corner, towards, LENGTH, CLEARLY) {
                 VertexTest::Strict => return Top { vertex, excess: 0.0, is_open: false },
                 VertexTest::Leaves { head, .. } => head,
-                VertexTest::Tied => match plateau(polyhedron, &direction, vertex) {
+                VertexTest::Tied { .. } => match plateau(polyhedron, &direction, vertex) {
                     Plateau::Highest(vertex, excess) => return Top { vertex, excess, is_open: false },
                     Plateau::Up(higher) => higher,
                     Plateau::Large => break,

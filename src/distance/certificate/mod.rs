@@ -297,6 +297,14 @@ fn of_tied_vertex(polyhedron: &Polyhedron, vertex: u32, g: &Vector) -> f64 {
     if best < f64::INFINITY { best } else { by_all_vertices(polyhedron, vertex, g) }
 }
 
+/// δ of a vertex in direction g, from one edge at it; +∞ without an edge.
+#[cold]
+#[inline(never)]
+pub fn of_edge_at_vertex(polyhedron: &Polyhedron, edge: u32, g: &Vector) -> f64 {
+    let record = polyhedron.edges.get(edge as usize);
+    record.map_or(f64::INFINITY, |record| of_edge(polyhedron, record, Portable::from_vector(g)))
+}
+
 /// δ of a vertex, from all vertices.
 pub fn by_all_vertices(polyhedron: &Polyhedron, vertex: u32, g: &Vector) -> f64 {
     let own = &polyhedron.vertices[vertex as usize].position;

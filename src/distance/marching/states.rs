@@ -8,10 +8,10 @@ use super::walks::{Descent, WIDE_FACE, behind, walk_along_edge, walk_over_face};
 use crate::base::math::{UNIT_ROUNDOFF, clamp};
 use crate::base::scalar::{Scalar, constant};
 use crate::base::simd::Lanes;
-use crate::body::polyhedron::NONE;
+use crate::body::polyhedron::{NONE, Polyhedron};
 use crate::distance::certificate::{
-    Certify, Minimum, RIGID_MISFIT, edge_rounding, face_rounding, is_inside_sides, of_edge_in_cone, of_facing_face,
-    reciprocal_length,
+    Certify, Minimum, RIGID_MISFIT, edge_rounding, face_rounding, is_inside_sides, of_edge_at_vertex, of_edge_in_cone,
+    of_facing_face, reciprocal_length,
 };
 use crate::placed::frame::Frame;
 use crate::placed::state::{State, ordered};
@@ -67,17 +67,18 @@ pub(super) fn vertex_vertex<L: Lanes, C: Certify<L>>(frame: &Frame<L>, indices: 
         }
         _ => {
             let square = direction.dot(direction);
-            let length = square.sqrt();
+            let (length, inverse) = (square.sqrt(), reciprocal_length(square));
             let minimum = Minimum {
                 points: [L::from_vector(point1), L::from_vector(point2)],
                 rotated,
                 difference: direction,
                 error: 0.0,
                 direction,
-                inverse: reciprocal_length(square),
+                inverse,
                 distance: length,
                 projection: length,
-                support_excess: excess_at_vertex(test1) + excess_at_vertex(test2),
+                support_excess: excess_at_vertex(body1.polyhedron, test1, towards[0], inverse)
+                    + excess_at_vertex(body2.polyhedron, test2, towards[1], inverse),
                 point_error: 0.0,
                 height: 0.0,
             };
@@ -179,7 +180,7 @@ pub(super) fn vertex_edge<L: Lanes, C: Certify<L>, const NEAR: usize>(
         inverse,
         distance,
         projection,
-        support_excess: support_excess + excess_at_vertex(test),
+        support_excess: support_excess + excess_at_vertex(body.polyhedron, test, towards_far, inverse),
         point_error: edge_rounding(far.polyhedron),
         height: 0.0,
     };
@@ -254,7 +255,7 @@ pub(super) fn vertex_face<L: Lanes, C: Certify<L>, const NEAR: usize>(
         inverse,
         distance: difference.dot(difference).sqrt(),
         projection: direction.dot(difference) * inverse,
-        support_excess: support_excess + excess_at_vertex(test),
+        support_excess: support_excess + excess_at_vertex(body.polyhedron, test, towards_far, inverse),
         point_error: record.slack + face_rounding(far.polyhedron.radius, height),
         height,
     };
@@ -434,8 +435,13 @@ fn signed<L: Lanes, const NEAR: usize>(direction: L) -> L {
     if NEAR == 0 { direction } else { direction.negate() }
 }
 
-/// δ of a vertex: 0 if all neighbours lie strictly behind; otherwise a closer look must decide.
+/// δ/|U| of a vertex: 0 if all neighbours lie strictly behind; else by the edge to one that ties, as where faces or edges are
+/// parallel; `towards` is the direction in the body's axes, with the reciprocal length of U.
 #[inline(always)]
-fn excess_at_vertex(test: VertexTest) -> f64 {
-    if matches!(test, VertexTest::Strict) { 0.0 } else { f64::INFINITY }
+fn excess_at_vertex<L: Lanes>(polyhedron: &Polyhedron, test: VertexTest, towards: L, inverse: f64) -> f64 {
+    match test {
+        VertexTest::Strict => 0.0,
+        VertexTest::Tied { edge } => of_edge_at_vertex(polyhedron, edge, &towards.to_vector()) * inverse,
+        VertexTest::Leaves { .. } => f64::INFINITY,
+    }
 }

@@ -149,7 +149,7 @@ impl PairQuery<'_> {
     fn fill(&mut self, decision: &Decision, statistics: Statistics, decided_by: DecidedBy) -> Result<()> {
         let pair = &self.pair();
         // A pair that intersected the last time may rest. All that may fail comes first.
-        let pyramids = if self.is_simple() && self.holds_enclosure() { Pyramids::Always } else { Pyramids::Unused };
+        let pyramids = if self.is_simple() && self.holds_enclosure() { Pyramids::Shallow } else { Pyramids::Unused };
         let is_contact = self.query == Query::Contact && matches!(decision, Decision::Intersecting { .. });
         let depth = if is_contact { Some(deepest(pair, pyramids)?) } else { None };
         (self.answer.statistics, self.answer.decided_by) = (statistics, decided_by);

@@ -20,7 +20,7 @@ use crate::scene::world::rows::Spheres;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct LeastDistance {
-    /// The least distance is at least this. For sets farther apart than `max_distance` …
+    /// The least distance is at least this. It is no less than `max_distance` for sets farther apart …
     pub lower: f64,
     /// … and at most this; infinite beyond `max_distance`, and if no pair is tested.
     pub upper: f64,
