@@ -9,7 +9,10 @@ Ltac numbers := unfold u, turned_up, turned_down, offset_up, offset_down, raised
   difference_error_size_low, difference_error_separation_low, difference_error_length_low,
   lower_projection_low, lower_projection_high, lower_excess_high, lower_error_high, lower_distance_high,
   upper_distance_low, upper_error_low, upper_point_low, bound_LLL_low, bound_ELL_low, bound_EEL_low, bound_EEE_low,
-  far_Nhh_low, over_squared_oo_high, rigid_defect, rigid_together, rigid in *.
+  far_Nhh_low, over_squared_oo_high, rigid_defect, rigid_together, rigid, end_up,
+  lower_of_segments_least_low, lower_of_segments_least_high, lower_of_segments_size_high, lower_of_segments_separation_high,
+  upper_of_segments_distance_low, upper_of_segments_size_low, upper_of_segments_separation_low, difference_x_p0_low, square_xx_low,
+  inner_r1_high, limit_innerinner_high in *.
 
 (* Frame::separation, of an offset whose components are rounded once: not below the exact length, nor above it by more than 16u. *)
 Lemma separation_is_above : (1 - raised_down) * (1 - offset_down) >= 1.
@@ -121,3 +124,64 @@ Qed.
 
 Lemma rigid_by_entries : 3 * rigid + (35/10 + 4) * u <= rigid_defect.
 Proof. numbers. lra. Qed.
+
+(* round::ends_of_segments. A difference D of ends as computed, as in difference_is_off_by_no_more, is off by e; c is its part along
+   a unit direction and p the computed one. The offset is off by at most 9/8 u of sep. *)
+Lemma lower_end_of_segments : forall rho1 rho2 s second D e_f e_s e_o e_sum e_D e sep c p k ks kd lower,
+  0 <= rho1 -> 0 <= rho2 -> 0 <= sep -> 0 <= D -> 0 <= s ->
+  e_f <= turned_up * (17407 / 10000) * rho1 -> e_s <= turned_up * (17407 / 10000) * rho2 -> e_o <= (9 / 8) * u * sep ->
+  e_sum <= u * s -> e_D <= u * D -> s <= D + e_D + second -> second <= (1015 / 1000) * rho2 + e_s ->
+  D <= sep * (1 + 4 * u) + (1016 / 1000) * (rho1 + rho2) -> e <= e_f + e_s + e_o + e_sum + e_D ->
+  - D <= c <= D -> - (product_up * D) <= p - c <= product_up * D ->
+  lower_of_segments_least_low <= k <= lower_of_segments_least_high -> ks <= lower_of_segments_size_high ->
+  kd <= lower_of_segments_separation_high -> lower = k * p + ks * (rho1 + rho2) + kd * sep -> lower <= c - e.
+Proof.
+  intros rho1 rho2 s second D e_f e_s e_o e_sum e_D e sep c p k ks kd lower H1 H2 Hsep HD Hs Ef Es Eo Esum ED Ss Second Long E C P
+    Hk Hks Hkd Lower.
+  assert (A1 : ks * (rho1 + rho2) <= lower_of_segments_size_high * (rho1 + rho2)) by (apply Rmult_le_compat_r; lra).
+  assert (A2 : kd * sep <= lower_of_segments_separation_high * sep) by (apply Rmult_le_compat_r; assumption).
+  assert (A3 : (k - 1) * p <= u * ((1 + product_up) * D)).
+  { assert (B : - u <= k - 1 <= u) by (numbers; lra).
+    assert (Q : - ((1 + product_up) * D) <= p <= (1 + product_up) * D) by lra.
+    assert (U : 0 <= u) by (numbers; lra).
+    destruct (Rle_dec 0 p) as [Hp|Hp].
+    - apply Rle_trans with (u * p); [apply Rmult_le_compat_r|apply Rmult_le_compat_l]; lra.
+    - replace ((k - 1) * p) with ((1 - k) * - p) by ring.
+      apply Rle_trans with (u * - p); [apply Rmult_le_compat_r|apply Rmult_le_compat_l]; lra. }
+  numbers. lra.
+Qed.
+
+(* Points between two ends have errors of ends e_1 and e_2 between those of the ends; seen, tails, ways, what is moved and D are the
+   lengths of what is computed, and each sum, product and difference is off by u of that. *)
+Lemma upper_end_of_segments : forall rho1 rho2 sep seen tails way1 way2 moved D e_1 e_2 e_o e_seen e_tails e_way1 e_product1 e_moved
+  e_way2 e_product2 e_D distance k ks kd upper,
+  0 <= rho1 -> 0 <= rho2 -> 0 <= sep -> 0 <= D -> 0 <= distance ->
+  e_1 <= end_up * (17407 / 10000) * rho1 -> e_2 <= end_up * (17407 / 10000) * rho2 -> e_o <= (9 / 8) * u * sep ->
+  e_seen <= u * seen -> seen <= tails + e_tails + (1016 / 1000) * rho2 ->
+  e_tails <= u * tails -> tails <= sep * (1 + 4 * u) + (1016 / 1000) * (rho1 + rho2) ->
+  e_way1 <= u * way1 -> e_product1 <= u * way1 -> way1 <= 2 * (1016 / 1000) * rho1 ->
+  e_way2 <= u * way2 -> e_product2 <= u * way2 -> way2 <= 2 * (1016 / 1000) * rho2 ->
+  e_moved <= u * moved -> moved <= D + e_D + way2 + e_product2 -> e_D <= u * D -> (1 - length_down) * D <= distance ->
+  upper_of_segments_distance_low <= k -> upper_of_segments_size_low <= ks -> upper_of_segments_separation_low <= kd ->
+  upper = k * distance + ks * (rho1 + rho2) + kd * sep ->
+  D + (e_1 + e_2 + e_o + e_seen + e_tails + e_way1 + e_product1 + e_moved + e_way2 + e_product2 + e_D) <= upper.
+Proof.
+  intros.
+  assert (upper_of_segments_distance_low * distance <= k * distance) by (apply Rmult_le_compat_r; assumption).
+  assert (upper_of_segments_size_low * (rho1 + rho2) <= ks * (rho1 + rho2)) by (apply Rmult_le_compat_r; lra).
+  assert (upper_of_segments_separation_low * sep <= kd * sep) by (apply Rmult_le_compat_r; assumption).
+  numbers. lra.
+Qed.
+
+(* glance::square_of_rigid: origins q apart, with a square computed as s, and balls whose radii have the sum r, computed as i. Rigid
+   rotations leave of a radius the root of 1 - rigid_defect at least. *)
+Lemma balls_overlap : forall q s i r limit, 0 <= i <= inner_r1_high * r ->
+  difference_x_p0_low * difference_x_p0_low * square_xx_low * (q * q) <= s -> s < limit ->
+  limit <= limit_innerinner_high * (i * i) -> q * q < (1 - rigid_defect) * (r * r).
+Proof.
+  intros q s i r limit Hi Hs H Hl.
+  assert (I : i * i <= inner_r1_high * r * (inner_r1_high * r)) by (apply Rmult_le_compat; lra).
+  replace (inner_r1_high * r * (inner_r1_high * r)) with (inner_r1_high * inner_r1_high * (r * r)) in I by ring.
+  pose proof (square_is_positive r). pose proof (square_is_positive q).
+  numbers. lra.
+Qed.

@@ -85,7 +85,7 @@ type Named = (&'static str, fn() -> Found);
 
 /// All of them, run on a machine that fuses and on one that does not.
 pub fn all() -> Vec<Kernel> {
-    let on_lanes: [Named; 11] = [
+    let on_lanes: [Named; 12] = [
         ("difference", difference),
         ("rotate_back", rotate_back),
         ("rigid", rigid),
@@ -97,10 +97,13 @@ pub fn all() -> Vec<Kernel> {
         ("plane_values", plane_block),
         ("remainder", remainder),
         ("edges", edges),
+        ("round", round),
     ];
-    let scalar: [Named; 12] = [
+    let scalar: [Named; 14] = [
         ("bounds", bounds),
         ("interval", interval),
+        ("round_ends", round_ends),
+        ("balls", balls),
         ("determinant_error", determinant_errors),
         ("turn", turn),
         ("least_within", least_of_sagging_chord),
@@ -165,10 +168,28 @@ fn tetrahedron(random: &mut Random, name: &str) -> Polyhedron {
     body
 }
 
+/// A segment around the origin.
+fn segment(random: &mut Random, name: &str) -> Polyhedron {
+    let [along, aside] = [random.direction(), random.vector() * 0.1];
+    let body = build(&[aside + along, aside - along], None).expect("a segment");
+    assert_eq!(body.centre, Vector::zeros());
+    for (index, vertex) in body.vertices.iter().enumerate() {
+        vector(&format!("{name}{index}_"), vertex.position);
+    }
+    body
+}
+
 /// Runs on a frame of two bodies in each other.
 fn in_frame(f: impl Fn(&Frame<Symbolic>, &mut Random, &mut Found)) -> Found {
+    in_frame_of(tetrahedron, f)
+}
+
+fn in_frame_of(
+    body: fn(&mut Random, &str) -> Polyhedron,
+    f: impl Fn(&Frame<Symbolic>, &mut Random, &mut Found),
+) -> Found {
     let mut random = Random::new(0x70_72_6f_6f_66);
-    let bodies = [tetrahedron(&mut random, "v"), tetrahedron(&mut random, "w")];
+    let bodies = [body(&mut random, "v"), body(&mut random, "w")];
     let poses = [pose(&mut random, "1", 0.05), pose(&mut random, "2", 0.05)];
     let frame = Frame::<Symbolic>::new(&Pair { polyhedra: [&bodies[0], &bodies[1]], poses: [&poses[0], &poses[1]] });
     assert!(frame.in_range && frame.rigid);
@@ -256,7 +277,7 @@ fn certificate() -> Found {
         let projection = Symbol(known(u.dot(d))) * inverse;
         let distance = Symbol(known(d.dot(d))).sqrt();
         // As `certificate::reciprocal_length` and its callers compute them.
-        assert_eq!(value(inverse.0), swiftprox::distance::certificate::reciprocal_length(u.dot(u)));
+        assert_eq!(value(inverse.0), reciprocal_length(u.dot(u)));
         found.counted("projection", projection.0, &[]).counted("distance", distance.0, &[]);
     })
 }
@@ -509,6 +530,105 @@ fn interval() -> Found {
         ["distance", "projection", "error", "excess", "point"].map(|name| symbol(name, 0.5));
     let [lower, upper] = ends(distance, projection, error, excess, point);
     found.counted("lower", lower.0, &[]).counted("upper", upper.0, &[]);
+    found
+}
+
+/// [`NearestOfRound::of`] two segments: the difference of the points whose distance it takes.
+fn round() -> Found {
+    // Once to know the weights of the ends, which plain doubles compute.
+    in_frame_of(segment, |frame, _, _| {
+        NearestOfRound::of(frame);
+    });
+    let [t, s] = tape::unseen()[..2] else { panic!("two weights") };
+    assert!([s, t].iter().all(|weight| (0.1..0.9).contains(weight)), "{s} {t}");
+    tape::begin(tape::is_fused());
+    let weights = [input("s", s), input("t", t)];
+    in_frame_of(segment, |frame, _, found| {
+        let nearest = NearestOfRound::of(frame);
+        assert_eq!(nearest.interval, interval_of_crossing(frame, nearest.distance));
+        let tape = finished();
+        let [square] = operands(known(nearest.distance));
+        let [sum, z] = operands(square);
+        let [x, y] = operands(sum);
+        // The way that is multiplied, fused or not, and what the multiple is added to or taken off.
+        let parts = |node: Node, weight: Node| {
+            let own = tape.operands(node);
+            let (product, rest) = match tape.op(node) {
+                Op::Fma | Op::Fnma => (own, own[2]),
+                Op::Add => (tape.operands(own[0]), own[1]),
+                Op::Sub => (tape.operands(own[1]), own[0]),
+                op => panic!("{op:?} adds no multiple"),
+            };
+            assert_eq!(product[1], weight);
+            (product[0], rest)
+        };
+        for (k, product) in [x, y, z].into_iter().enumerate() {
+            let [apart, _] = operands(product);
+            let (way2, moved) = parts(apart, weights[1]);
+            let (way1, tails) = parts(moved, weights[0]);
+            let [seen, tail2] = operands(tails);
+            let [tail1, offset] = operands(seen);
+            let [[head1, own1], [head2, own2]] = [way1, way2].map(operands);
+            // So that errors of tails are weighted as the tails are.
+            assert_eq!([own1, own2], [tail1, tail2]);
+            let name = |what: &str| format!("{what}{k}");
+            for (what, node) in [("tail1_", tail1), ("tail2_", tail2), ("head1_", head1), ("head2_", head2)] {
+                found.value(&name(what), node, &[]);
+            }
+            found.value(&name("seen"), seen, &[(tail1, "x"), (offset, "o")]);
+            found.value(&name("tails"), tails, &[(seen, "x"), (tail2, "y")]);
+            found.value(&name("way1_"), way1, &[(head1, "x"), (tail1, "y")]);
+            found.value(&name("way2_"), way2, &[(head2, "x"), (tail2, "y")]);
+            found.value(&name("moved"), moved, &[(way1, "a"), (tails, "d")]);
+            found.counted(&name("apart"), apart, &[(way2, "b"), (moved, "d")]);
+        }
+    })
+}
+
+/// What [`NearestOfRound::of`] has to make of crossing segments, where the differences of their ends are [`Frame::difference`].
+fn interval_of_crossing(frame: &Frame<Symbolic>, distance: f64) -> Interval {
+    let ends = frame.polyhedra().map(|body| [body.vertices[0].position, body.vertices[1].position]);
+    let [way1, way2] = [0, 1].map(|i| frame.bodies[i].rotate(&ends[i][1]).sub(frame.bodies[i].rotate(&ends[i][0])));
+    let across = way1.cross(way2);
+    let heights = [0, 1, 2, 3].map(|k| across.dot(frame.difference(&ends[0][k / 2], &ends[1][k % 2])));
+    let (inverse, sign) = (reciprocal_length(across.dot(across)), heights[0].signum());
+    let least = heights.into_iter().map(|height| sign * height).fold(f64::INFINITY, f64::min);
+    let [lower, upper] = ends_of_segments(distance, least * inverse, frame.size, frame.separation);
+    Interval { lower, upper }
+}
+
+/// The ends of the interval of points and segments.
+fn round_ends() -> Found {
+    let mut found = Found::default();
+    let [distance, least, size, apart] = ["distance", "least", "size", "separation"].map(|name| symbol(name, 0.5));
+    let [lower, upper] = ends_of_segments(distance, least, size, apart);
+    found.counted("lower_of_segments", lower.0, &[]).counted("upper_of_segments", upper.0, &[]);
+    let [lower, upper] = ends_of_points(distance, least, apart);
+    found.counted("lower_of_points", lower.0, &[]).counted("upper_of_points", upper.0, &[]);
+    // The direction is the difference itself.
+    let square = symbol("square", 0.7);
+    let along = square * (Symbol::from(1.0) / square.sqrt());
+    found.counted("along", along.0, &[]);
+    found
+}
+
+/// Balls around the origins: the square of what these are apart, and what it has to be below.
+fn balls() -> Found {
+    let mut random = Random::new(0x62);
+    let [from, to] = ["p", "q"].map(|name| symbols(name, &mut random));
+    let square = square_between(from, to);
+    let tape = finished();
+    let [sum, z] = operands(square.0);
+    let [x, y] = operands(sum);
+    let mut found = Found::default();
+    let cuts = [(x, "x"), (y, "y"), (z, "z")].map(|(product, name)| (tape.operands(product)[0], name));
+    for (node, name) in cuts {
+        found.counted(&format!("difference_{name}"), node, &[]);
+    }
+    found.counted("square", square.0, &cuts);
+    let inner = together([symbol("r1", 0.4), symbol("r2", 0.3)], symbol("swept", 0.2));
+    found.counted("inner", inner.0, &[]).counted("limit", square_of_rigid(inner).0, &[(inner.0, "inner")]);
+    found.counted("shrunk", shrunk(symbol("r", 0.6), symbol("defect", 0.01)).0, &[]);
     found
 }
 

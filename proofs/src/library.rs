@@ -16,7 +16,9 @@ pub use swiftprox::body::polyhedron::fan::PointBlock;
 pub use swiftprox::depth::facets::placed::PlacedFan;
 pub use swiftprox::depth::facets::{NODE, NORMAL, ON_ARC, SUPPORT};
 pub use swiftprox::depth::polytope::{HEIGHTS, PairRounding, Polytope, Pyramid, evaluate, heights, rounding};
-pub use swiftprox::distance::certificate::{DIRECTION_ERROR, REMAINDER, RIGID_MISFIT, beside, beside_one, ends};
+pub use swiftprox::distance::certificate::{
+    DIRECTION_ERROR, Interval, REMAINDER, RIGID_MISFIT, beside, beside_one, ends, reciprocal_length,
+};
 pub use swiftprox::distance::enclosure::{determinant_error, encloses_origin, length_above};
 pub use swiftprox::distance::gjk::{COMBINATION, EXCESS, height_over, plus_weighted};
 pub use swiftprox::distance::marching::{
@@ -24,6 +26,9 @@ pub use swiftprox::distance::marching::{
 };
 pub use swiftprox::motion::bound::{LEAST_BETWEEN, OF_ANGLE, OF_TURN, least_within};
 pub use swiftprox::motion::turn::{angle, axis_and_speed, cosine, crossed, entry, reduced, sine, versine};
+pub use swiftprox::pair::{
+    NearestOfRound, ends_of_points, ends_of_segments, shrunk, square_between, square_of_rigid, together,
+};
 pub use swiftprox::placed::Pair;
 pub use swiftprox::placed::frame::{
     Frame, RIGID, RIGID_DEFECT, RIGID_TOGETHER, difference_error, separation, sum_of, tolerance,

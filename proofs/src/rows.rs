@@ -123,6 +123,36 @@ pub fn rows(kernels: &[Kernel]) -> Vec<Row> {
         wide(&kernel.tape, *node)
     };
     let cancelled = low(&of("bounds", "separation"), &["cancelled"]);
+    // The offset, of its bound: rounded once, or in double-double where centres are not origins.
+    let of_offset = offset.max(of_wide("offset") / cancelled);
+    let (lower, upper) = (of("round_ends", "lower_of_segments"), of("round_ends", "upper_of_segments"));
+    let (lower_points, upper_points) = (of("round_ends", "lower_of_points"), of("round_ends", "upper_of_points"));
+    let taken = |lower: &Polynomial, name: &str| -in_u(&lower[&vec![name.to_string()]].high);
+    let added = |upper: &Polynomial| in_u(&(&upper[&vec!["distance".to_string()]].exact - rational(1.0)));
+    let off = |polynomial: &Polynomial, name: &str| {
+        polynomial[&vec![name.to_string()]].relative().iter().map(|end| to_double(end).abs()).fold(0.0, f64::max)
+    };
+    let in_round = |what: &str| most("round", &[0, 1, 2].map(|k| format!("{what}{k}")).each_ref().map(String::as_str));
+    // Of ends as rotated, which points between them share; of sums by themselves. No difference is longer than `separation` and
+    // STRETCH times the size, nor a way than 2·STRETCH radii. The multiple of a way is rounded where it is not fused.
+    let rotated_ends = ["tail1_", "tail2_", "head1_", "head2_"].map(in_round).into_iter().fold(0.0, f64::max);
+    let of_both_tails = in_round("seen") + in_round("tails");
+    let [of_moved, of_apart] = ["moved0", "apart0"].map(|value| off(&of("round_plain", value), "d"));
+    let of_way1 = in_round("way1_") + in_round("moved") - of_moved;
+    let of_way2 = in_round("way2_") + in_round("apart") - of_apart;
+    let of_radius1 = 2.0 * STRETCH * of_way1;
+    let of_radius2 = 2.0 * STRETCH * (of_way2 + of_moved) + in_round("seen") * STRETCH;
+    let of_size = rotated_ends * FROBENIUS + of_both_tails * STRETCH + of_radius1.max(of_radius2);
+    let length = most("certificate", &["distance"]);
+    // Of the squares of balls' distances and radii: what is computed of both, and what is left of a radius.
+    let of_square = 2.0 * most("balls", &["difference_x", "difference_y", "difference_z"]) + most("balls", &["square"]);
+    let of_inner = 2.0 * most("balls", &["inner"]);
+    let limit = of("balls", "limit");
+    let spare = in_u(&(rational(1.0) - &limit[&vec!["inner".to_string(); 2]].exact));
+    let left = of("balls", "shrunk");
+    let of_defect = in_u(&(rational(1.0) - &left[&vec!["r".to_string()]].exact));
+    // The most that is measured of an entry is 1e-2, and twice that is taken off.
+    let of_radius = off(&left, "r") + 0.02 * most("balls", &["shrunk"]);
 
     vec![
         row(
@@ -209,6 +239,54 @@ pub fn rows(kernels: &[Kernel]) -> Vec<Row> {
         row("ray, motion", "R·p, of ρ", 5.3, most("pose", &["turned"]) * FROBENIUS, "C"),
         row("`of_edge`", "the remainder, of its parts", REMAINDER / U, most("remainder", &["edge"]), "C"),
         row("`of_face`", "the remainder, of its parts", REMAINDER / U, most("remainder", &["face"]), "C"),
+        row(
+            "round `ends_of_segments`",
+            "of ρ₁ + ρ₂, in the lower end",
+            taken(&lower, "size"),
+            turned * FROBENIUS + sums * STRETCH + (2.0 * sums + product + off(&lower, "least")) * STRETCH,
+            "C, Coq",
+        ),
+        row(
+            "",
+            "of \\|Δ\\|, in the lower end",
+            taken(&lower, "separation"),
+            of_offset + 2.0 * sums + product + off(&lower, "least"),
+            "C, Coq",
+        ),
+        row("", "of ρ₁ + ρ₂, in the upper end", low(&upper, &["size"]), of_size, "C, Coq"),
+        row("", "of \\|Δ\\|, in the upper end", low(&upper, &["separation"]), of_offset + of_both_tails, "C, Coq"),
+        row(
+            "",
+            "of the length, in the upper end",
+            added(&upper),
+            of_moved + of_apart + length + off(&upper, "distance"),
+            "C, Coq",
+        ),
+        // Half of what the square is off by, its root: the length without its own rounding.
+        row(
+            "round `ends_of_points`",
+            "of \\|Δ\\|, in the lower end",
+            taken(&lower_points, "separation"),
+            of_offset + (length - 1.0) + most("round_ends", &["along"]) + off(&lower_points, "least"),
+            "C",
+        ),
+        row("", "of \\|Δ\\|, in the upper end", low(&upper_points, &["separation"]), of_offset, "C"),
+        row("", "of the length, in the upper end", added(&upper_points), length + off(&upper_points, "distance"), "C"),
+        row(
+            "glance `square_of_rigid`",
+            "of the square",
+            spare,
+            of_square + of_inner + most("balls", &["limit"]) + RIGID_DEFECT / U,
+            "C, Coq",
+        ),
+        // Measuring errs by 3u of entries up to 1.01 in their squares, and counts twice.
+        row(
+            "glance `shrunk`",
+            "of the radius, without 2d",
+            of_defect,
+            (of_square + of_inner + 1.0) / 2.0 + of_radius + 2.0 * 4.0,
+            "C",
+        ),
         row("states, edges", "a difference, of lengths along edges", along, along_edges, "C"),
         row("", "a difference, of \\|D\\|", along, of_tails, "C"),
         row("states, misfits", "vertex and edge, of \\|U\\|", low(&across, &[]), out_of_cone + foot + 12.0, "C"),

@@ -362,6 +362,12 @@ fn constants(kernels: &[Kernel]) -> String {
         ),
         ("pyramid_plain", "far", vec![vec!["N", "h", "h"]]),
         ("pyramid_plain", "over_squared", vec![vec!["o", "o"]]),
+        ("round_ends", "lower_of_segments", vec![vec!["least"], vec!["size"], vec!["separation"]]),
+        ("round_ends", "upper_of_segments", vec![vec!["distance"], vec!["size"], vec!["separation"]]),
+        ("balls", "difference_x", vec![vec!["p0"]]),
+        ("balls", "square", vec![vec!["x", "x"]]),
+        ("balls", "inner", vec![vec!["r1"]]),
+        ("balls", "limit", vec![vec!["inner", "inner"]]),
     ] {
         for monomial in monomials {
             let [low, high] = ends(kernel, value, &monomial);
@@ -374,6 +380,7 @@ fn constants(kernels: &[Kernel]) -> String {
     for (name, kernel, values) in [
         ("turned", "difference", &["first0", "first1", "first2", "second0", "second1", "second2"][..]),
         ("offset", "difference", &["offset0", "offset1", "offset2"]),
+        ("end", "round", &["tail1_0", "tail1_1", "tail1_2", "tail2_0", "tail2_1", "tail2_2"]),
         ("raised", "difference", &["separation"]),
         ("product", "certificate", &["projection"]),
         ("length", "certificate", &["distance"]),

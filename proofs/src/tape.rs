@@ -159,6 +159,11 @@ pub fn known(x: f64) -> Node {
     }
 }
 
+/// The doubles that came into the lanes and were not known, in order.
+pub fn unseen() -> Vec<f64> {
+    with(|tape| tape.records.iter().filter(|record| record.op == Op::Opaque).map(|record| record.value).collect())
+}
+
 /// All nodes that are the same double as this one.
 pub fn equal(node: Node) -> Vec<Node> {
     with(|tape| {

@@ -42,7 +42,7 @@ fn bounds_cover_what_is_counted() {
 }
 
 /// The least that each constant may be made less by is noticed, without any tape to compare with: the enclosure's 12u, the
-/// interval's 8u, the sizes' 6.5u of a difference, the planes' 10u.
+/// interval's 8u, the sizes' 6.5u of a difference, the planes' 10u, segments' 17u, 12u and 15u, points' 7u, balls' 42u and 8u.
 #[test]
 fn constants_that_are_too_small_are_found() {
     let mutants = [
@@ -52,6 +52,12 @@ fn constants_that_are_too_small_are_found() {
         ("bounds", 6.5, 6.0),
         ("bounds", 10.0 * U, 7.0 * U),
         ("determinant_error", 1.0 + 16.0 * U, 1.0 + 4.0 * U),
+        ("round_ends", 17.0, 16.0),
+        ("round_ends", 12.0, 11.0),
+        ("round_ends", 15.0, 14.0),
+        ("round_ends", 7.0 * U, 6.0 * U),
+        ("balls", 1.0 - 42.0 * U, 1.0 - 39.0 * U),
+        ("balls", 8.0 * U, 7.0 * U),
     ];
     for (name, constant, other) in mutants {
         let mut kernels = all();

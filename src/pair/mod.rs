@@ -26,6 +26,10 @@ pub use gradient::{Gradient, gradient};
 pub use half_space::{HalfSpace, half_space_distance};
 pub(crate) use half_space::{above_plane, middle, of_lowest};
 pub(crate) use ladder::least_error;
+#[doc(hidden)]
+pub use ladder::{shrunk, square_between, square_of_rigid, together};
 pub use queries::{approximate, contact, depth, distance, intersection, intersection_by_marching, signed_distance};
+#[doc(hidden)]
+pub use round::{NearestOfRound, ends_of_points, ends_of_segments};
 pub(crate) use signed_distance::fill_at_rest;
 pub use signed_distance::{SignedDistance, SignedDistanceCache};

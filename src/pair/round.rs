@@ -8,6 +8,7 @@ use crate::answer::{
     DecidedBy, Feature, Outcome, PairAnswer, Query, Radii, Statistics, fill_nothing, label, turned_back,
 };
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp};
+use crate::base::scalar::{Scalar, constant};
 use crate::base::simd::{self, Kernel, Lanes, Portable};
 use crate::body::polyhedron::{Polyhedron, Vertex};
 use crate::distance::certificate::{Interval, reciprocal_length};
@@ -179,7 +180,7 @@ impl Kernel for OfRigid<'_, '_> {
 }
 
 /// Nearest points of two placed points or segments, and what they prove.
-struct NearestOfRound<L> {
+pub struct NearestOfRound<L> {
     /// In centred local coordinates.
     points: [L; 2],
     /// Mapped by their bodies' rotations.
@@ -187,9 +188,9 @@ struct NearestOfRound<L> {
     /// From body 2 to body 1, of unit length.
     normal: L,
     /// Between them.
-    distance: f64,
+    pub distance: f64,
     /// That holds the distance of the bodies.
-    interval: Interval,
+    pub interval: Interval,
     features: [FeatureId; 2],
 }
 
@@ -210,7 +211,7 @@ impl<L: Lanes> NearestOfRound<L> {
 
     /// Any weights s and t of the ends make points of the bodies, and any direction a gap: what rounding makes of both costs width.
     #[inline(always)]
-    fn of(frame: &Frame<L>) -> NearestOfRound<L> {
+    pub fn of(frame: &Frame<L>) -> NearestOfRound<L> {
         let [body1, body2] = &frame.bodies;
         let [ends1, ends2] = [&body1.polyhedron.vertices, &body2.polyhedron.vertices];
         let (tail1, tail2) = (L::from_vector(&ends1[0].position), L::from_vector(&ends2[0].position));
@@ -281,28 +282,46 @@ impl<L: Lanes> NearestOfRound<L> {
     }
 }
 
-/// From the distance of two points of the bodies and the least difference of ends along a unit direction, both as computed. With ρ
-/// the sum of the radii and σ [`Frame::separation`], no difference is longer than σ + 1.02ρ.
-///
-/// Below: a difference of ends is off by 8.6ρ + 4σ ([`Frame::difference_error`]), all times u; its product with the direction by
-/// 4(σ + 1.02ρ), root, quotient and product by 3.1(σ + 1.02ρ), the last sum by one: 17ρ + 12.2σ. A direction too short is a NaN,
-/// and proves nothing.
-///
-/// Above: the difference of tails is off by 8.6ρ + 4σ, the ways to the heads by 10.6ρ for both ends and 2.1ρ for the difference;
-/// their multiples and sums add 2.1ρ and 2(σ + 1.02ρ): 25.5ρ + 6σ. The length itself is off by 2.1u, the sum by one.
-///
-/// The difference of two points without size is that of the origins, off by 2σ; what is made of it by 7.1σ below: no sum cancels.
+/// From the distance of two points of the bodies and the least difference of ends along a unit direction, both as computed.
 #[inline(always)]
 fn interval(distance: f64, least: f64, size: f64, separation: f64) -> Interval {
     if size == 0.0 {
+        let [lower, upper] = ends_of_points(distance, least, separation);
         // A square that underflows bounds no distance.
-        let upper = if least.is_nan() { f64::NAN } else { distance + U * (2.0 * separation + 4.0 * distance) };
-        return Interval { lower: least - U * 10.0 * separation, upper };
+        return Interval { lower, upper: if least.is_nan() { f64::NAN } else { upper } };
     }
-    Interval {
-        lower: least - U * (20.0 * size + 14.0 * separation),
-        upper: distance + U * (28.0 * size + 7.0 * separation + 6.0 * distance),
-    }
+    let [lower, upper] = ends_of_segments(distance, least, size, separation);
+    Interval { lower, upper }
+}
+
+/// The ends of an interval, all errors times u. With ρ the sum of the radii and σ [`Frame::separation`], no difference is longer
+/// than σ + 1.02ρ, and no segment than 2.03 times its radius. The offset is rounded once, or off by 18u times the M of which σ
+/// holds 16u: by 1.2σ.
+///
+/// Below: a difference of ends is off by 8.3ρ + 3.2σ ([`Frame::difference_error`]); its product with the direction by 3 of its
+/// length, the direction's length by 1.5, root, quotient and product by one each; the last sum by one: 16.9ρ + 11.7σ. A direction
+/// too short is a NaN, and proves nothing.
+///
+/// Above: rotated ends are off by 5.3 of their radius, and so are points between them, as the difference of tails and the way to a
+/// head have the same tail. Sums are off by one of themselves: the tail of body 1 seen from body 2 and the difference of tails by
+/// 2σ + 3.1ρ, a way and its multiple by 4.1 radii, the difference with one of both multiples by the distance and 2.1 radii, that
+/// with both by the distance: 14.4ρ + 3.2σ. The length is off by 2.5 of itself, the last sum by one.
+#[inline(always)]
+pub fn ends_of_segments<S: Scalar>(distance: S, least: S, size: S, separation: S) -> [S; 2] {
+    let [below_by_size, below_by_separation] = [constant::<S>(17.0), constant(12.0)];
+    let [above_by_size, above_by_separation, by_distance] = [constant::<S>(15.0), constant(4.0), constant(6.0)];
+    let lower = least - constant::<S>(U) * (below_by_size * size + below_by_separation * separation);
+    let above = above_by_size * size + above_by_separation * separation + by_distance * distance;
+    [lower, distance + constant::<S>(U) * above]
+}
+
+/// The same of points: their difference is the offset, and the direction. Its square is off by 3u and divided by its own root,
+/// which leaves half of that; root, quotient, product and the last sum add one each: 6.7σ.
+#[inline(always)]
+pub fn ends_of_points<S: Scalar>(distance: S, least: S, separation: S) -> [S; 2] {
+    let lower = least - constant::<S>(7.0 * U) * separation;
+    let above = constant::<S>(2.0) * separation + constant::<S>(4.0) * distance;
+    [lower, distance + constant::<S>(U) * above]
 }
 
 /// The point of a body by its weight between the ends.

@@ -4,6 +4,7 @@
 use super::query::PairQuery;
 use crate::answer::{DecidedBy, Outcome, Query, Statistics, contact};
 use crate::base::math::UNIT_ROUNDOFF as U;
+use crate::base::scalar::{Scalar, constant, dot};
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::SMALLEST;
 use crate::distance::certificate::reciprocal_length;
@@ -32,39 +33,33 @@ impl PairQuery<'_> {
         query == Query::Intersection && self.balls_overlap(0.0)
     }
 
-    /// The same of bodies over which balls are swept whose radii have this sum, rounded down. Sums of radii lose 6u of their
-    /// square at most.
+    /// The same of bodies over which balls are swept whose radii have this sum, rounded down.
     #[inline(always)]
     pub(super) fn balls_overlap(&mut self, swept: f64) -> bool {
         debug_assert!(swept >= 0.0);
-        let [body1, body2] = self.bodies;
-        let inner = body1.shape.extent().inner_radius + body2.shape.extent().inner_radius + swept;
+        let inner = together(self.bodies.map(|body| body.shape.extent().inner_radius), swept);
         (inner >= SMALLEST)
-            && self.square_between_origins() < inner * inner * (1.0 - 256.0 * U)
+            && self.square_between_origins() < square_of_rigid(inner)
             && self.is_simple()
             && (simd::dispatch(&mut InnerBalls { pair: self }) || self.placed_balls_overlap(swept))
     }
 
-    /// Of the difference of the translations, right to 5u of itself; it may underflow.
     #[inline(always)]
     fn square_between_origins(&self) -> f64 {
-        let [pose1, pose2] = self.poses();
-        let [x, y, z] = [0, 1, 2].map(|i| pose1.rows[i][3] - pose2.rows[i][3]);
-        x * x + y * y + z * z
+        let [from, to] = self.poses().map(|pose| [0, 1, 2].map(|i| pose.rows[i][3]));
+        square_between(from, to)
     }
 
-    /// The same of rotations that are not rigid: with d the largest entry of |RᵀR − I|, at most 1e-2 and computed to 4u, R shrinks
-    /// no vector by more than 2d of its length.
+    /// The same of rotations that are not rigid.
     #[cold]
     #[inline(never)]
     fn placed_balls_overlap(&mut self, swept: f64) -> bool {
         if !are_acceptable(self.poses()) {
             return false;
         }
-        let inner =
-            |body: &Placed| body.shape.extent().inner_radius * (1.0 - 2.0 * (body.pose.rotation_defect() + 8.0 * U));
-        let inner = inner(&self.bodies[0]) + inner(&self.bodies[1]) + swept;
-        let overlap = inner >= SMALLEST && self.square_between_origins() < inner * inner * (1.0 - 32.0 * U);
+        let placed = |body: Placed| shrunk(body.shape.extent().inner_radius, body.pose.rotation_defect());
+        let inner = together(self.bodies.map(placed), swept);
+        let overlap = inner >= SMALLEST && self.square_between_origins() < inner * inner;
         if overlap {
             self.fill_overlap();
         }
@@ -89,6 +84,34 @@ impl PairQuery<'_> {
             && self.cache.axis(self.polyhedra()).is_some()
             && simd::dispatch(&mut SeparationGlance { pair: self })
     }
+}
+
+/// The square of the difference of two translations, right to 5u of itself; it may underflow.
+#[inline(always)]
+pub fn square_between<S: Scalar>([x, y, z]: [S; 3], to: [S; 3]) -> S {
+    let difference = [x - to[0], y - to[1], z - to[2]];
+    dot(difference, difference)
+}
+
+/// The sum of two radii and what is swept, right to 2u of itself. A radius below 0, of a segment whose middle is not its origin,
+/// is too low by more than rounding and a pose make of it.
+#[inline(always)]
+pub fn together<S: Scalar>([radius1, radius2]: [S; 2], swept: S) -> S {
+    radius1 + radius2 + swept
+}
+
+/// What [`square_between`] has to be below for balls to overlap whose radii have this sum before rigid rotations shrink them, by
+/// half of [`RIGID_DEFECT`](crate::placed::frame::RIGID_DEFECT) at most: 29u of the square, 5u of the other, 6u of this one.
+#[inline(always)]
+pub fn square_of_rigid<S: Scalar>(inner: S) -> S {
+    inner * inner * constant(1.0 - 42.0 * U)
+}
+
+/// A radius after a rotation: with d the largest entry of |RᵀR − I|, at most 1e-2 and computed to 4u, R shrinks no vector by more
+/// than 2d of its length. Of the 16u beside that, measuring takes 8u, rounding here 2.1u, that of both squares 5u.
+#[inline(always)]
+pub fn shrunk<S: Scalar>(radius: S, defect: S) -> S {
+    radius * (constant::<S>(1.0) - constant::<S>(2.0) * (defect + constant(8.0 * U)))
 }
 
 /// Bounding spheres that seem farther apart than is enough.
@@ -117,7 +140,7 @@ impl Kernel for SphereGlance<'_, '_> {
     }
 }
 
-/// Inner balls that overlap if the poses are rigid: then R shrinks them by less than 58u, and the squares leave 64u each.
+/// Inner balls that overlap if the poses are rigid.
 struct InnerBalls<'a, 'b> {
     pair: &'a mut PairQuery<'b>,
 }

@@ -22,6 +22,7 @@ use crate::pair::start::policy::StartFrom;
 use crate::pair::start::{Guess, start_pair};
 use crate::shape::Placed;
 use decision::Hint;
+pub use glance::{shrunk, square_between, square_of_rigid, together};
 pub(crate) use level_choice::least_error;
 use level_search::LevelSearched;
 use query::{Attempt, Glances, PairQuery};
