@@ -193,7 +193,7 @@ typedef struct swiftprox_placed_ground {
 typedef struct swiftprox_ground_distance {
   /**
    * Same as for a body and the surface as a set of points. Features of object 2 are in the ground's numbering: vertices, edges
-   * by their vertices, a face is a triangle. For a pair beyond the tolerance only `lower` is reported.
+   * by their vertices, a face is a triangle. For a pair beyond `max_distance` only `lower` is reported.
    */
   struct swiftprox_pair_answer answer;
   /**

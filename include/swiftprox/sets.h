@@ -72,7 +72,7 @@ swiftprox_status swiftprox_scene_prepare(struct swiftprox_scene *scene);
 
 /** The least distance between two sets of objects. Unset numbers are NaN. */
 typedef struct swiftprox_least_distance {
-  /** The least distance is at least this. For sets farther apart than `max_distance` ... */
+  /** The least distance is at least this. It is no less than `max_distance` for sets farther apart ... */
   double lower;
   /** ... and at most this; infinite beyond `max_distance`, and if no pair is tested. */
   double upper;
