@@ -77,6 +77,8 @@ pub(super) struct Sweep<'a> {
     pub cache: PairCache,
     /// Certified queries made, those of gaps apart.
     pub queries: u32,
+    /// The iterations in integers of these.
+    pub exact_iterations: u64,
     /// Support vertices of the last gap, if one was asked for.
     pub vertices: Option<[u32; 2]>,
     /// The step before.
@@ -96,7 +98,16 @@ struct Sight {
 
 impl<'a> Sweep<'a> {
     pub fn new(pair: &'a MovingPair<'a>, cache: &PairCache) -> Sweep<'a> {
-        Sweep { pair, cache: *cache, queries: 0, vertices: None, last: None, before: None, sight: None }
+        Sweep {
+            pair,
+            cache: *cache,
+            queries: 0,
+            exact_iterations: 0,
+            vertices: None,
+            last: None,
+            before: None,
+            sight: None,
+        }
     }
 
     /// The distance at a moment.
@@ -122,7 +133,9 @@ impl<'a> Sweep<'a> {
 
     pub fn ask(&mut self, moment: &Moment, answer: &mut PairAnswer) -> Result<()> {
         self.queries += 1;
-        pair::distance(self.pair.placed(moment), &mut self.cache, &PairConfig::default(), answer)
+        pair::distance(self.pair.placed(moment), &mut self.cache, &PairConfig::default(), answer)?;
+        self.exact_iterations += u64::from(answer.statistics.exact_iterations);
+        Ok(())
     }
 
     /// To the end along the line of centres, of bodies that are far apart: by how much they stay farther apart than asked, without

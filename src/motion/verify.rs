@@ -13,9 +13,9 @@ use crate::pair::{DepthCache, Outcome, PairAnswer, PairCache, PairConfig, contac
 use crate::placed::Pair;
 use crate::verify::{Bounds, holds_ball, in_default, verify, verify_depth};
 
-/// A proof is given up after as many queries as the cast was allowed, and not before these: steps that no longer come forward would
-/// take minutes where integers answer.
-const LEAST_BUDGET: u32 = 10_000;
+/// A proof is given up after this much work: a query is one, an iteration in integers takes as long as ten. Steps that no longer come
+/// forward would take minutes where integers answer.
+const MOST_WORK: u64 = 1_000_000;
 
 /// Re-checks an answer of [`super::cast`] for the same motions and configuration.
 ///
@@ -115,18 +115,17 @@ fn prove_free_before(pair: &MovingPair, config: &CastConfig, end: f64) -> Result
 fn prove_free(pair: &MovingPair, config: &CastConfig, end: f64, max_distance: f64) -> Result<()> {
     let of_cast = wanted(config);
     let any = SweepGoal { max_distance, with_slack: false, shortest: shortest_step(pair.range()) };
-    let budget = config.step_budget.max(LEAST_BUDGET);
-    match prove_steps(pair, &of_cast, end, max_distance, budget) {
-        Err(Error::Unverified(_)) => prove_steps(pair, &any, end, max_distance, budget),
+    match prove_steps(pair, &of_cast, end, max_distance) {
+        Err(Error::Unverified(_)) => prove_steps(pair, &any, end, max_distance),
         proved => proved,
     }
 }
 
-/// Farther apart than `max_distance` in each step of a sweep to `end`, which ends after `budget` queries.
-fn prove_steps(pair: &MovingPair, wanted: &SweepGoal, end: f64, max_distance: f64, budget: u32) -> Result<()> {
+/// Farther apart than `max_distance` in each step of a sweep to `end`.
+fn prove_steps(pair: &MovingPair, wanted: &SweepGoal, end: f64, max_distance: f64) -> Result<()> {
     let mut sweep = Sweep::new(pair, &PairCache::default());
     let mut here = pair.at(pair.range()[0])?;
-    while sweep.queries < budget {
+    while u64::from(sweep.queries) + 10 * sweep.exact_iterations < MOST_WORK {
         let near = sweep.distance(&here)?;
         match sweep.on(&here, &near, end, wanted)? {
             Ahead::Free(step) => {
