@@ -196,8 +196,8 @@ static const body box = {"box", 4, {{1, -0.5}, {1, 0.5}}, 0, 0, 0, 0}, wedge = {
 
 static double poses[POSES][12];
 
-/* Steps of so many degrees along an orbit of so many radii, or "random": anywhere in any orientation; or "parallel": past each other
- * without a turn. */
+/* Steps of so many degrees along an orbit of so many radii, or "random": anywhere in any orientation; or "parallel": past each
+ * other without a turn. */
 static void fly(const char *step, double radii)
 {
     const double degrees = strtod(step, NULL);

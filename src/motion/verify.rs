@@ -13,8 +13,8 @@ use crate::pair::{DepthCache, Outcome, PairAnswer, PairCache, PairConfig, contac
 use crate::placed::Pair;
 use crate::verify::{Bounds, holds_ball, in_default, verify, verify_depth};
 
-/// A proof is given up after this much work: a query is one, an iteration in integers takes as long as ten. Steps that no longer come
-/// forward would take minutes where integers answer.
+/// A proof is given up after this much work: a query is one, an iteration in integers takes as long as ten. Steps that no longer
+/// come forward would take minutes where integers answer.
 const MOST_WORK: u64 = 1_000_000;
 
 /// Re-checks an answer of [`super::cast`] for the same motions and configuration.

@@ -291,8 +291,8 @@ fn magnitudes_of_all_doubles() {
     assert_eq!(slow.normal, [-1.0, 0.0, 0.0]);
 }
 
-/// A ray begins so near to a corner that the square of the way between them underflows. Divided by its length, as doubles have it, the
-/// normal was infinite.
+/// A ray begins so near to a corner that the square of the way between them underflows. Divided by its length, as doubles have it,
+/// the normal was infinite.
 #[test]
 fn a_way_whose_square_underflows() {
     let corners = [[0.0, 0.0, 0.0], [2.0, 1.0, 1.0], [2.0, -1.0, 1.0], [2.0, 0.0, -1.0]].map(Vector::from);
