@@ -54,7 +54,10 @@ impl Acceptance<'_, '_> {
             contact::fill_normal(pair.answer, normal);
         }
         if pair.query == Query::Intersection {
-            let nudged = frame.bodies[0].offset.mul_add(L::splat(NUDGE / divisor(frame.separation)), normal);
+            // Turned by an angle, bodies reach farther along a direction by that times their size at most: half the gap.
+            let most = 0.5 * gap.interval.lower / divisor(frame.size);
+            let nudge = if most < NUDGE { most } else { NUDGE };
+            let nudged = frame.bodies[0].offset.mul_add(L::splat(nudge / divisor(frame.separation)), normal);
             let direction = frame.bodies[0].rotate_back(nudged).to_vector();
             pair.cache.remember_axis(state.vertices(frame.polyhedra()), direction);
         }
