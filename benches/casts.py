@@ -16,6 +16,7 @@ PAGE = os.path.join(charts.FOLDER, "..", "motions.md")
 METHODS = {  # in the order of the columns
     "swiftprox": ("swiftprox", ""), "samples-100": ("100", "samples"), "samples-1000": ("1,000", "samples"),
     "parry-nonlinear": ("parry", "nonlinear"), "parry-linear": ("parry", "linear"), "parry-sweep": ("parry", "sweep_toi"),
+    "box3d": ("Box3D", "time of impact"),
     "fcl": ("FCL", "advancement"), "bullet": ("Bullet", "convex cast"),
 }
 SHARES = tuple(zip((0.01, 0.03, 0.1, 0.3, 1), charts.BAD))  # of the motions answered wrongly: up to how much which colour

@@ -3,6 +3,7 @@
 //! The truth is the certified answer, proved anew and judged by exact samples. A peer misses what it says is free; a hit that it
 //! says of a free motion is false; of a hit the time may be off.
 
+mod box3d;
 #[cfg(any(fcl, bullet64))]
 mod native;
 mod ours;
@@ -128,6 +129,7 @@ fn methods(scene: &Scene) -> Result<Vec<Box<dyn Caster + '_>>, String> {
     // These are given the poses at the ends, and turn by the shorter way between them.
     if scene.turn < std::f64::consts::PI {
         methods.push(Box::new(parry::TimeOfImpact::new(scene)));
+        methods.extend(box3d::TimeOfImpact::new(scene).map(|caster| Box::new(caster) as Box<dyn Caster + '_>));
         methods.extend(peers::casters(scene)?.into_iter().map(|caster| caster as Box<dyn Caster + '_>));
     }
     methods.push(Box::new(ours::Samples::new(scene, 1000)));
