@@ -47,8 +47,8 @@ def cell(row):
         return Cell("–", "", charts.REFUSED)
     share = wrong(row) / row["count"]
     colour = next(colour for limit, colour in SHARES if share <= limit) if share else charts.GOOD
-    # A cell has room for two.
-    return Cell(micro(row["best_ns"]), faults(row, 2), colour)
+    # A cell has room for one.
+    return Cell(micro(row["best_ns"]), faults(row, 1), colour)
 
 
 def chart(head, rows):
@@ -57,7 +57,7 @@ def chart(head, rows):
     lines = [Line(scene, [cell(found.get((scene, method))) for method in methods]) for scene in in_order(r["scene"] for r in rows)]
     legend = [(charts.GOOD, "none wrong")] + [(colour, f"up to {100 * share:g} %") for share, colour in SHARES]
     return Cells("Casts of moving bodies", machine(head),
-                 "µs a motion; beside it the most frequent two of m missed hits, f hits of free motions, t times off by more than 1e-3, u no answer",
+                 "µs a motion; beside it the most frequent of m missed hits, f hits of free motions, t times off by more than 1e-3, u no answer",
                  [METHODS[method] for method in methods], lines, legend + [(charts.REFUSED, "not asked")], 130)
 
 
