@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::tree::{Leaf, PieceTree};
 use crate::base::error::{Error, Result};
 use crate::base::mark::Mark;
-use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, length};
 use crate::base::memory::{collected, copied, push, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
@@ -103,7 +103,7 @@ impl Compound {
             // A vertex is centre + position, off by u of that. R·v + T is off by 8u·(|R||v| + |T|), ‖|R|‖ ≤ √3·1.015.
             let lengths = 2.0 * piece.shape.extent().lever + piece.pose.translation().lp_norm(1);
             let swept = piece.shape.swept_radius();
-            let farthest = points.iter().map(|point| point.norm()).fold(0.0, f64::max) * (1.0 + 8.0 * U);
+            let farthest = points.iter().map(length).fold(0.0, f64::max) * (1.0 + 8.0 * U);
             let margin = swept + 32.0 * U * lengths;
             leaves.push(Leaf { points, margin, reach: farthest, shape: &piece.shape });
             reach.lever = reach.lever.max((farthest + margin) * (1.0 + 4.0 * U));
