@@ -72,9 +72,9 @@ swiftprox_status swiftprox_scene_prepare(struct swiftprox_scene *scene);
 
 /** The least distance between two sets of objects. Unset numbers are NaN. */
 typedef struct swiftprox_least_distance {
-  /** The least distance is at least this. It is no less than `max_distance` for sets farther apart ... */
+  /** The least distance is at least this. For sets farther apart than `max_distance`, it is no less than that. */
   double lower;
-  /** ... and at most this; infinite beyond `max_distance`, and if no pair is tested. */
+  /** The least distance is at most this. It is infinite beyond `max_distance`, and if no pair is tested. */
   double upper;
   /**
    * A pair with that distance: object 1 is of the first set, `nearest.answer` the answer. Its ids are null if no pair is within

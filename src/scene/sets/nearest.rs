@@ -20,9 +20,9 @@ use crate::scene::world::rows::Spheres;
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[repr(C)]
 pub struct LeastDistance {
-    /// The least distance is at least this. It is no less than `max_distance` for sets farther apart …
+    /// The least distance is at least this. For sets farther apart than `max_distance`, it is no less than that.
     pub lower: f64,
-    /// … and at most this; infinite beyond `max_distance`, and if no pair is tested.
+    /// The least distance is at most this. It is infinite beyond `max_distance`, and if no pair is tested.
     pub upper: f64,
     /// A pair with that distance: object 1 is of the first set, `nearest.answer` the answer. Its ids are null if no pair is within
     /// `max_distance`. Among pairs equally near in doubles, any may be returned.
