@@ -6,7 +6,7 @@ mod list;
 pub mod manifold;
 mod methods;
 mod record;
-mod round;
+pub mod round;
 mod truth;
 
 use swiftprox::math::Pose;

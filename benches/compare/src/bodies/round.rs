@@ -62,7 +62,7 @@ pub fn bodies(options: &Options) -> Result<Vec<Body>, String> {
 }
 
 /// parry's shape of a core and a radius: a core along the axes is the primitive that it stands for.
-fn shape(core: &PolygonMesh, radius: f64) -> Box<dyn Shape> {
+pub fn shape(core: &PolygonMesh, radius: f64) -> Box<dyn Shape> {
     let last = core.vertices.last().expect("a body has a vertex");
     match core.vertices.len() {
         1 => Box::new(Ball::new(radius)),

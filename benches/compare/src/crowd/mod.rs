@@ -17,6 +17,7 @@ use std::fmt::Write;
 use crate::options::Options;
 use crate::report;
 use crate::timing::{measure, measure_on_the_wall, median};
+use parry::Upkeep;
 use world::{Bodies, MOTIONS, Step, World};
 
 /// What is asked of all pairs.
@@ -74,13 +75,20 @@ const FEWEST_STEPS: usize = 3;
 /// … or begins another after so many nanoseconds.
 const MOST_NS: f64 = 2e9;
 
+const KINDS: [(&str, Bodies); 4] = [
+    ("fat 102", Bodies::Alike("fat")),
+    ("mixed 8-1002", Bodies::Mixed),
+    ("spheres", Bodies::Spheres),
+    ("cubes", Bodies::Cubes),
+];
+
 pub fn run(options: &Options, counts: &[usize]) -> Result<(), String> {
     let mut csv =
         "bodies,count,motion,query,method,steps,mean_ms,median_ms,worst_ms,pairs,sum,differing_steps\n".to_string();
     for &count in counts {
         // Few steps of many bodies are as much work as many of few; in too few nothing would settle.
         let steps = (options.count * 1_000 / count.max(1)).clamp(8 * BLOCK, options.count.max(8 * BLOCK));
-        for (word, bodies) in [("fat 102", Bodies::Alike("fat")), ("mixed 8-1002", Bodies::Mixed)] {
+        for (word, bodies) in KINDS {
             for motion in MOTIONS.into_iter().filter(|motion| is_asked(motion.name(), &options.motions)) {
                 for question in [Question::Intersection, Question::Distance, Question::Contact] {
                     let mut world = World::new(bodies, motion, count)?;
@@ -116,7 +124,13 @@ fn methods(world: &World, question: Question, options: &Options) -> Result<Vec<B
     if is_wanted(ours::name(1)) {
         all.push(ours(1)?);
     }
-    for upkeep in [parry::Upkeep::Refit, parry::Upkeep::Rebuild] {
+    if world.kind.are_primitives() {
+        if is_wanted(Upkeep::Refit.name()) {
+            all.push(Box::new(parry::Parry::new(world, question, Upkeep::Refit)));
+        }
+        return Ok(all);
+    }
+    for upkeep in [Upkeep::Refit, Upkeep::Rebuild] {
         if is_wanted(upkeep.name()) {
             all.push(Box::new(parry::Parry::new(world, question, upkeep)));
         }

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use swiftprox::math::Pose;
 use swiftprox::object::{ObjectId, ObjectOptions};
 use swiftprox::scene::{ContactDetail, Scene, SceneQuery, Workers};
-use swiftprox::shape::{Shape, ShapeOptions};
+use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 
 use super::world::{Step, World};
 use super::{Crowd, Found, Question, TOLERANCE};
@@ -26,7 +26,9 @@ pub struct Ours {
 
 impl Ours {
     pub fn new(world: &World, question: Question, workers: usize) -> Result<Ours, String> {
-        let shapes = world.meshes.iter().map(|mesh| Shape::from_mesh(mesh, &ShapeOptions::default()).map(Arc::new));
+        let options =
+            ShapeOptions { swept_radius: world.kind.radius(), input: InputPolicy::Hull, ..ShapeOptions::default() };
+        let shapes = world.meshes.iter().map(|mesh| Shape::from_mesh(mesh, &options).map(Arc::new));
         let shapes: Vec<_> = shapes.collect::<Result<_, _>>().map_err(|e| e.to_string())?;
         let mut scene = Scene::new();
         scene.set_workers((workers > 1).then(|| Workers::threads(workers)));

@@ -1,8 +1,7 @@
 //! parry's bounding volume hierarchy, its pairs handed to its GJK over support maps that climb from where each body's last climb
-//! ended.
+//! ended; spheres and boxes to the queries that parry dispatches to for them.
 
 use std::cell::Cell;
-use std::rc::Rc;
 
 use parry3d_f64::bounding_volume::{Aabb, details::point_cloud_aabb_ref};
 use parry3d_f64::math::Pose;
@@ -13,9 +12,12 @@ use parry3d_f64::query::details::{
     intersection_test_support_map_support_map_with_params as intersection_test,
 };
 use parry3d_f64::query::gjk::{GJKResult, VoronoiSimplex};
+use parry3d_f64::query::{self, ClosestPoints};
+use parry3d_f64::shape::Shape;
 
 use super::world::{Step, World};
 use super::{Crowd, Found, Question, TOLERANCE};
+use crate::bodies::round;
 use crate::parry::{Climber, Rings, pose_of};
 
 /// What keeps the hierarchy good while the bodies move.
@@ -36,11 +38,17 @@ impl Upkeep {
     }
 }
 
+/// What parry takes a mesh for.
+enum Form {
+    Hull(Rings),
+    Primitive(Box<dyn Shape>),
+}
+
 pub struct Parry {
     question: Question,
     upkeep: Upkeep,
-    rings: Vec<Rc<Rings>>,
-    ring_of: Vec<u32>,
+    forms: Vec<Form>,
+    form_of: Vec<u32>,
     poses: Vec<Pose>,
     last: Vec<Cell<u32>>,
     tree: Bvh,
@@ -52,11 +60,15 @@ pub struct Parry {
 impl Parry {
     pub fn new(world: &World, question: Question, upkeep: Upkeep) -> Parry {
         let count = world.mesh_of.len();
+        let form = |mesh| match world.kind.are_primitives() {
+            true => Form::Primitive(round::shape(mesh, world.kind.radius())),
+            false => Form::Hull(Rings::new(mesh)),
+        };
         Parry {
             question,
             upkeep,
-            rings: world.meshes.iter().map(|mesh| Rc::new(Rings::new(mesh))).collect(),
-            ring_of: world.mesh_of.clone(),
+            forms: world.meshes.iter().map(form).collect(),
+            form_of: world.mesh_of.clone(),
             poses: vec![Pose::IDENTITY; count],
             last: vec![Cell::new(0); count],
             tree: Bvh::new(),
@@ -68,8 +80,11 @@ impl Parry {
 
     /// The tight box, as parry computes that of a hull; two that overlap are at most the tolerance apart on each axis.
     fn aabb(&self, i: u32) -> Aabb {
-        let rings = &self.rings[self.ring_of[i as usize] as usize];
-        let tight = point_cloud_aabb_ref(&self.poses[i as usize], rings.vertices());
+        let pose = &self.poses[i as usize];
+        let tight = match &self.forms[self.form_of[i as usize] as usize] {
+            Form::Hull(rings) => point_cloud_aabb_ref(pose, rings.vertices()),
+            Form::Primitive(shape) => shape.compute_aabb(pose),
+        };
         match self.question {
             Question::Intersection | Question::Contact => tight,
             Question::Distance => tight.loosened(0.5 * TOLERANCE),
@@ -112,24 +127,19 @@ impl Crowd for Parry {
             Upkeep::Rebuild => self.tree.rebuild(&mut self.workspace, BvhBuildStrategy::Binned),
         }
         let (mut found, question) = (Found::default(), self.question);
-        let Parry { rings, ring_of, poses, last, tree, workspace, simplex, .. } = self;
+        let Parry { forms, form_of, poses, last, tree, workspace, simplex, .. } = self;
         tree.traverse_bvtt_single_tree::<false>(workspace, &mut |a, b| {
-            let [first, second] = [a as usize, b as usize]
-                .map(|i| (&poses[i], Climber::<false> { rings: &rings[ring_of[i] as usize], last: &last[i] }));
-            let pose12 = first.0.inv_mul(second.0);
-            let distance = match question {
-                Question::Intersection => {
-                    intersection_test(&pose12, &first.1, &second.1, simplex, None).0.then_some(0.0)
+            let [one, two] = [a as usize, b as usize];
+            let distance = match [one, two].map(|i| &forms[form_of[i] as usize]) {
+                [Form::Hull(rings1), Form::Hull(rings2)] => {
+                    let [first, second] =
+                        [(rings1, one), (rings2, two)].map(|(rings, i)| Climber::<false> { rings, last: &last[i] });
+                    of_hulls(question, &poses[one].inv_mul(&poses[two]), [&first, &second], simplex)
                 }
-                Question::Distance => match closest_points(&pose12, &first.1, &second.1, TOLERANCE, simplex, None) {
-                    GJKResult::Intersection => Some(0.0),
-                    GJKResult::ClosestPoints(point1, point2, _) => Some((point1 - point2).length()),
-                    GJKResult::NoIntersection(_) | GJKResult::Proximity(_) => None,
-                },
-                Question::Contact => match contact(&pose12, &first.1, &second.1, 0.0, simplex, None) {
-                    GJKResult::ClosestPoints(point1, point2, normal) => Some(-(point2 - point1).dot(normal)),
-                    GJKResult::Intersection | GJKResult::NoIntersection(_) | GJKResult::Proximity(_) => None,
-                },
+                [Form::Primitive(shape1), Form::Primitive(shape2)] => {
+                    of_primitives(question, [(&poses[one], shape1.as_ref()), (&poses[two], shape2.as_ref())])
+                }
+                _ => unreachable!("a scene has hulls or primitives"),
             };
             let is_listed = |distance: &f64| match question {
                 Question::Intersection | Question::Distance => *distance <= TOLERANCE,
@@ -142,5 +152,43 @@ impl Crowd for Parry {
         });
         self.steps[k] = moved;
         found
+    }
+}
+
+/// A distance or depth, None where there is none to list.
+fn of_hulls(
+    question: Question,
+    pose12: &Pose,
+    hulls: [&Climber<false>; 2],
+    simplex: &mut VoronoiSimplex,
+) -> Option<f64> {
+    let [one, two] = hulls;
+    match question {
+        Question::Intersection => intersection_test(pose12, one, two, simplex, None).0.then_some(0.0),
+        Question::Distance => match closest_points(pose12, one, two, TOLERANCE, simplex, None) {
+            GJKResult::Intersection => Some(0.0),
+            GJKResult::ClosestPoints(point1, point2, _) => Some((point1 - point2).length()),
+            GJKResult::NoIntersection(_) | GJKResult::Proximity(_) => None,
+        },
+        Question::Contact => match contact(pose12, one, two, 0.0, simplex, None) {
+            GJKResult::ClosestPoints(point1, point2, normal) => Some(-(point2 - point1).dot(normal)),
+            GJKResult::Intersection | GJKResult::NoIntersection(_) | GJKResult::Proximity(_) => None,
+        },
+    }
+}
+
+/// The same by parry's own dispatch.
+fn of_primitives(question: Question, [(pose1, one), (pose2, two)]: [(&Pose, &dyn Shape); 2]) -> Option<f64> {
+    const KNOWN: &str = "parry has a query of spheres and boxes";
+    match question {
+        Question::Intersection => {
+            query::intersection_test(pose1, one, pose2, two).expect(KNOWN).intersecting.then_some(0.0)
+        }
+        Question::Distance => match query::closest_points(pose1, one, pose2, two, TOLERANCE).expect(KNOWN) {
+            ClosestPoints::Intersecting => Some(0.0),
+            ClosestPoints::WithinMargin(point1, point2) => Some((point1 - point2).length()),
+            ClosestPoints::Disjoint => None,
+        },
+        Question::Contact => query::contact(pose1, one, pose2, two, 0.0).expect(KNOWN).map(|contact| -contact.dist),
     }
 }

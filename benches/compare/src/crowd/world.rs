@@ -4,7 +4,7 @@ use std::f64::consts::TAU;
 
 use swiftprox::math::{Matrix, Vector};
 use swiftprox::mesh::PolygonMesh;
-use testkit::models::{ELLIPSOIDS, ellipsoid, random_hull};
+use testkit::models::{ELLIPSOIDS, cuboid, ellipsoid, random_hull};
 use testkit::random::{Random, rotation};
 
 /// What the bodies are.
@@ -14,6 +14,22 @@ pub enum Bodies {
     Alike(&'static str),
     /// Hulls of 8 to 1,002 vertices: all the benchmark's ellipsoids and random points, half axes 0.3 to 1.
     Mixed,
+    /// Spheres of radius 1.
+    Spheres,
+    /// Cubes of the spheres' volume.
+    Cubes,
+}
+
+impl Bodies {
+    /// Whether parry has a shape and queries of its own for them.
+    pub fn are_primitives(self) -> bool {
+        matches!(self, Bodies::Spheres | Bodies::Cubes)
+    }
+
+    /// Of the ball that is swept over each mesh.
+    pub fn radius(self) -> f64 {
+        if self == Bodies::Spheres { 1.0 } else { 0.0 }
+    }
 }
 
 /// How they move from step to step.
@@ -64,6 +80,7 @@ const WAY: f64 = 0.02;
 const DEGREE: f64 = TAU / 360.0;
 
 pub struct World {
+    pub kind: Bodies,
     pub meshes: Vec<PolygonMesh>,
     /// The mesh of each body.
     pub mesh_of: Vec<u32>,
@@ -82,14 +99,14 @@ struct Body {
 }
 
 impl World {
-    pub fn new(bodies: Bodies, motion: Motion, count: usize) -> Result<World, String> {
+    pub fn new(kind: Bodies, motion: Motion, count: usize) -> Result<World, String> {
         let mut random = Random::new(0x5ce7e + count as u64);
-        let meshes = meshes(bodies).map_err(|e| e.to_string())?;
+        let meshes = meshes(kind).map_err(|e| e.to_string())?;
         let mesh_of = (0..count).map(|_| random.below(meshes.len()) as u32).collect();
         let density = if motion == Motion::Brisk { BRISK_DENSITY } else { DENSITY };
         let side = (count as f64 / density).cbrt();
         let bodies = (0..count).map(|_| Body::new(side, motion, &mut random)).collect();
-        let mut world = World { meshes, mesh_of, motion, side, bodies, random, steps: 0 };
+        let mut world = World { kind, meshes, mesh_of, motion, side, bodies, random, steps: 0 };
         if motion == Motion::Rest {
             world.pile_up();
         }
@@ -188,5 +205,7 @@ fn meshes(bodies: Bodies) -> swiftprox::error::Result<Vec<PolygonMesh>> {
             }
             Ok(meshes)
         }
+        Bodies::Spheres => Ok(vec![PolygonMesh::new(vec![Vector::zeros()], Vec::new(), None)?]),
+        Bodies::Cubes => Ok(vec![cuboid([0.5 * (2.0 * TAU / 3.0).cbrt(); 3])?]),
     }
 }
