@@ -16,6 +16,10 @@
 #ifndef SWIFTPROX_HPP
 #define SWIFTPROX_HPP
 
+#if __cplusplus < 201703L && !(defined(_MSVC_LANG) && _MSVC_LANG >= 201703L)
+#error "swiftprox.hpp needs C++17: compile with -std=c++17 or newer"
+#endif
+
 #include "swiftprox/batch.hpp"
 #include "swiftprox/compound.hpp"
 #include "swiftprox/gradient.hpp"

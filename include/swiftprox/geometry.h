@@ -307,7 +307,7 @@ const char *swiftprox_library_ray_outcome_string(swiftprox_ray_outcome outcome);
  * @{
  */
 
-/** What a ray query returns. */
+/** The result of a ray query. */
 typedef enum swiftprox_ray_hits SWIFTPROX_INT32 {
   /** The first that it meets, or may meet where a curved one is undecided. */
   SWIFTPROX_RAY_HITS_FIRST = 0,

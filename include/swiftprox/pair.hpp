@@ -25,6 +25,7 @@ class Placed
 {
   public:
     Placed(const Shape &shape, const Pose &pose) noexcept : shape_(shape.get()), pose_(pose) {}
+    /** A temporary shape would be gone when the query looks at it: name the shape first. */
     Placed(const Shape &&, const Pose &) = delete;
     const swiftprox_shape *shape() const noexcept { return shape_; }
     const double *pose() const & noexcept { return pose_.data(); }

@@ -109,7 +109,7 @@ impl Reaches {
     pub fn between_balls(&self) -> f64 {
         let [x, y, z] = self.delta;
         let square = x * x + y * y + z * z;
-        // Where squares underflow nothing is said.
+        // No bound where squares underflow.
         let length = if square > LEAST_SQUARE { square.sqrt() } else { 0.0 };
         length * (1.0 - 8.0 * U) - self.levers * (1.0 + 4.0 * U) - self.slack
     }

@@ -1,4 +1,4 @@
-//! Where two compounds meet: a manifold for each two pieces that do.
+//! Contacts of two compounds: a manifold for each two pieces that meet.
 
 use super::PlacedCompound;
 use super::answer::{CompoundContact, CompoundContacts};

@@ -9,7 +9,7 @@ use crate::base::simd::{self, Kernel, Lanes};
 /// A pair of nodes is replaced by two, one of which is opened next: one waits for each step down either tree.
 const ROOM: usize = 2 * DEEPEST + 2;
 
-/// What a walk wants to know of boxes.
+/// The questions of a walk about boxes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Aim {
     /// Whether they are apart.

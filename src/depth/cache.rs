@@ -8,7 +8,7 @@ use crate::depth::facets::Facet;
 use crate::depth::polytope::{Polytope, Pyramid, SearchStart};
 use crate::placed::exact::VertexPair;
 use crate::placed::frame::Frame;
-use crate::placed::state::FeatureId;
+use crate::placed::state::{FeatureId, State};
 
 /// Vertices of a polytope that is kept.
 const MOST_VERTICES: usize = 56;
@@ -29,7 +29,8 @@ pub struct DepthCache {
     proved: u16,
     /// Where no polytope is kept, the single-precision bits of the direction of the least overlap, in body 1's axes.
     direction: [u32; 3],
-    /// The facet of least overlap of a pair that seems to rest: its kind, 0 for none, and its indices. The bodies need not have it.
+    /// The facet of least overlap of a pair that seems to rest: its kind, 0 for none, and its indices. For swept bodies whose
+    /// polyhedra were apart, the nearest features: [`APART`] more than the kind of their state. The bodies need not have either.
     resting: [u32; 3],
     /// The facets that proved the depth where the pair rested and no facet did, the last one that did first.
     pyramids: [KeptPyramid; PYRAMIDS],
@@ -74,6 +75,9 @@ const FACE: u8 = 3;
 const FACE_OF_FIRST: u8 = 1;
 const FACE_OF_SECOND: u8 = 2;
 const EDGES: u8 = 3;
+
+/// Beyond all kinds of facets.
+const APART: u32 = 16;
 
 /// No vertex of the kept polytope.
 const NO_PLACE: u8 = u8::MAX;
@@ -214,6 +218,20 @@ impl DepthCache {
             Facet::Face(_, face) => [u32::from(FACE_OF_SECOND), face, 0],
             Facet::Edges([first, second]) => [u32::from(EDGES), first, second],
         };
+    }
+
+    /// The nearest features of polyhedra that were apart; the bodies need not have them.
+    #[inline(always)]
+    pub fn apart(&self) -> Option<State> {
+        let [kind, first, second] = self.resting;
+        State::unchecked(kind.wrapping_sub(APART), [first, second])
+    }
+
+    /// Keeps the nearest features of polyhedra that are apart.
+    #[inline(always)]
+    pub fn keep_apart(&mut self, state: State) {
+        let [first, second] = state.indices();
+        self.resting = [APART + state.kind as u32, first, second];
     }
 
     /// The pair does not seem to rest.

@@ -118,7 +118,7 @@ struct Meeting<'a> {
     enough: f64,
     /// The vertex that was lowest over the last triangle.
     lowest: u32,
-    /// Of the contacts with triangles that have no points over them the one that overlaps least.
+    /// The contact that overlaps least, among those with triangles that have no points over them.
     missed: Option<(u32, SignedDistance)>,
 }
 
@@ -179,7 +179,7 @@ impl Meeting<'_> {
     }
 }
 
-/// What is known of a body and a triangle.
+/// The relation of a body and a triangle.
 enum TriangleFinding {
     /// They are farther apart than `max_distance`.
     Beyond,

@@ -23,7 +23,7 @@ pub(super) struct PlacedTriangle {
 }
 
 impl PlacedTriangle {
-    /// Of a ground beside a body, both with poses that are accepted.
+    /// For a ground beside a body, both with poses that are accepted.
     ///
     /// A point that is placed is right to 6u of its translation and of twice its local length, the difference of two to u of
     /// both, the product with a direction to 4u of it, the length of the direction to 4u, the order of two heights to 8u, and the

@@ -11,7 +11,7 @@ use crate::pair::{Feature, FeatureKind, SignedDistance};
 /// A search that has not ended after so many vertices is left to the pair layer.
 const MOST_STEPS: usize = 32;
 
-/// What a search tells.
+/// The result of a search.
 pub(super) enum NearestOfTriangle {
     /// The triangle is farther from the body than `max_distance`.
     Beyond,

@@ -45,7 +45,7 @@ impl<'a> Vertices<'a> {
         self.body.pose
     }
 
-    /// Where a vertex is.
+    /// The place of a vertex.
     pub fn point(&self, vertex: u32) -> Vector {
         let Some(block) = self.blocks.get(vertex as usize / 4) else { return point(self.body, vertex) };
         let lane = vertex as usize % 4;

@@ -88,7 +88,7 @@ impl Round<'_> {
     fn is_filled<L: Lanes>(&self, frame: &Frame<L>, place: AnswerPlace) -> bool {
         let nearest = NearestOfRound::of(frame);
         let [lower, upper] = self.radii.off([nearest.interval.lower, nearest.interval.upper]);
-        // Of bodies in each other a query says no more than that.
+        // For overlapping bodies a query reports no more than that.
         let is_met = (upper < 0.0) & matches!(place, AnswerPlace::Pair(..));
         if !is_met && !nearest.interval.is_tight(frame.size) {
             return false;
@@ -224,7 +224,7 @@ impl<L: Lanes> NearestOfRound<L> {
         let rotated2 = if is_segment2 { body2.rotate(&ends2[0].position) } else { nowhere };
         let seen1 = rotated1.add(body1.offset);
         let tails = seen1.sub(rotated2);
-        // Of each the way to its head in the world, if it has one.
+        // The way to each head in the world, if there is one.
         let way1 = if is_segment1 { body1.rotate(&ends1[1].position).sub(rotated1) } else { nowhere };
         let way2 = if is_segment2 { body2.rotate(&ends2[1].position).sub(rotated2) } else { nowhere };
         let (mut s, mut t, mut difference) = (0.0, 0.0, tails);

@@ -190,12 +190,13 @@ pub(super) fn depth(
     }
     // A point or a segment is mostly outside where its ball is inside; a distance takes half the time of a depth that finds that.
     let is_thin = bodies.iter().any(|body| body.shape.polyhedron().dimension < 2);
-    let mut of_polyhedra = if is_thin { distance_apart(&bodies, radii)? } else { None };
+    let seem_apart = is_thin || cache.apart().is_some();
+    let mut of_polyhedra = if seem_apart { distance_apart(&bodies, radii, cache)? } else { None };
     let mut found = DepthAnswer { ending: DepthEnding::Narrow, ..DepthAnswer::default() };
     if of_polyhedra.is_none() {
         depth::of_polyhedra(&bodies, cache, config, &mut found)?;
         if found.outcome != Outcome::Intersecting {
-            (of_polyhedra, found.ending) = (distance_apart(&bodies, radii)?, DepthEnding::Narrow);
+            (of_polyhedra, found.ending) = (distance_apart(&bodies, radii, cache)?, DepthEnding::Narrow);
         }
     }
     let of_polyhedra = of_polyhedra.unwrap_or_else(|| SignedDistance::from(&found));
@@ -205,11 +206,20 @@ pub(super) fn depth(
 }
 
 /// The distance of the polyhedra, if they are apart.
-fn distance_apart(bodies: &[Placed; 2], radii: &Radii) -> Result<Option<SignedDistance>> {
-    let mut found = PairAnswer::default();
+fn distance_apart(bodies: &[Placed; 2], radii: &Radii, cache: &mut DepthCache) -> Result<Option<SignedDistance>> {
+    let (mut found, mut from) = (PairAnswer::default(), PairCache::default());
+    if let Some(state) = cache.apart() {
+        from.remember_features(state);
+    }
     let within = PairConfig { max_distance: radii.upper, ..PairConfig::default() };
-    ladder::ask(Query::Distance, bodies, &mut PairCache::default(), &within, &mut found)?;
-    Ok((found.outcome != Outcome::Intersecting).then(|| SignedDistance::from(&found)))
+    ladder::ask(Query::Distance, bodies, &mut from, &within, &mut found)?;
+    let are_apart = found.outcome != Outcome::Intersecting;
+    match from.features() {
+        Some(state) if are_apart => cache.keep_apart(state),
+        _ if cache.apart().is_some() => cache.rest_no_more(),
+        _ => {}
+    }
+    Ok(are_apart.then(|| SignedDistance::from(&found)))
 }
 
 /// A depth from the signed distance of the bodies; of bodies that may be apart it is from 0 on.

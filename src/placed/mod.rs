@@ -13,6 +13,6 @@ use crate::body::polyhedron::Polyhedron;
 #[derive(Clone, Copy)]
 pub struct Pair<'a> {
     pub polyhedra: [&'a Polyhedron; 2],
-    /// Of the bodies, in the world.
+    /// The bodies' poses in the world.
     pub poses: [&'a Pose; 2],
 }

@@ -1,4 +1,4 @@
-//! Where a ray enters a box, as a bound from below.
+//! A bound from below on where a ray enters a box.
 
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 

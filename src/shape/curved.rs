@@ -14,7 +14,7 @@ const LEAST_LENGTH: f64 = f64::from_bits((1023 - 960) << 52);
 /// Units of length are this long: normalising errs by 4u, a product with a length by u.
 const INSIDE: f64 = 1.0 - 8.0 * U;
 
-/// What is measured of a unit circle or sphere errs by less than this.
+/// Bounds the error of any measure of a unit circle or sphere.
 const ERROR: f64 = 64.0 * U;
 
 /// The default deviation of cylinders and cones, of their radius, and of ellipsoids, of their largest semi-axis.

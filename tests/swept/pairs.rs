@@ -164,6 +164,35 @@ fn depths_are_deeper_by_the_radii() {
     assert!(overlapping > 15, "{overlapping}");
 }
 
+/// A pair whose polyhedra come and go, and others with the same cache: each depth is that of a cold cache.
+#[test]
+fn kept_features_change_no_depth() {
+    let mut random = Random::new(0x5be3);
+    let (mut seen, mut cache) = ([0; 2], DepthCache::default());
+    for _ in 0..40 {
+        let clouds = clouds(&mut random);
+        let points = [&clouds[4], &clouds[random.below(5)]];
+        let bodies = [swept(points[0], 0.3), swept(points[1], 0.8)];
+        let turn = random.rotation();
+        for step in 0..20 {
+            let way = Vector::new(0.15 * f64::from(step), 0.1, 0.0);
+            let other = if step % 2 == 0 { Matrix::identity() } else { random.rotation() };
+            let poses = [Pose::new(&turn, &Vector::zeros()), Pose::new(&other, &way)];
+            let placed = [bodies[0].at(&poses[0]), bodies[1].at(&poses[1])];
+            let mut warm = DepthAnswer::default();
+            depth(placed, &mut cache, &DepthConfig::default(), &mut warm).unwrap();
+            verify_depth(placed, &cache, &warm).unwrap_or_else(|error| panic!("{error}: {warm:?}"));
+            let cold = ask_depth([&bodies[0], &bodies[1]], &poses);
+            assert_eq!(warm.outcome, cold.outcome);
+            assert!(warm.lower <= cold.upper && cold.lower <= warm.upper, "{warm:?} {cold:?}");
+            assert!(warm.upper - warm.lower < 1e-12, "{warm:?}");
+            seen[usize::from(warm.depth > 1.1)] += usize::from(warm.outcome == Outcome::Intersecting);
+        }
+    }
+    // Polyhedra that are apart, and such as overlap.
+    assert!(seen.iter().all(|count| *count > 50), "{seen:?}");
+}
+
 /// A capsule that lies on a table has two points, a cube with round edges four, each with a gap of what it is above it.
 #[test]
 fn manifolds_are_those_of_the_polyhedra_moved_to_the_surfaces() {

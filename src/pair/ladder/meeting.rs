@@ -137,7 +137,7 @@ fn walk<L: Lanes>(frame: &Frame<L>) -> (WalkEnd<L>, u32) {
     (WalkEnd::Unclear, 4 + MOST_EXCHANGES)
 }
 
-/// Of unit length; `None` of a direction too short for that.
+/// A direction scaled to unit length; `None` if it is too short for that.
 #[inline(always)]
 fn unit<L: Lanes>(direction: L) -> Option<L> {
     let square = direction.dot(direction);

@@ -11,7 +11,7 @@ use crate::scene::world::boxes::Aabb;
 use crate::scene::world::object::ObjectId;
 use crate::scene::world::rows::Label;
 
-/// What a ray query returns.
+/// The result of a ray query.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
 pub enum RayHits {
