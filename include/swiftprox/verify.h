@@ -96,7 +96,8 @@ swiftprox_status swiftprox_pair_manifold_verify(struct swiftprox_placed object1,
  * apart at time_upper, as `proof` shows. Near misses are at most upper apart at time_lower. swiftprox_pair_verify checks
  * `contact`, of the poses at time_lower. `queries` is not checked.
  *
- * Time grows with the number of vertices times the number of steps.
+ * Time grows with the number of vertices times the number of steps. After some seconds of integer arithmetic the check gives up,
+ * and the message says so.
  *
  * SWIFTPROX_ERROR_UNVERIFIED: something is wrong or unproved; the message says what. SWIFTPROX_ERROR_INVALID_ARGUMENT: the answer
  * has an unknown enumerator or no outcome. Other errors as in swiftprox_pair_cast and swiftprox_pair_verify.

@@ -15,7 +15,7 @@ use crate::verify::{Bounds, holds_ball, in_default, verify, verify_depth};
 
 /// A proof is given up after this much work: a query is one, an iteration in integers takes as long as ten. Steps that no longer
 /// come forward would take minutes where integers answer.
-const MOST_WORK: u64 = 1_000_000;
+const MOST_WORK: u64 = 2_000_000;
 
 /// Re-checks an answer of [`super::cast`] for the same motions and configuration.
 ///
@@ -32,7 +32,7 @@ const MOST_WORK: u64 = 1_000_000;
 ///
 /// A sweep of its own, from no cache, proposes steps and directions. Each is proved anew: the gaps at both ends over all vertices
 /// in double-double arithmetic, and contact by the check of a depth. So it takes time in proportion to the steps and to the
-/// vertices.
+/// vertices. Where each step needs integers the check gives up after some seconds, and its message says so.
 ///
 /// # Errors
 /// [`Error::Unverified`] with what does not hold, or could not be proved; [`Error::Argument`] for an answer that holds no outcome;
@@ -115,17 +115,23 @@ fn prove_free_before(pair: &MovingPair, config: &CastConfig, end: f64) -> Result
 fn prove_free(pair: &MovingPair, config: &CastConfig, end: f64, max_distance: f64) -> Result<()> {
     let of_cast = wanted(config);
     let any = SweepGoal { max_distance, with_slack: false, shortest: shortest_step(pair.range()) };
-    match prove_steps(pair, &of_cast, end, max_distance) {
-        Err(Error::Unverified(_)) => prove_steps(pair, &any, end, max_distance),
+    let mut work = 0;
+    match prove_steps(pair, &of_cast, end, max_distance, &mut work) {
+        Err(Error::Unverified(_)) if work < MOST_WORK => prove_steps(pair, &any, end, max_distance, &mut work),
         proved => proved,
     }
 }
 
-/// Farther apart than `max_distance` in each step of a sweep to `end`.
-fn prove_steps(pair: &MovingPair, wanted: &SweepGoal, end: f64, max_distance: f64) -> Result<()> {
+/// Farther apart than `max_distance` in each step of a sweep to `end`. Adds to `work`.
+fn prove_steps(pair: &MovingPair, wanted: &SweepGoal, end: f64, max_distance: f64, work: &mut u64) -> Result<()> {
+    let before = *work;
     let mut sweep = Sweep::new(pair, &PairCache::default());
     let mut here = pair.at(pair.range()[0])?;
-    while u64::from(sweep.queries) + 10 * sweep.exact_iterations < MOST_WORK {
+    loop {
+        *work = before + u64::from(sweep.queries) + 10 * sweep.exact_iterations;
+        if *work >= MOST_WORK {
+            return Err(unverified(format!("the check gives up at time {:?}, after much work in integers", here.time)));
+        }
         let near = sweep.distance(&here)?;
         match sweep.on(&here, &near, end, wanted)? {
             Ahead::Free(step) => {
