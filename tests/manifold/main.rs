@@ -369,7 +369,7 @@ fn any_magnitude_has_a_manifold() {
 fn the_same_question_has_the_same_ids() {
     let mut random = Random::new(0x1d5);
     let (mut asked, mut changed) = (0, Vec::new());
-    for exponent in (0..=300).chain([271; 40]) {
+    for exponent in (0..=300).step_by(2).chain([271; 40]) {
         for round in 0..24 {
             let thin = 10f64.powi(-exponent);
             let half = [[1.0, thin, thin], [1.0, 0.5, thin], [1.0, thin, 0.5]][round % 3];
@@ -401,5 +401,5 @@ fn the_same_question_has_the_same_ids() {
         }
     }
     assert!(changed.is_empty(), "{} of {asked}: {}", changed.len(), changed[..changed.len().min(4)].join("\n"));
-    assert!(asked > 5_000, "{asked}");
+    assert!(asked > 3_000, "{asked}");
 }

@@ -10,7 +10,7 @@ use testkit::cases::{Case, FAMILIES, Random, coordinates, row_major};
 use testkit::certificate::{dot, proved_by};
 use testkit::oracle::{Truth, rational, transform};
 
-const CASES_PER_FAMILY: usize = 500;
+const CASES_PER_FAMILY: usize = 250;
 
 #[test]
 fn exact_tier_equals_the_oracle() {

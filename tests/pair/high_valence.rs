@@ -100,7 +100,7 @@ fn rotated_prisms_of_many_sides_are_marched() {
         let turned = random.rotation();
         mesh.vertices.iter_mut().for_each(|v| *v = turned * *v);
         let prism = shape(Ok(mesh));
-        for _ in 0..500 {
+        for _ in 0..200 {
             let pose1 = Pose::new(&random.rotation(), &Vector::zeros());
             let pose2 = Pose::new(&random.rotation(), &(random.direction() * random.uniform(3.0, 4.0)));
             let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());

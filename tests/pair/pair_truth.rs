@@ -9,7 +9,7 @@ use swiftprox::verify::verify;
 use testkit::cases::{Case, FAMILIES, Random};
 use testkit::oracle::Truth;
 
-const CASES_PER_FAMILY: usize = 500;
+const CASES_PER_FAMILY: usize = 250;
 
 #[test]
 fn pair_queries_equal_the_oracle() {

@@ -19,7 +19,7 @@ use testkit::caches::cache_of_features;
 use testkit::random::Random;
 
 /// Of the first 4,189 pairs two find the hole that `slack_of_leaning` closes (src/body/build/assembly/layout.rs).
-const COUNT: u64 = 8_000;
+const COUNT: u64 = 4_000;
 
 /// Pairs of features forced on each pair of bodies.
 const STARTS: usize = 12;

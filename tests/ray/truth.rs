@@ -27,8 +27,8 @@ fn try_all(seed: u64, count: usize, make: fn(&mut Random) -> Case) -> [usize; 4]
 
 #[test]
 fn on_lattices() {
-    let counts = try_all(1, 92_000, on_lattice);
-    assert!(counts.iter().all(|&count| count > 5_000), "{counts:?}");
+    let counts = try_all(1, 46_000, on_lattice);
+    assert!(counts.iter().all(|&count| count > 2_500), "{counts:?}");
 }
 
 #[test]
