@@ -286,13 +286,12 @@ def crowds(machine, bodies, rows):
 
     def row(question):
         values = [t for key, times in found.items() if key[0] == question for t in times]
-        panels = [Panel(f"{asked[question]}, {names[m]}", [c for method in legend for c in curves(question, m, method)])
-                  for m in motions]
-        return Row(panels, charts.value_axis("time a step", values, charts.duration), 210)
+        panels = [Panel(names[m], [c for method in legend for c in curves(question, m, method)]) for m in motions]
+        return Row(panels, charts.value_axis(f"{asked[question]}: time per step", values, charts.duration), 210)
 
-    return Panels(f"Scenes of many bodies ({bodies} vertices): time a step, poses set and query answered", machine, x, legend,
+    return Panels(f"Scenes of many bodies ({bodies} vertices): time per step, poses set and query answered", machine, x, legend,
                   [row(question) for question in questions],
-                  "Points: means over the steps. Lines up from them: to the worst step. One thread but where two are said.")
+                  "Points: means over the steps. Lines up from them: to the worst step. One thread unless the legend says two.")
 
 
 def made_of(path):
