@@ -38,7 +38,7 @@ pub use planes::evaluate;
 pub use pyramid::{ProofFailure, Pyramid, Rest};
 pub use raise::raise;
 pub use storage::Polytope;
-pub use support::{HEIGHTS, farthest, heights, rough_support, support};
+pub use support::{HEIGHTS, difference, farthest, heights, rough_support, support};
 pub use witness::{PolytopeWitness, witness};
 
 /// The rounding errors of the numbers of one pair.

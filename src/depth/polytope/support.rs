@@ -113,7 +113,7 @@ impl<L: Lanes> Work for Beyond<'_, L> {
 
 /// The difference of two vertices.
 #[inline(always)]
-fn difference<L: Lanes>(frame: &Frame<L>, vertex1: u32, vertex2: u32) -> L {
+pub fn difference<L: Lanes>(frame: &Frame<L>, vertex1: u32, vertex2: u32) -> L {
     let [body1, body2] = &frame.bodies;
     let (vertices1, vertices2) = (&body1.polyhedron.vertices, &body2.polyhedron.vertices);
     frame.difference(&vertices1[vertex1 as usize].position, &vertices2[vertex2 as usize].position)

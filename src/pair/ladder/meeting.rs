@@ -7,7 +7,8 @@ use super::query::PairQuery;
 use crate::answer::{DecidedBy, Outcome, Query, Start, Statistics, contact};
 use crate::base::math::UNIT_ROUNDOFF;
 use crate::base::simd::{self, Kernel, Lanes};
-use crate::depth::polytope::rough_support;
+use crate::body::tables::tuning::TURNED_AWAY;
+use crate::depth::polytope::{difference, rough_support};
 use crate::distance::certificate::reciprocal_length;
 use crate::distance::enclosure::{FACES, GENERIC, sides_of_faces};
 use crate::distance::separating_axis::AxisTrial;
@@ -53,7 +54,18 @@ impl Kernel for OverlapWalk<'_, '_> {
         if !frame.in_range || frame.size == 0.0 {
             return false;
         }
-        let (end, supports) = walk(&frame);
+        let (end, supports) = match pair.cache.enclosure(pair.polyhedra()) {
+            // The tetrahedron that held the origin the last time is mostly one corner away from one that does.
+            Some(last) if last.as_slice().len() == 4 && !frame.has_moved(&pair.cache.marker, TURNED_AWAY) => {
+                let (mut pairs, mut corners) = ([[0; 2]; 4], [L::splat(0.0); 4]);
+                pairs.copy_from_slice(last.as_slice());
+                for k in 0..4 {
+                    corners[k] = difference(&frame, pairs[k][0], pairs[k][1]);
+                }
+                exchange(&frame, pairs, corners, 0)
+            }
+            _ => walk(&frame),
+        };
         match end {
             WalkEnd::Encloses(pairs) => {
                 pair.cache.remember_enclosure(&pairs);
@@ -86,7 +98,7 @@ impl Kernel for OverlapWalk<'_, '_> {
     }
 }
 
-/// Walks, and counts the support vertices.
+/// Walks from nothing, and counts the support vertices.
 #[inline(always)]
 fn walk<L: Lanes>(frame: &Frame<L>) -> (WalkEnd<L>, u32) {
     let mut pairs = [[0; 2]; 4];
@@ -108,7 +120,18 @@ fn walk<L: Lanes>(frame: &Frame<L>) -> (WalkEnd<L>, u32) {
             _ => towards_origin(corners[0], corners[1].sub(corners[0]).cross(corner.sub(corners[0]))),
         };
     }
-    for supports in 4..4 + MOST_EXCHANGES {
+    exchange(frame, pairs, corners, 4)
+}
+
+/// Puts the vertex farthest out beyond a face that does not hold the origin in the place of the corner before it, until all do.
+#[inline(always)]
+fn exchange<L: Lanes>(
+    frame: &Frame<L>,
+    mut pairs: [VertexPair; 4],
+    mut corners: [L; 4],
+    made: u32,
+) -> (WalkEnd<L>, u32) {
+    for supports in made..made + MOST_EXCHANGES {
         let sides = sides_of_faces(frame, &corners);
         if sides.certain == 4 {
             return (WalkEnd::Encloses(pairs), supports);
@@ -134,7 +157,7 @@ fn walk<L: Lanes>(frame: &Frame<L>) -> (WalkEnd<L>, u32) {
         }
         (pairs[outermost], corners[outermost]) = (pair, corner);
     }
-    (WalkEnd::Unclear, 4 + MOST_EXCHANGES)
+    (WalkEnd::Unclear, made + MOST_EXCHANGES)
 }
 
 /// A direction scaled to unit length; `None` if it is too short for that.
