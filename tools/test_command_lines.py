@@ -10,7 +10,8 @@ import tempfile
 import unittest
 
 RECORDER = sys.argv[1]  # writes a recording to the file that it is given
-PROGRAMS = {os.path.basename(path): path for path in sys.argv[2:]}
+# An empty word stands for a program that is not built: newer CMake hands it on.
+PROGRAMS = {os.path.basename(path): path for path in sys.argv[2:] if path}
 MODELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "examples", "models")
 BOX = os.path.join(MODELS, "box.off")
 
