@@ -6,11 +6,11 @@ usage: bodies.py RESULTS.csv [OUTPUT_DIRECTORY]
        bodies.py --check
 
 Writes into the directory (docs/charts)
-  bodies-accuracy.svg    distances: time a query over error, a row a family, a panel a motion, one mark a method and tolerance
+  bodies-accuracy.svg    distances: time per query over error, a row a family, a panel a motion, one mark a method and tolerance
   bodies-depths.svg      the same of depths
   bodies-grid.svg        how many times as long the best peer takes: a line a body, a column a motion, for three queries
-  bodies-motion.svg      time a query over motion, a row a query, a panel a family
-  bodies-vertices.svg    time a query over the vertices of a round ellipsoid, a row a query, a panel a motion
+  bodies-motion.svg      time per query over motion, a row a query, a panel a family
+  bodies-vertices.svg    time per query over the vertices of a round ellipsoid, a row a query, a panel a motion
   bodies-sides.svg       the same over the sides of a cylinder
 With --again they are drawn anew from benches/results/bodies.csv, with the tables of the pages, of which one is of
 benches/results/bodies-instructions.csv. With --check nothing is drawn, and the program fails where a chart or a page does not say
@@ -68,7 +68,7 @@ def way(method):
 
 
 def motion(step):
-    return "random poses" if step == "random" else f"{step}° a query"
+    return "random poses" if step == "random" else f"{step}° per query"
 
 
 def of(rows, **wanted):
@@ -135,8 +135,8 @@ def accuracy(where, rows, query, title, axis):
                 own = sorted(point for method, point in points.items() if way(method) == name)
                 curves += [Curve(name, own, Kind.JOINED if len(own) > 1 else Kind.DOTS)] if own else []
             panels.append(Panel(motion(step), curves))
-        panels[0].title = f"{FAMILIES[family].split(' of ')[0]}: {panels[0].title.removesuffix(' a query')}"
-        made.append(Row(panels, charts.value_axis("time a query", times, charts.duration), 130))
+        panels[0].title = f"{FAMILIES[family].split(' of ')[0]}: {panels[0].title.removesuffix(' per query')}"
+        made.append(Row(panels, charts.value_axis("time per query", times, charts.duration), 130))
     legend = {**legend, FRONT: Style("the front", charts.FRAME, DASHED)}
     bodies = {family: len({row["body"] for row in of(rows, family=family)}) for family in families}
     said = ", ".join(f"{count} {FAMILIES[family]}" for family, count in bodies.items())
@@ -200,7 +200,7 @@ def grid(where, rows):
     for family in FAMILIES:
         lines.append(Line(FAMILIES[family].replace("of 1,002 vertices", "of all sizes"), list(cells(of(rows, family=family))),
                           gap_before=family == "paper", bold=True))
-    columns = [(query, motion(step).replace(" a query", "").replace(" poses", "")) for query in QUERIES for step in STEPS]
+    columns = [(query, motion(step).replace(" per query", "").replace(" poses", "")) for query in QUERIES for step in STEPS]
     legend = [(colour, f"{least} and more" if least else "less") for least, colour in BANDS]
     return Cells("Speed-up over the fastest other library", where,
                  f"of {others_of(rows)}: geometric mean, small the least, where a line is several bodies",
@@ -222,9 +222,9 @@ def over_motion(where, rows):
                           if of(here, method=method, step=step)}
                 times += [time for _, time in points.values()]
                 curves += charts.over_motion(way(method), points)
-            panels.append(Panel(f"{query}, {FAMILIES[family].replace(' of 1,002 vertices', '')}", curves))
-        made.append(Row(panels, charts.value_axis("time a query", times, charts.duration), 140))
-    return Panels("Time a query over motion", where, x, legend_of(rows), made,
+            panels.append(Panel(FAMILIES[family].replace(" of 1,002 vertices", ""), curves))
+        made.append(Row(panels, charts.value_axis(f"{query}: time per query", times, charts.duration), 140))
+    return Panels("Time per query over motion", where, x, legend_of(rows), made,
                   "Geometric means over the bodies of a family; of round bodies the others have primitives.\n"
                   "A library that refuses bodies, Jolt those of more than 256 vertices, has its mean over the others.")
 
@@ -240,7 +240,7 @@ def over_size(where, rows, size, title, axis):
             curves = [Curve(way(method), sorted((size(row), row["best_ns"]) for row in of(own, method=method)))
                       for method in in_order(row["method"] for row in own)]
             panels.append(Panel(f"{query}, {motion(step)}", curves))
-        made.append(Row(panels, charts.value_axis("time a query", [row["best_ns"] for row in here], charts.duration), 130))
+        made.append(Row(panels, charts.value_axis("time per query", [row["best_ns"] for row in here], charts.duration), 130))
     x = Axis(axis, sizes[0] / 1.3, sizes[-1] * 1.3, [(n, charts.count(n if n < 1000 else 1000 * round(n / 1000))) for n in sizes])
     return Panels(title, where, x, legend_of(rows), made)
 
@@ -313,7 +313,7 @@ def weak_table(rows):
 
 
 def instruction_table(counts):
-    """Geometric means of a family: our instructions a query, and behind them how many times as many the other library takes that
+    """Geometric means of a family: our instructions per query, and behind them how many times as many the other library takes that
     takes the fewest."""
     lines = ["| query | bodies | " + " | ".join(MOTIONS[step] for step in STEPS) + " |", "|---|---|" + "--:|" * len(STEPS)]
     for query in QUERIES:
@@ -366,8 +366,8 @@ def made_of(where, rows):
         "bodies-depths": accuracy(where, rows, "depth", "Speed against accuracy of depths, deep orbit", "error of the depth, in radii of the bodies"),
         "bodies-grid": grid(where, rows),
         "bodies-motion": over_motion(where, rows),
-        "bodies-vertices": over_size(where, rows, vertices_of, "Time a query over the vertices of a round ellipsoid", "vertices"),
-        "bodies-sides": over_size(where, rows, sides_of, "Time a query over the sides of a cylinder", "sides"),
+        "bodies-vertices": over_size(where, rows, vertices_of, "Time per query over the vertices of a round ellipsoid", "vertices"),
+        "bodies-sides": over_size(where, rows, sides_of, "Time per query over the sides of a cylinder", "sides"),
     }
 
 

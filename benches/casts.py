@@ -57,7 +57,7 @@ def chart(head, rows):
     lines = [Line(scene, [cell(found.get((scene, method))) for method in methods]) for scene in in_order(r["scene"] for r in rows)]
     legend = [(charts.GOOD, "none wrong")] + [(colour, f"up to {100 * share:g} %") for share, colour in SHARES]
     return Cells("Casts of moving bodies", machine(head),
-                 "µs a motion; beside it the most frequent of m missed hits, f hits of free motions, t times off by more than 1e-3, u no answer",
+                 "µs per motion; beside it the most frequent of m missed hits, f hits of free motions, t times off by more than 1e-3, u no answer",
                  [METHODS[method] for method in methods], lines, legend + [(charts.REFUSED, "not asked")], 130)
 
 

@@ -6,15 +6,15 @@ usage: plot.py RESULTS.csv [OUTPUT_DIRECTORY]
        plot.py --check
 
 Writes into the directory (docs/charts), for each number of vertices N in a file of benches/compare,
-  speed-N.svg      time a query over degrees a step, one panel an orbit, one line a method
-  accuracy-N.svg   time a query over error, one panel a scene, one point a method
+  speed-N.svg      time per query over degrees per step, one panel an orbit, one line a method
+  accuracy-N.svg   time per query over error, one panel a scene, one point a method
 and of benches/worst_case.rs
   steps.svg        the most steps and the longest query over the number of vertices, one panel a motion, one line a body
 of compare --crowd, for each kind of bodies,
-  scenes-KIND.svg  time a step over the number of bodies, a row a question, a panel a motion, one line a method
+  scenes-KIND.svg  time per step over the number of bodies, a row a question, a panel a motion, one line a method
 of compare --query depth
-  depth-speed.svg     time a query over degrees a step, one panel a number of vertices, one line a method
-  depth-accuracy.svg  time a query over error, one panel a motion, one line a library over its tolerances
+  depth-speed.svg     time per query over degrees per step, one panel a number of vertices, one line a method
+  depth-accuracy.svg  time per query over error, one panel a motion, one line a library over its tolerances
 and of stability/depths.py
   depth-failures.svg  wrong depths and normals, NaN and crashes of the hard families, a row a family, a column a method
 With --again each of these in docs/charts is drawn anew from the CSV file that it names. With --check nothing is drawn, and the
@@ -77,7 +77,7 @@ def styles(methods):
 
 
 def motion(step):
-    return "random poses" if step == "random" else f"{step}° a query"
+    return "random poses" if step == "random" else f"{step}° per query"
 
 
 def speed(machine, n, rows):
@@ -94,8 +94,8 @@ def speed(machine, n, rows):
 
     legend = styles(in_order(r["method"] for r in rows))
     panels = [Panel(f"{orbit} orbit", [curve for method in legend for curve in curves(orbit, method)]) for orbit in orbits]
-    return Panels(f"Exact distance with witness points, {n:,} vertices: time a query", machine, x, legend,
-                  [Row(panels, charts.value_axis("time a query", means.values(), charts.duration), 230)],
+    return Panels(f"Exact distance with witness points, {n:,} vertices: time per query", machine, x, legend,
+                  [Row(panels, charts.value_axis("time per query", means.values(), charts.duration), 230)],
                   "Geometric means over the models " + ", ".join(in_order(r["model"] for r in rows)) + ".")
 
 
@@ -141,7 +141,7 @@ def accuracy(machine, n, rows):
     steps = [s for s in in_order(r["step"] for r in rows) if s in ("0.1", "1", "10", "random")]
     rows = [r for r in rows if r["step"] in steps]
     legend = styles(in_order(r["method"] for r in rows))
-    y = charts.value_axis("time a query", [r["best_ns"] for r in rows], charts.duration)
+    y = charts.value_axis("time per query", [r["best_ns"] for r in rows], charts.duration)
 
     def panel(orbit, step):
         here = [r for r in rows if (r["orbit"], r["step"]) == (orbit, step)]
@@ -154,7 +154,7 @@ def accuracy(machine, n, rows):
 
 
 def depth_means(rows):
-    """Times a query, geometric means over the models, by number of vertices, step and method."""
+    """Times per query, geometric means over the models, by number of vertices, step and method."""
     times = {}
     for r in rows:
         if r["model"] in DEPTH_MODELS:
@@ -176,8 +176,8 @@ def depth_speed(machine, rows):
     values = [time for (_, _, method), time in means.items() if method in shown.values()]
     boxes = {r["method"]: r["best_ns"] for r in rows if r["model"] == "box"}
     told = ", ".join(f"{DEPTHS[library][1].label.split(', ')[0]} {boxes[way] / 1000:.2f}" for library, way in shown.items() if way in boxes)
-    return Panels("Depth of intersecting bodies: time a query", machine, x, {library: DEPTHS[library][1] for library in shown},
-                  [Row(panels, charts.value_axis("time a query", values, charts.duration), 230)],
+    return Panels("Depth of intersecting bodies: time per query", machine, x, {library: DEPTHS[library][1] for library in shown},
+                  [Row(panels, charts.value_axis("time per query", values, charts.duration), 230)],
                   "Geometric means over the models " + ", ".join(DEPTH_MODELS) + ", intersecting poses of the deep orbit." +
                   (f"\nA box at rest on another, in µs: {told}." if boxes else ""))
 
@@ -201,7 +201,7 @@ def depth_accuracy(machine, rows):
     panels = [Panel(motion(step), [curve(step, library) for library in reversed(legend)]) for step in steps]
     axis = dataclasses.replace(ERRORS, label="error of the depth, in radii of the bodies")
     return Panels(f"Speed against accuracy of the depth, {n:,} vertices", machine, axis, legend,
-                  [Row(pair, charts.value_axis("time a query", [r["best_ns"] for r in rows], charts.duration), 150)
+                  [Row(pair, charts.value_axis("time per query", [r["best_ns"] for r in rows], charts.duration), 150)
                    for pair in (panels[:2], panels[2:]) if pair],
                   "swiftprox: the widest interval that it guarantees, asked for errors from the provable to 1e-2. Others: the worst error\n"
                   "observed, against that interval, over their tolerances. Geometric means over the models " + ", ".join(DEPTH_MODELS) + ".")
