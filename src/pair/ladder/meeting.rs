@@ -123,7 +123,8 @@ fn walk<L: Lanes>(frame: &Frame<L>) -> (WalkEnd<L>, u32) {
     exchange(frame, pairs, corners, 4)
 }
 
-/// Puts the vertex farthest out beyond a face that does not hold the origin in the place of the corner before it, until all do.
+/// Exchanges corners until the tetrahedron holds the origin: each time the vertex farthest beyond the worst face comes in, and the
+/// corner opposite that face goes. `made` supports came before.
 #[inline(always)]
 fn exchange<L: Lanes>(
     frame: &Frame<L>,
