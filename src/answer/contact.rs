@@ -40,7 +40,8 @@ pub fn fill_nothing(answer: &mut PairAnswer) {
     answer.feature2 = Feature::default();
 }
 
-/// From a prepared frame: a minimum, the unit normal from body 2 to body 1, the features on which the points lie.
+/// From a prepared frame: a minimum, the unit normal from body 2 to body 1, the features on which the points lie, and how far
+/// the surfaces are from them along the normal.
 #[inline(always)]
 pub fn fill_separated<L: Lanes>(
     answer: &mut PairAnswer,
@@ -48,12 +49,23 @@ pub fn fill_separated<L: Lanes>(
     minimum: &Minimum<L>,
     normal: L,
     features: [FeatureId; 2],
+    outwards: Option<[f64; 2]>,
 ) {
     let ([body1, body2], Minimum { points, rotated, .. }) = (&frame.bodies, minimum);
-    points[0].add(L::from_vector(&body1.polyhedron.centre)).store_vector(&mut answer.local1);
-    points[1].add(L::from_vector(&body2.polyhedron.centre)).store_vector(&mut answer.local2);
-    rotated[0].add(body1.translation).store_vector(&mut answer.world1);
-    rotated[1].add(body2.translation).store_vector(&mut answer.world2);
+    let mut local1 = points[0].add(L::from_vector(&body1.polyhedron.centre));
+    let mut local2 = points[1].add(L::from_vector(&body2.polyhedron.centre));
+    let [mut world1, mut world2] = [rotated[0].add(body1.translation), rotated[1].add(body2.translation)];
+    if let Some([out1, out2]) = outwards {
+        let [out1, out2] = [L::splat(out1), L::splat(out2)];
+        local1 = body1.turn_back(normal).mul_add(out1, local1);
+        local2 = body2.turn_back(normal).mul_add(out2, local2);
+        world1 = normal.mul_add(out1, world1);
+        world2 = normal.mul_add(out2, world2);
+    }
+    local1.store_vector(&mut answer.local1);
+    local2.store_vector(&mut answer.local2);
+    world1.store_vector(&mut answer.world1);
+    world2.store_vector(&mut answer.world2);
     normal.store_vector(&mut answer.normal);
     answer.feature1 = label(body1.polyhedron, features[0], &points[0].to_vector());
     answer.feature2 = label(body2.polyhedron, features[1], &points[1].to_vector());

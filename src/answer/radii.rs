@@ -6,6 +6,7 @@
 //! 0 to δ₁ + δ₂: the deviations count in the upper sum of what is taken off, and not in the lower one. Poses may stretch the body;
 //! δ holds for all that are accepted.
 
+use super::config::PairConfig;
 use super::contact::PlacedPoints;
 use crate::base::double_double::two_sum;
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
@@ -49,16 +50,11 @@ impl Radii {
     pub fn of_both(bodies: &[Placed; 2]) -> Radii {
         let each = [bodies[0].shape.swept_radius(), bodies[1].shape.swept_radius()];
         let [lower, upper] = [sum_below(each[0], each[1]), sum_above(each[0], each[1])];
-        let radii = Radii { each, deviation: 0.0, lower, upper };
         let deviations = [bodies[0].shape.deviation(), bodies[1].shape.deviation()];
-        if deviations.map(f64::to_bits) == [0; 2] { radii } else { radii.deviating(deviations) }
-    }
-
-    /// The same of curved bodies.
-    #[cold]
-    fn deviating(self, [deviation1, deviation2]: [f64; 2]) -> Radii {
-        let deviation = sum_above(deviation1, deviation2);
-        Radii { deviation, upper: sum_above(self.upper, deviation), ..self }
+        let are_curved = deviations[0].to_bits() | deviations[1].to_bits() != 0;
+        // Numbers, not a whole `Radii`, which would be copied as soon as it is stored (R1).
+        let (deviation, upper) = if are_curved { with_deviations(upper, deviations) } else { (0.0, upper) };
+        Radii { each, deviation, lower, upper }
     }
 
     /// The radius and the deviation of a body, and of a partner without any.
@@ -69,9 +65,38 @@ impl Radii {
 
     /// An interval of the signed distance of the polyhedra as one of the swept bodies: of sets that are offset by r it is r less,
     /// be they apart or in each other, as the support function of their difference is r more along every direction.
-    #[inline]
+    #[inline(always)]
     pub fn off(&self, [lower, upper]: [f64; 2]) -> [f64; 2] {
         [sum_below(lower, -self.upper), sum_above(upper, -self.lower)]
+    }
+
+    /// The side of two bodies, with the interval of their signed distance as [`Radii::off`] gives it and as it is reported; `None`
+    /// where only integers tell. For polyhedra that are beyond the radii and the tolerance the lower end says the rest.
+    #[inline(always)]
+    pub fn side(&self, interval: [f64; 2], tolerance: f64, is_beyond: bool) -> Option<(Side, [f64; 2])> {
+        let [lower, upper] = interval;
+        if upper < 0.0 {
+            return Some((Side::Within, interval));
+        }
+        // A distance beyond the doubles may be one of them less the radii.
+        if (lower > 0.0) & !is_beyond & (upper <= tolerance) & (upper < f64::INFINITY) {
+            return Some((Side::Apart, interval));
+        }
+        if (lower > 0.0) & (is_beyond | (lower > tolerance)) {
+            return Some((Side::Beyond, [lower.max(tolerance.min(f64::MAX)), f64::INFINITY]));
+        }
+        (self.deviation > 0.0).then(|| (Side::of_curved(interval), interval))
+    }
+
+    /// Whether an interval of the bodies is too wide for an approximate query, though that of their polyhedra, whose lower end is
+    /// larger, was not.
+    #[inline(always)]
+    pub fn is_too_wide(&self, [lower, upper]: [f64; 2], config: &PairConfig) -> bool {
+        // The deviation stays, however narrow the interval of the polyhedra is.
+        let width = upper - lower - self.deviation;
+        let may_be_wide = (config.absolute_error > 0.0) | (config.relative_error > 0.0);
+        let is_narrow = (width <= config.absolute_error) | ((lower > 0.0) & (width <= config.relative_error * lower));
+        may_be_wide & (upper > 0.0) & !is_narrow
     }
 
     /// The least interval of the polyhedra that contains the result of [`Radii::off`] for this. Integers, which may have narrowed
@@ -104,6 +129,38 @@ impl Radii {
     /// … and back.
     pub fn inwards(&self) -> [f64; 2] {
         [self.each[0], -self.each[1]]
+    }
+}
+
+/// The sum of the deviations, and that with the radii.
+#[cold]
+fn with_deviations(radii: f64, [deviation1, deviation2]: [f64; 2]) -> (f64, f64) {
+    let deviation = sum_above(deviation1, deviation2);
+    (deviation, sum_above(radii, deviation))
+}
+
+/// The relation of two bodies.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Side {
+    /// Farther apart than the tolerance.
+    Beyond,
+    Apart,
+    /// In each other, or touching.
+    Within,
+    /// Apart or in each other: the deviation hides it.
+    Hidden,
+}
+
+impl Side {
+    /// The relation of curved bodies, by an interval of their signed distance: nothing else tells.
+    pub fn of_curved([lower, upper]: [f64; 2]) -> Side {
+        if upper <= 0.0 {
+            Side::Within
+        } else if lower > 0.0 {
+            Side::Apart
+        } else {
+            Side::Hidden
+        }
     }
 }
 
@@ -167,7 +224,7 @@ impl MovingPoint<'_> {
 
 /// R⁻¹·n: Rᵀ·n, put right by what R makes of it; where that is more than rounding, by the inverse.
 #[inline(always)]
-pub fn turned_back<L: Lanes>(pose: &Pose, normal: &Vector) -> L {
+fn turned_back<L: Lanes>(pose: &Pose, normal: &Vector) -> L {
     let rows = [L::load(&pose.rows[0]), L::load(&pose.rows[1]), L::load(&pose.rows[2])];
     let [x, y, z, _] = L::transpose(&rows);
     let along = L::from_vector(normal);
@@ -191,23 +248,26 @@ fn inverted(pose: &Pose, normal: &Vector) -> Vector {
 }
 
 /// a + b, rounded down: at most the largest double where both are finite; infinite or NaN only if a or b is.
-#[inline]
+#[inline(always)]
 pub fn sum_below(a: f64, b: f64) -> f64 {
     let sum = two_sum(a, b);
     if !sum.hi.is_finite() {
         return beyond([a, b], sum.hi, f64::MAX);
     }
-    if sum.lo < 0.0 { sum.hi.next_down() } else { sum.hi }
+    // Without a branch, which would be taken every other time. (0 is exact.)
+    let step = if sum.hi < 0.0 { 1 } else { u64::MAX };
+    f64::from_bits(sum.hi.to_bits().wrapping_add(if sum.lo < 0.0 { step } else { 0 }))
 }
 
 /// a + b, rounded up: the same of the other side.
-#[inline]
+#[inline(always)]
 pub fn sum_above(a: f64, b: f64) -> f64 {
     let sum = two_sum(a, b);
     if !sum.hi.is_finite() {
         return beyond([a, b], sum.hi, f64::MIN);
     }
-    if sum.lo > 0.0 { sum.hi.next_up() } else { sum.hi }
+    let step = if sum.hi < 0.0 { u64::MAX } else { 1 };
+    f64::from_bits(sum.hi.to_bits().wrapping_add(if sum.lo > 0.0 { step } else { 0 }))
 }
 
 /// A sum that is no finite double, rounded away from the infinity that has the sign of `last`: the last double before it where both

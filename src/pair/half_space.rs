@@ -2,8 +2,8 @@
 //! integers find.
 
 use super::signed_distance::SignedDistance;
-use super::swept::{Side, side_of_curved, sign};
-use crate::answer::{Feature, Outcome, PlacedPoints, Radii, label, moved, normalised, placed_points};
+use super::swept::sign;
+use crate::answer::{Feature, Outcome, PlacedPoints, Radii, Side, label, moved, normalised, placed_points};
 use crate::base::error::{Error, Result};
 use crate::base::math::{UNIT_ROUNDOFF, Vector, clamp};
 use crate::base::memory::in_integers;
@@ -128,7 +128,7 @@ pub(crate) fn above_plane(height: &Height, radii: &Radii) -> (Side, [f64; 2]) {
         return (side(lower > 0.0), interval);
     }
     if radii.deviation > 0.0 {
-        return (side_of_curved(interval), interval);
+        return (Side::of_curved(interval), interval);
     }
     let (is_apart, interval) = sign(&height.distance, radii, interval);
     (side(is_apart), interval)

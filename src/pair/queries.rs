@@ -1,7 +1,7 @@
 //! The queries of a pair.
 
 use super::cache::PairCache;
-use super::ladder;
+use super::ladder::{self, NoBalls};
 use super::signed_distance::{self, SignedDistance, SignedDistanceCache};
 use super::swept;
 #[cfg(doc)]
@@ -104,7 +104,7 @@ fn query_with(
     if Radii::are_there(bodies) {
         return swept::query(query, bodies, cache, config, answer);
     }
-    ladder::ask(query, bodies, cache, config, answer)
+    ladder::ask(query, bodies, cache, config, answer, &mut NoBalls)
 }
 
 /// How deep two objects are in each other, see [`DepthAnswer`]. Separated objects are detected, but only a normal that separates
@@ -120,8 +120,8 @@ pub fn depth(
     config: &DepthConfig,
     answer: &mut DepthAnswer,
 ) -> Result<()> {
-    if let Some(radii) = Radii::of(&bodies) {
-        return with_default(|| swept::depth(bodies, &radii, cache, config, answer));
+    if Radii::are_there(&bodies) {
+        return with_default(|| swept::depth(bodies, &Radii::of_both(&bodies), cache, config, answer));
     }
     of_polyhedra(&bodies, cache, config, answer)
 }
@@ -139,8 +139,8 @@ pub fn signed_distance(
     config: &PairConfig,
     answer: &mut SignedDistance,
 ) -> Result<()> {
-    if let Some(radii) = Radii::of(&bodies) {
-        return with_default(|| swept::signed_distance(&bodies, &radii, cache, config, answer));
+    if Radii::are_there(&bodies) {
+        return with_default(|| swept::signed_distance(&bodies, &Radii::of_both(&bodies), cache, config, answer));
     }
-    signed_distance::of_polyhedra(&bodies, cache, config, answer)
+    signed_distance::of_polyhedra(&bodies, cache, config, &mut NoBalls, answer)
 }

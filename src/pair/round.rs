@@ -4,9 +4,7 @@
 use super::signed_distance::SignedDistance;
 #[cfg(doc)]
 use crate::answer::PairConfig;
-use crate::answer::{
-    DecidedBy, Feature, Outcome, PairAnswer, Query, Radii, Statistics, fill_nothing, label, turned_back,
-};
+use crate::answer::{DecidedBy, Feature, Outcome, PairAnswer, Query, Radii, Statistics, fill_nothing, label};
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp};
 use crate::base::scalar::{Scalar, constant};
 use crate::base::simd::{self, Kernel, Lanes, Portable};
@@ -147,13 +145,8 @@ impl Round<'_> {
     #[inline(always)]
     fn local<L: Lanes>(&self, frame: &Frame<L>, nearest: &NearestOfRound<L>, i: usize, out: f64) -> L {
         let body = &frame.bodies[i];
-        let turned = if frame.rigid {
-            body.rotate_back(nearest.normal)
-        } else {
-            turned_back::<L>(self.bodies[i].pose, &nearest.normal.to_vector())
-        };
         let point = nearest.points[i].add(L::from_vector(&body.polyhedron.centre));
-        turned.mul_add(L::splat(out), point)
+        body.turn_back(nearest.normal).mul_add(L::splat(out), point)
     }
 }
 

@@ -3,6 +3,7 @@
 
 use super::cache::PairCache;
 use super::ladder;
+use super::ladder::Sweep;
 use crate::answer::{Feature, Outcome, PairAnswer, PairConfig, Query};
 use crate::base::error::Result;
 use crate::base::simd::Lanes;
@@ -108,7 +109,7 @@ pub(crate) fn fill_at_rest<L: Lanes>(answer: &mut SignedDistance, frame: &Frame<
     places.fill(frame, [local1, local2, world1, world2, normal], [feature1, feature2]);
 }
 
-/// The signed distance of two polyhedra.
+/// The signed distance of two polyhedra; that of the bodies, where what is swept over them has settled it.
 ///
 /// # Errors
 /// As of [`signed_distance`](crate::pair::signed_distance).
@@ -116,6 +117,7 @@ pub(crate) fn of_polyhedra(
     bodies: &[Placed; 2],
     cache: &mut SignedDistanceCache,
     config: &PairConfig,
+    sweep: &mut impl Sweep,
     answer: &mut SignedDistance,
 ) -> Result<()> {
     // The query that matches the last outcome runs first.
@@ -126,8 +128,9 @@ pub(crate) fn of_polyhedra(
         cache.depth.expect_apart();
     }
     let mut apart = PairAnswer::default();
-    ladder::ask(Query::Distance, bodies, &mut cache.distance, config, &mut apart)?;
-    if !(apart.outcome == Outcome::Intersecting && overlaps(bodies, cache, answer)?) {
+    ladder::ask(Query::Distance, bodies, &mut cache.distance, config, &mut apart, sweep)?;
+    let are_in_each_other = apart.outcome == Outcome::Intersecting && !sweep.has_settled();
+    if !(are_in_each_other && overlaps(bodies, cache, answer)?) {
         *answer = SignedDistance::from(&apart);
     }
     Ok(())

@@ -1,12 +1,14 @@
-//! Queries of bodies over which balls are swept (`ShapeOptions::swept_radius`): those of the polyhedra, and the radii off what
-//! they answer. If the interval does not tell on which side of 0 or of the tolerance the rest is, integers do.
+//! Queries of bodies over which balls are swept (`ShapeOptions::swept_radius`). Points and segments have closed forms. Of other
+//! bodies the ladder searches among the polyhedra, and takes the radii off as it fills an answer. This file does so with what the
+//! ladder leaves open: curved bodies, common points, budgets, and sides that only integers tell.
 
 use super::cache::PairCache;
 use super::ladder;
+use super::ladder::{BallQuery, Balls};
 use super::round::{AnswerPlace, Round, are_round};
 use super::signed_distance::{SignedDistance, SignedDistanceCache, of_polyhedra};
 use crate::answer::{
-    DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, PairConfig, PlacedPoints, Query, Radii, fill_nothing,
+    DecidedBy, Feature, FeatureKind, Outcome, PairAnswer, PairConfig, PlacedPoints, Query, Radii, Side, fill_nothing,
     move_points, moved,
 };
 use crate::base::error::Result;
@@ -47,19 +49,30 @@ pub(super) fn query(
             return Ok(());
         }
     }
-    if query == Query::Intersection && ladder::swept_balls_overlap(bodies, radii.lower, cache, config, answer) {
-        return Ok(());
-    }
-    let of_polyhedra = PairConfig { max_distance: radii.with(tolerance), ..*config };
     // With the radii as a tolerance a verdict tells whether polyhedra are nearer, but not with more than that: integers, which tell
     // how near, are not asked of curved bodies.
     let needs_distance = !is_verdict || radii.deviation > 0.0;
     let asked = if query == Query::Intersection && needs_distance { Query::Distance } else { query };
+    let of_bodies = match query {
+        Query::Intersection if is_verdict => BallQuery::Verdict,
+        Query::Intersection => BallQuery::VerdictWithin,
+        _ => BallQuery::Distance,
+    };
+    let mut balls = Balls::new(radii, of_bodies, tolerance);
     // A refusal leaves the answer as it was.
-    ladder::ask(asked, bodies, cache, &of_polyhedra, answer)?;
+    ladder::ask_checked(asked, bodies, cache, config, answer, &mut balls)?;
+    if balls.are_taken_off {
+        return Ok(());
+    }
     let is_open = query == Query::Approximate && is_too_wide(answer, radii, config);
-    let asked = if is_open { ladder::ask(Query::Distance, bodies, cache, &of_polyhedra, answer) } else { Ok(()) };
-    if let Err(error) = asked.and_then(|()| take_off(query, bodies, radii, tolerance, answer)) {
+    if is_open {
+        ladder::ask_checked(Query::Distance, bodies, cache, config, answer, &mut balls)
+            .inspect_err(|_| *answer = PairAnswer::UNSAID)?;
+    }
+    if balls.are_taken_off {
+        return Ok(());
+    }
+    if let Err(error) = take_off(query, bodies, radii, tolerance, answer) {
         *answer = PairAnswer::UNSAID;
         return Err(error);
     }
@@ -69,23 +82,19 @@ pub(super) fn query(
     Ok(())
 }
 
-/// Whether an interval was narrow enough for the polyhedra, and is not for the remaining distance, whose `lower` is less.
+/// Whether an interval was narrow enough for the polyhedra, and is not for the bodies.
 fn is_too_wide(found: &PairAnswer, radii: &Radii, config: &PairConfig) -> bool {
-    let [lower, upper] = radii.off([found.lower, found.upper]);
-    // The deviation stays, however narrow the interval of the polyhedra is.
-    let width = upper - lower - radii.deviation;
-    let may_be_wide = config.absolute_error > 0.0 || config.relative_error > 0.0;
-    let is_narrow = width <= config.absolute_error || (lower > 0.0 && width <= config.relative_error * lower);
     // For polyhedra that intersect, the answer is already complete.
-    let is_apart = found.outcome == Outcome::Separated && upper > 0.0;
-    may_be_wide && is_apart && !is_narrow && found.decided_by != DecidedBy::Budget
+    found.outcome == Outcome::Separated
+        && found.decided_by != DecidedBy::Budget
+        && radii.is_too_wide(radii.off([found.lower, found.upper]), config)
 }
 
 /// Makes the answer about the polyhedra one about the bodies.
 ///
 /// # Errors
 /// [`Error::Memory`](crate::base::error::Error::Memory) where integers get none.
-#[inline(always)]
+#[cold]
 fn take_off(query: Query, bodies: &[Placed; 2], radii: &Radii, tolerance: f64, answer: &mut PairAnswer) -> Result<()> {
     let interval = [answer.lower, answer.upper];
     match answer.outcome {
@@ -190,36 +199,49 @@ pub(super) fn depth(
     }
     // A point or a segment is mostly outside where its ball is inside; a distance takes half the time of a depth that finds that.
     let is_thin = bodies.iter().any(|body| body.shape.polyhedron().dimension < 2);
-    let seem_apart = is_thin || cache.apart().is_some();
-    let mut of_polyhedra = if seem_apart { distance_apart(&bodies, radii, cache)? } else { None };
     let mut found = DepthAnswer { ending: DepthEnding::Narrow, ..DepthAnswer::default() };
-    if of_polyhedra.is_none() {
-        depth::of_polyhedra(&bodies, cache, config, &mut found)?;
-        if found.outcome != Outcome::Intersecting {
-            (of_polyhedra, found.ending) = (distance_apart(&bodies, radii, cache)?, DepthEnding::Narrow);
-        }
+    let seem_apart = is_thin || cache.apart().is_some();
+    if seem_apart && signed_distance_apart(&bodies, radii, cache, &mut signed)? {
+        fill_depth(answer, &signed, found.ending, found.statistics);
+        return Ok(());
     }
-    let of_polyhedra = of_polyhedra.unwrap_or_else(|| SignedDistance::from(&found));
-    of_bodies(&bodies, radii, 0.0, &of_polyhedra, &mut signed)?;
+    depth::of_polyhedra(&bodies, cache, config, &mut found)?;
+    if found.outcome != Outcome::Intersecting {
+        found.ending = DepthEnding::Narrow;
+        signed_distance_apart(&bodies, radii, cache, &mut signed)?;
+    } else {
+        of_bodies(&bodies, radii, 0.0, &SignedDistance::from(&found), &mut signed)?;
+    }
     fill_depth(answer, &signed, found.ending, found.statistics);
     Ok(())
 }
 
-/// The distance of the polyhedra, if they are apart.
-fn distance_apart(bodies: &[Placed; 2], radii: &Radii, cache: &mut DepthCache) -> Result<Option<SignedDistance>> {
+/// The signed distance of bodies whose polyhedra are apart; whether these are.
+fn signed_distance_apart(
+    bodies: &[Placed; 2],
+    radii: &Radii,
+    cache: &mut DepthCache,
+    signed: &mut SignedDistance,
+) -> Result<bool> {
     let (mut found, mut from) = (PairAnswer::default(), PairCache::default());
     if let Some(state) = cache.apart() {
         from.remember_features(state);
     }
-    let within = PairConfig { max_distance: radii.upper, ..PairConfig::default() };
-    ladder::ask(Query::Distance, bodies, &mut from, &within, &mut found)?;
-    let are_apart = found.outcome != Outcome::Intersecting;
+    let mut balls = Balls::new(radii, BallQuery::SignedDistance, 0.0);
+    ladder::ask_checked(Query::Distance, bodies, &mut from, &PairConfig::default(), &mut found, &mut balls)?;
+    let are_apart = balls.are_taken_off || found.outcome != Outcome::Intersecting;
     match from.features() {
         Some(state) if are_apart => cache.keep_apart(state),
         _ if cache.apart().is_some() => cache.rest_no_more(),
         _ => {}
     }
-    Ok(are_apart.then(|| SignedDistance::from(&found)))
+    let of_polyhedra = SignedDistance::from(&found);
+    if balls.are_taken_off {
+        *signed = of_polyhedra;
+    } else if are_apart {
+        of_bodies(bodies, radii, 0.0, &of_polyhedra, signed)?;
+    }
+    Ok(are_apart)
 }
 
 /// A depth from the signed distance of the bodies; of bodies that may be apart it is from 0 on.
@@ -265,9 +287,24 @@ pub(super) fn signed_distance(
             return Ok(());
         }
     }
+    signed_distance_by_search(bodies, radii, cache, config, answer)
+}
+
+#[inline(never)]
+fn signed_distance_by_search(
+    bodies: &[Placed; 2],
+    radii: &Radii,
+    cache: &mut SignedDistanceCache,
+    config: &PairConfig,
+    answer: &mut SignedDistance,
+) -> Result<()> {
+    let mut balls = Balls::new(radii, BallQuery::SignedDistance, config.max_distance);
     let mut found = SignedDistance::default();
-    let grown = PairConfig { max_distance: radii.with(config.max_distance), ..*config };
-    of_polyhedra(bodies, cache, &grown, &mut found)?;
+    of_polyhedra(bodies, cache, config, &mut balls, &mut found)?;
+    if balls.are_taken_off {
+        *answer = found;
+        return Ok(());
+    }
     of_bodies(bodies, radii, config.max_distance, &found, answer)
 }
 
@@ -301,18 +338,6 @@ fn of_bodies(
     Ok(())
 }
 
-/// The relation of two bodies.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub(crate) enum Side {
-    /// Farther apart than the tolerance.
-    Beyond,
-    Apart,
-    /// In each other, or touching.
-    Within,
-    /// Apart or in each other: the deviation hides it.
-    Hidden,
-}
-
 /// From an interval of the polyhedra's signed distance, or a lower end beyond the radii and the tolerance: the side, and the
 /// interval of the bodies'. Integers are asked where the interval does not tell.
 ///
@@ -327,40 +352,13 @@ fn judge(
     of_polyhedra: [f64; 2],
 ) -> Result<(Side, [f64; 2])> {
     let interval = radii.off(of_polyhedra);
-    let [lower, upper] = interval;
-    if upper < 0.0 {
-        return Ok((Side::Within, interval));
-    }
-    if radii.deviation > 0.0 {
-        return Ok(match side_of_curved(interval) {
-            Side::Apart if is_beyond || lower > tolerance => {
-                (Side::Beyond, [lower.max(tolerance.min(f64::MAX)), f64::INFINITY])
-            }
-            side => (side, interval),
-        });
-    }
-    // A distance beyond the doubles may be one of them less the radii.
-    if (lower > 0.0) & !is_beyond & (upper <= tolerance) & (upper < f64::INFINITY) {
-        return Ok((Side::Apart, interval));
-    }
-    if (lower > 0.0) & (is_beyond | (lower > tolerance)) {
-        return Ok((Side::Beyond, [lower.max(tolerance.min(f64::MAX)), f64::INFINITY]));
-    }
-    in_integers(|| judge_exactly(bodies, radii, tolerance, is_beyond, interval))
-}
-
-/// The relation of curved bodies, by an interval of their signed distance: nothing else tells.
-pub(super) fn side_of_curved([lower, upper]: [f64; 2]) -> Side {
-    if upper <= 0.0 {
-        Side::Within
-    } else if lower > 0.0 {
-        Side::Apart
-    } else {
-        Side::Hidden
+    match radii.side(interval, tolerance, is_beyond) {
+        Some(known) => Ok(known),
+        None => in_integers(|| judge_exactly(bodies, radii, tolerance, is_beyond, interval)),
     }
 }
 
-/// The same of an interval of the bodies'.
+/// The same by integers, of an interval of the bodies'.
 #[cold]
 #[inline(never)]
 fn judge_exactly(

@@ -100,6 +100,12 @@ impl<L: Lanes> Body<'_, L> {
         self.rotate_lanes(n)
     }
 
+    /// R⁻¹·d, by the transpose where that is the inverse up to rounding.
+    #[inline(always)]
+    pub fn turn_back(&self, d: L) -> L {
+        if self.skewed { self.invert(d) } else { self.rotate_back(d) }
+    }
+
     /// R⁻¹·d.
     #[inline(always)]
     pub fn invert(&self, d: L) -> L {

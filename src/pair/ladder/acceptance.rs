@@ -1,7 +1,8 @@
 //! Which minima that marching finds are good enough for an answer, at a quick look or a closer one.
 
 use super::query::PairQuery;
-use crate::answer::{DecidedBy, Outcome, Query, contact};
+use super::sweep::{Surfaces, Sweep};
+use crate::answer::{DecidedBy, Query, contact};
 use crate::base::math::divisor;
 use crate::base::simd::{Kernel, Lanes};
 use crate::distance::certificate::{Certify, CloserLook, Gap, Minimum};
@@ -11,12 +12,12 @@ use crate::placed::frame::Frame;
 use crate::placed::state::State;
 
 /// Accepts a minimum whose interval is good enough: answer and cache are then written.
-pub(super) struct Acceptance<'a, 'b> {
-    pub(super) pair: &'a mut PairQuery<'b>,
+pub(super) struct Acceptance<'a, 'b, S> {
+    pub(super) pair: &'a mut PairQuery<'b, S>,
     pub(super) accepted: bool,
 }
 
-impl<L: Lanes> Certify<L> for Acceptance<'_, '_> {
+impl<L: Lanes, S: Sweep> Certify<L> for Acceptance<'_, '_, S> {
     #[inline(always)]
     fn certify(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>) {
         let gap = minimum.gap(frame);
@@ -28,9 +29,9 @@ impl<L: Lanes> Certify<L> for Acceptance<'_, '_> {
 }
 
 /// The same at the first state of a query: mostly it is the last one, too, and what the memory is asked for then goes unused.
-pub(super) struct AtFirst<'a, 'b, 'c>(pub(super) &'a mut Acceptance<'b, 'c>);
+pub(super) struct AtFirst<'a, 'b, 'c, S>(pub(super) &'a mut Acceptance<'b, 'c, S>);
 
-impl<L: Lanes> Certify<L> for AtFirst<'_, '_, '_> {
+impl<L: Lanes, S: Sweep> Certify<L> for AtFirst<'_, '_, '_, S> {
     const LOOKS_AHEAD: bool = false;
 
     #[inline(always)]
@@ -39,7 +40,7 @@ impl<L: Lanes> Certify<L> for AtFirst<'_, '_, '_> {
     }
 }
 
-impl Acceptance<'_, '_> {
+impl<S: Sweep> Acceptance<'_, '_, S> {
     /// Answer, except the statistics, and cache from a minimum.
     #[inline(always)]
     fn fill<L: Lanes>(&mut self, frame: &Frame<L>, state: State, minimum: &Minimum<L>, gap: &Gap) {
@@ -47,11 +48,12 @@ impl Acceptance<'_, '_> {
         let normal = minimum.direction.mul(L::splat(minimum.inverse));
         pair.cache.remember_features(state);
         pair.answer.decided_by = DecidedBy::Marching;
-        pair.set_interval(&gap.interval, gap.distance);
-        if pair.query != Query::Intersection && pair.answer.outcome == Outcome::Separated {
-            contact::fill_separated(pair.answer, frame, minimum, normal, state.features());
-        } else {
-            contact::fill_normal(pair.answer, normal);
+        match pair.settle(&gap.interval, gap.distance) {
+            Surfaces::Points { outwards } => {
+                contact::fill_separated(pair.answer, frame, minimum, normal, state.features(), outwards);
+            }
+            Surfaces::Normal => contact::fill_normal(pair.answer, normal),
+            Surfaces::Nothing => contact::fill_nothing(pair.answer),
         }
         if pair.query == Query::Intersection {
             // Turned by an angle, bodies reach farther along a direction by that times their size at most: half the gap.
@@ -65,12 +67,12 @@ impl Acceptance<'_, '_> {
 }
 
 /// A minimum that a quick look leaves open, looked at more closely, as [`CloserLook`] does.
-pub(super) struct Closely<'a, 'b, const BETWEEN_PLANES: bool> {
-    pub(super) acceptance: Acceptance<'a, 'b>,
+pub(super) struct Closely<'a, 'b, S, const BETWEEN_PLANES: bool> {
+    pub(super) acceptance: Acceptance<'a, 'b, S>,
     pub(super) at: State,
 }
 
-impl<const BETWEEN_PLANES: bool> Kernel for Closely<'_, '_, BETWEEN_PLANES> {
+impl<S: Sweep, const BETWEEN_PLANES: bool> Kernel for Closely<'_, '_, S, BETWEEN_PLANES> {
     type Output = ();
 
     #[inline(always)]

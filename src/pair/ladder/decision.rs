@@ -2,6 +2,7 @@
 
 use super::acceptance::{Acceptance, Closely};
 use super::query::{Attempt, PairQuery};
+use super::sweep::Sweep;
 use crate::answer::{DecidedBy, Outcome, Query, Statistics, contact};
 use crate::base::error::Result;
 use crate::base::memory::in_integers;
@@ -24,7 +25,7 @@ pub(super) struct Hint {
     pub steps: u32,
 }
 
-impl PairQuery<'_> {
+impl<S: Sweep> PairQuery<'_, S> {
     /// Whether a closer look at the result of marching answers; else where to go on.
     pub(super) fn look_closer(&mut self, attempt: Attempt) -> Option<Hint> {
         let (at, steps) = match attempt {
@@ -37,11 +38,11 @@ impl PairQuery<'_> {
     }
 
     fn accepts_closely(&mut self, at: State, steps: u32) -> bool {
-        let mut look = Closely::<false> { acceptance: Acceptance { pair: self, accepted: false }, at };
+        let mut look = Closely::<S, false> { acceptance: Acceptance { pair: self, accepted: false }, at };
         simd::dispatch(&mut look);
         let mut accepted = look.acceptance.accepted;
         if !accepted {
-            let mut look = Closely::<true> { acceptance: look.acceptance, at };
+            let mut look = Closely::<S, true> { acceptance: look.acceptance, at };
             simd::dispatch(&mut look);
             accepted = look.acceptance.accepted;
         }
@@ -204,11 +205,11 @@ impl PairQuery<'_> {
 }
 
 /// The common case of bodies that intersect: the last proof still holds.
-struct LastEnclosure<'a, 'b> {
-    pair: &'a mut PairQuery<'b>,
+struct LastEnclosure<'a, 'b, S> {
+    pair: &'a mut PairQuery<'b, S>,
 }
 
-impl Kernel for LastEnclosure<'_, '_> {
+impl<S: Sweep> Kernel for LastEnclosure<'_, '_, S> {
     type Output = Attempt;
 
     #[inline(always)]
@@ -229,12 +230,12 @@ impl Kernel for LastEnclosure<'_, '_> {
 }
 
 /// The common case of bodies in contact: the last proof of their depth still holds.
-struct LastPyramid<'a, 'b> {
-    pair: &'a mut PairQuery<'b>,
+struct LastPyramid<'a, 'b, S> {
+    pair: &'a mut PairQuery<'b, S>,
     pyramid: Pyramid,
 }
 
-impl Kernel for LastPyramid<'_, '_> {
+impl<S: Sweep> Kernel for LastPyramid<'_, '_, S> {
     type Output = Attempt;
 
     #[inline(always)]

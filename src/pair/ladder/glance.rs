@@ -2,6 +2,7 @@
 //! the last time.
 
 use super::query::PairQuery;
+use super::sweep::{Surfaces, Sweep};
 use crate::answer::{DecidedBy, Outcome, Query, Statistics, contact};
 use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::scalar::{Scalar, constant, dot};
@@ -12,7 +13,7 @@ use crate::distance::separating_axis::{self, AxisSearch, AxisTrial};
 use crate::placed::frame::{Frame, are_acceptable};
 use crate::shape::Placed;
 
-impl PairQuery<'_> {
+impl<S: Sweep> PairQuery<'_, S> {
     /// Whether the bounding spheres are farther apart than is enough; the answer then reports that, and the cache stays as it is.
     #[inline(always)]
     pub(super) fn spheres_are_far_apart(&mut self) -> bool {
@@ -30,14 +31,10 @@ impl PairQuery<'_> {
     /// Whether balls inside the bodies overlap, for a verdict; the cache stays as it is.
     #[inline(always)]
     pub(super) fn inner_balls_overlap(&mut self, query: Query) -> bool {
-        query == Query::Intersection && self.balls_overlap(0.0)
-    }
-
-    /// The same of bodies over which balls are swept whose radii have this sum, rounded down.
-    #[inline(always)]
-    pub(super) fn balls_overlap(&mut self, swept: f64) -> bool {
+        let Some(swept) = self.sweep.inner_radius(query) else { return false };
         debug_assert!(swept >= 0.0);
-        let inner = together(self.bodies.map(|body| body.shape.extent().inner_radius), swept);
+        let [body1, body2] = self.bodies;
+        let inner = together([body1.shape.extent().inner_radius, body2.shape.extent().inner_radius], swept);
         (inner >= SMALLEST)
             && self.square_between_origins() < square_of_rigid(inner)
             && self.is_simple()
@@ -46,8 +43,11 @@ impl PairQuery<'_> {
 
     #[inline(always)]
     fn square_between_origins(&self) -> f64 {
-        let [from, to] = self.poses().map(|pose| [0, 1, 2].map(|i| pose.rows[i][3]));
-        square_between(from, to)
+        // Not by `map`, which the compiler may leave out of line.
+        let [from, to] = self.poses();
+        let [[.., x1], [.., y1], [.., z1]] = from.rows;
+        let [[.., x2], [.., y2], [.., z2]] = to.rows;
+        square_between([x1, y1, z1], [x2, y2, z2])
     }
 
     /// The same of rotations that are not rigid.
@@ -115,12 +115,12 @@ pub fn shrunk<S: Scalar>(radius: S, defect: S) -> S {
 }
 
 /// Bounding spheres that seem farther apart than is enough.
-struct SphereGlance<'a, 'b> {
-    pair: &'a mut PairQuery<'b>,
+struct SphereGlance<'a, 'b, S> {
+    pair: &'a mut PairQuery<'b, S>,
     enough: f64,
 }
 
-impl Kernel for SphereGlance<'_, '_> {
+impl<S: Sweep> Kernel for SphereGlance<'_, '_, S> {
     type Output = bool;
 
     #[inline(always)]
@@ -133,7 +133,7 @@ impl Kernel for SphereGlance<'_, '_> {
         }
         pair.answer.decided_by = DecidedBy::BoundingSpheres;
         pair.answer.statistics = Statistics::default();
-        pair.set_interval(&interval, frame.separation);
+        pair.settle(&interval, frame.separation);
         let offset = frame.bodies[0].offset;
         contact::fill_normal(pair.answer, offset.mul(L::splat(reciprocal_length(offset.dot(offset)))));
         true
@@ -141,11 +141,11 @@ impl Kernel for SphereGlance<'_, '_> {
 }
 
 /// Inner balls that overlap if the poses are rigid.
-struct InnerBalls<'a, 'b> {
-    pair: &'a mut PairQuery<'b>,
+struct InnerBalls<'a, 'b, S> {
+    pair: &'a mut PairQuery<'b, S>,
 }
 
-impl Kernel for InnerBalls<'_, '_> {
+impl<S: Sweep> Kernel for InnerBalls<'_, '_, S> {
     type Output = bool;
 
     #[inline(always)]
@@ -159,11 +159,11 @@ impl Kernel for InnerBalls<'_, '_> {
 }
 
 /// The common case of the verdict alone: the axis of the last query separates, or nearly.
-struct SeparationGlance<'a, 'b> {
-    pair: &'a mut PairQuery<'b>,
+struct SeparationGlance<'a, 'b, S> {
+    pair: &'a mut PairQuery<'b, S>,
 }
 
-impl Kernel for SeparationGlance<'_, '_> {
+impl<S: Sweep> Kernel for SeparationGlance<'_, '_, S> {
     type Output = bool;
 
     #[inline(always)]
@@ -192,7 +192,7 @@ impl Kernel for SeparationGlance<'_, '_> {
 
 /// The answer of a new axis that separates; the cache keeps it beside the features that it has.
 #[inline(always)]
-pub(super) fn answer_by_axis<L: Lanes>(trial: &AxisTrial<L>, frame: &Frame<L>, pair: &mut PairQuery) {
+pub(super) fn answer_by_axis<L: Lanes, S: Sweep>(trial: &AxisTrial<L>, frame: &Frame<L>, pair: &mut PairQuery<S>) {
     let unit = trial.direction.mul(L::splat(trial.inverse));
     pair.cache.remember_axis(trial.vertices, frame.bodies[0].rotate_back(unit).to_vector());
     fill_trial(trial, pair);
@@ -200,9 +200,11 @@ pub(super) fn answer_by_axis<L: Lanes>(trial: &AxisTrial<L>, frame: &Frame<L>, p
 
 /// The answer of an axis that separates.
 #[inline(always)]
-fn fill_trial<L: Lanes>(trial: &AxisTrial<L>, pair: &mut PairQuery) {
+fn fill_trial<L: Lanes, S: Sweep>(trial: &AxisTrial<L>, pair: &mut PairQuery<S>) {
     pair.answer.decided_by = DecidedBy::Coherence;
     pair.answer.statistics = Statistics { marching_steps: trial.steps, ..Statistics::default() };
-    pair.set_interval(&trial.interval, trial.distance);
-    contact::fill_normal(pair.answer, trial.direction.mul(L::splat(trial.inverse)));
+    match pair.settle(&trial.interval, trial.distance) {
+        Surfaces::Nothing => contact::fill_nothing(pair.answer),
+        _ => contact::fill_normal(pair.answer, trial.direction.mul(L::splat(trial.inverse))),
+    }
 }

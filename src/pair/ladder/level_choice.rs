@@ -2,6 +2,7 @@
 
 use super::query::PairQuery;
 use super::support_glance;
+use super::sweep::Sweep;
 use crate::answer::{Accuracy, Levels, Query};
 use crate::base::error::Result;
 use crate::pair::levels::{LevelBounds, LevelDescent, LevelState, Leveled, TRIAL_STEPS};
@@ -91,7 +92,7 @@ fn least_error_of_levels(shapes: [&Shape; 2], levels: Levels) -> f64 {
     if are_automatic(shapes) { of_levels.max(shapes.map(standing_off).iter().sum()) } else { of_levels }
 }
 
-impl<'a> PairQuery<'a> {
+impl<'a, S: Sweep> PairQuery<'a, S> {
     /// Whether the query is to go through levels, may gain by them, or has a step budget. That is decided here, once.
     #[inline(always)]
     pub(super) fn may_ask_levels(&self, query: Query) -> bool {
@@ -196,7 +197,7 @@ impl<'a> PairQuery<'a> {
 
     /// The accuracy that the query needs.
     fn accuracy_of_levels(&self) -> Accuracy {
-        let beyond = self.config.max_distance;
+        let beyond = self.max_distance();
         match self.query {
             // A tolerance must be on one side of the interval.
             Query::Intersection if beyond < f64::INFINITY => Accuracy { absolute: 0.0, relative: 0.0, beyond },
@@ -216,12 +217,12 @@ impl<'a> PairQuery<'a> {
     /// How far levels may stand off from their bodies and still answer a query about bodies `gap` apart.
     pub(super) fn near_enough(&self, gap: f64) -> f64 {
         // A query for all levels begins at the coarsest where there is a tolerance, as Ehmann & Lin do.
-        let asks_coarsest = (self.config.levels == Levels::All) & (self.config.max_distance < f64::INFINITY);
+        let asks_coarsest = (self.config.levels == Levels::All) & (self.max_distance() < f64::INFINITY);
         if asks_coarsest | (self.query != Query::Approximate) {
             return f64::INFINITY;
         }
         // The whole interval must be on the bodies' own side of the tolerance.
-        let tolerance = self.config.max_distance;
+        let tolerance = self.max_distance();
         if gap > tolerance { gap - tolerance } else { self.most_error(gap).min(tolerance - gap) }
     }
 

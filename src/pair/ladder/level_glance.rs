@@ -2,11 +2,12 @@
 //! nearest, and they suffice. A direct path to the answer of the search among the levels, to the last bit.
 
 use super::query::PairQuery;
+use super::sweep::Sweep;
 use crate::answer::DecidedBy;
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::pair::levels::{LevelState, Leveled, try_first};
 
-impl PairQuery<'_> {
+impl<S: Sweep> PairQuery<'_, S> {
     /// Whether it is the common case; answer and cache are then written.
     #[inline(always)]
     pub(super) fn last_levels_answer(&mut self) -> bool {
@@ -14,11 +15,11 @@ impl PairQuery<'_> {
     }
 }
 
-struct LastLevels<'a, 'b> {
-    pair: &'a mut PairQuery<'b>,
+struct LastLevels<'a, 'b, S> {
+    pair: &'a mut PairQuery<'b, S>,
 }
 
-impl Kernel for LastLevels<'_, '_> {
+impl<S: Sweep> Kernel for LastLevels<'_, '_, S> {
     type Output = bool;
 
     #[inline(always)]

@@ -3,6 +3,7 @@
 
 use super::acceptance::{Acceptance, AtFirst};
 use super::query::{Attempt, Open, PairQuery};
+use super::sweep::Sweep;
 use crate::answer::{Query, Statistics};
 use crate::base::simd::{self, Kernel, Lanes, Work};
 use crate::body::polyhedron::Polyhedron;
@@ -13,7 +14,7 @@ use crate::pair::start::{Guess, StartPair, start_pair};
 use crate::placed::frame::Frame;
 use crate::placed::state::State;
 
-impl PairQuery<'_> {
+impl<S: Sweep> PairQuery<'_, S> {
     /// Marching from the last features, for bodies that are [simple](PairQuery::is_simple).
     #[inline(always)]
     pub(super) fn march_from_last_features(&mut self) -> Attempt {
@@ -64,11 +65,11 @@ impl Leg {
 }
 
 /// The common case: the cached features still are the nearest. One state, straight through to the answer (R3).
-struct Coherent<'a, 'b> {
-    pair: &'a mut PairQuery<'b>,
+struct Coherent<'a, 'b, S> {
+    pair: &'a mut PairQuery<'b, S>,
 }
 
-impl Kernel for Coherent<'_, '_> {
+impl<S: Sweep> Kernel for Coherent<'_, '_, S> {
     type Output = Attempt;
 
     #[inline(always)]
@@ -101,8 +102,8 @@ impl Kernel for Coherent<'_, '_> {
 }
 
 /// Marching from a state to the end.
-struct MarchOn<'a, 'b, L> {
-    pair: &'a mut PairQuery<'b>,
+struct MarchOn<'a, 'b, L, S> {
+    pair: &'a mut PairQuery<'b, S>,
     frame: Frame<'b, L>,
     start: State,
     /// Those made before.
@@ -110,7 +111,7 @@ struct MarchOn<'a, 'b, L> {
     leg: Leg,
 }
 
-impl<L: Lanes> Work for MarchOn<'_, '_, L> {
+impl<L: Lanes, S: Sweep> Work for MarchOn<'_, '_, L, S> {
     type Output = Attempt;
 
     #[inline(always)]
@@ -153,13 +154,13 @@ impl<L: Lanes> Work for MarchOn<'_, '_, L> {
 }
 
 /// The general case: any bodies, poses and caches.
-struct General<'a, 'b> {
-    pair: &'a mut PairQuery<'b>,
+struct General<'a, 'b, S> {
+    pair: &'a mut PairQuery<'b, S>,
     /// The start if the cache holds no features, if it is known.
     start: Option<StartPair>,
 }
 
-impl Kernel for General<'_, '_> {
+impl<S: Sweep> Kernel for General<'_, '_, S> {
     type Output = Attempt;
 
     #[inline(always)]
@@ -186,14 +187,14 @@ impl Kernel for General<'_, '_> {
 }
 
 /// From a given state.
-struct FromState<'a, 'b> {
-    pair: &'a mut PairQuery<'b>,
+struct FromState<'a, 'b, S> {
+    pair: &'a mut PairQuery<'b, S>,
     start: State,
     steps: u32,
     leg: Leg,
 }
 
-impl Kernel for FromState<'_, '_> {
+impl<S: Sweep> Kernel for FromState<'_, '_, S> {
     type Output = Attempt;
 
     #[inline(always)]

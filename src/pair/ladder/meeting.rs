@@ -4,6 +4,7 @@
 
 use super::glance::answer_by_axis;
 use super::query::PairQuery;
+use super::sweep::Sweep;
 use crate::answer::{DecidedBy, Outcome, Query, Start, Statistics, contact};
 use crate::base::math::UNIT_ROUNDOFF;
 use crate::base::simd::{self, Kernel, Lanes};
@@ -28,7 +29,7 @@ enum WalkEnd<L> {
     Unclear,
 }
 
-impl PairQuery<'_> {
+impl<S: Sweep> PairQuery<'_, S> {
     /// Whether such a walk answers: asked where the cache has neither an axis that separates nor an enclosure that holds.
     #[inline(always)]
     pub(super) fn meets_or_misses(&mut self) -> bool {
@@ -39,11 +40,11 @@ impl PairQuery<'_> {
     }
 }
 
-struct OverlapWalk<'a, 'b> {
-    pair: &'a mut PairQuery<'b>,
+struct OverlapWalk<'a, 'b, S> {
+    pair: &'a mut PairQuery<'b, S>,
 }
 
-impl Kernel for OverlapWalk<'_, '_> {
+impl<S: Sweep> Kernel for OverlapWalk<'_, '_, S> {
     type Output = bool;
 
     #[inline(always)]

@@ -2,6 +2,7 @@
 //! last one, integers, always answers.
 
 mod query;
+mod sweep;
 mod glance;
 mod acceptance;
 mod marching;
@@ -26,6 +27,7 @@ pub use glance::{shrunk, square_between, square_of_rigid, together};
 pub(crate) use level_choice::least_error;
 use level_search::LevelSearched;
 use query::{Attempt, Glances, PairQuery};
+pub(super) use sweep::{BallQuery, Balls, NoBalls, Sweep};
 
 /// A query of two polyhedra.
 ///
@@ -38,16 +40,31 @@ pub(super) fn ask(
     cache: &mut PairCache,
     config: &PairConfig,
     found: &mut PairAnswer,
+    sweep: &mut impl Sweep,
 ) -> Result<()> {
     // Before there is a query in memory (R6), and before a number is refused, which comparing and printing may trap.
     if !environment::is_default() {
-        return ask_in_default(query, bodies, cache, config, found);
+        return ask_in_default(query, bodies, cache, config, found, sweep);
     }
     // Not by `?`, which looks again whether the error in memory is one, and keeps what it needs if not in registers (R3).
     if !config.is_in_range(query) {
         return Err(config.first_fault());
     }
-    answer(query, &mut PairQuery { query, bodies, cache, config, answer: found }, Glances::Asked)
+    ask_checked(query, bodies, cache, config, found, sweep)
+}
+
+/// The same in the default environment of floating point, with a configuration whose members are in range.
+#[inline(always)]
+pub(super) fn ask_checked(
+    query: Query,
+    bodies: &[Placed; 2],
+    cache: &mut PairCache,
+    config: &PairConfig,
+    found: &mut PairAnswer,
+    sweep: &mut impl Sweep,
+) -> Result<()> {
+    debug_assert!(environment::is_default() && config.is_in_range(query));
+    answer(query, &mut PairQuery { query, bodies, cache, config, answer: found, sweep }, Glances::Asked)
 }
 
 /// The verdict alone, of marching: neither bounding spheres nor the last separating axis are asked.
@@ -65,21 +82,12 @@ pub(super) fn intersection_by_marching(
         if !config.is_in_range(query) {
             return Err(config.first_fault());
         }
-        answer(query, &mut PairQuery { query, bodies, cache, config, answer: found }, Glances::LeftOut)
+        answer(
+            query,
+            &mut PairQuery { query, bodies, cache, config, answer: found, sweep: &mut NoBalls },
+            Glances::LeftOut,
+        )
     })
-}
-
-/// Whether balls inside two bodies overlap; the answer then says so. Over the bodies balls are swept whose radii have this sum,
-/// rounded down. In the default environment of floating point.
-#[inline(always)]
-pub(super) fn swept_balls_overlap(
-    bodies: &[Placed; 2],
-    swept: f64,
-    cache: &mut PairCache,
-    config: &PairConfig,
-    answer: &mut PairAnswer,
-) -> bool {
-    PairQuery { query: Query::Intersection, bodies, cache, config, answer }.balls_overlap(swept)
 }
 
 /// In the default environment of floating point, as the program has set another.
@@ -91,13 +99,14 @@ fn ask_in_default(
     cache: &mut PairCache,
     config: &PairConfig,
     found: &mut PairAnswer,
+    sweep: &mut impl Sweep,
 ) -> Result<()> {
-    with_default(|| ask(query, bodies, cache, config, found))
+    with_default(|| ask(query, bodies, cache, config, found, sweep))
 }
 
 /// From the first rung. The query is also handed on by value (R6).
 #[inline(always)]
-fn answer(query: Query, pair: &mut PairQuery, glances: Glances) -> Result<()> {
+fn answer<S: Sweep>(query: Query, pair: &mut PairQuery<S>, glances: Glances) -> Result<()> {
     if glances == Glances::Asked && pair.spheres_are_far_apart() {
         return Ok(());
     }
@@ -115,7 +124,7 @@ fn answer(query: Query, pair: &mut PairQuery, glances: Glances) -> Result<()> {
 
 /// Maps of support functions, unless the pair does better by marching at the moment; else as without them.
 #[inline(never)]
-fn answer_by_support_maps(pair: &mut PairQuery, glances: Glances) -> Result<()> {
+fn answer_by_support_maps<S: Sweep>(pair: &mut PairQuery<S>, glances: Glances) -> Result<()> {
     let looks_up = pair.cache.looks_up();
     if looks_up && pair.support_maps_answer()? {
         return Ok(());
@@ -131,7 +140,7 @@ fn answer_by_support_maps(pair: &mut PairQuery, glances: Glances) -> Result<()> 
 
 /// Levels of detail, where they may answer; else the bodies themselves.
 #[inline(never)]
-fn answer_by_levels(pair: &mut PairQuery, glances: Glances) -> Result<()> {
+fn answer_by_levels<S: Sweep>(pair: &mut PairQuery<S>, glances: Glances) -> Result<()> {
     if pair.last_levels_answer() {
         return Ok(());
     }
@@ -148,7 +157,7 @@ fn answer_by_levels(pair: &mut PairQuery, glances: Glances) -> Result<()> {
 
 /// The bodies themselves.
 #[inline(always)]
-fn answer_by_bodies(query: Query, pair: &mut PairQuery, glances: Glances) -> Result<()> {
+fn answer_by_bodies<S: Sweep>(query: Query, pair: &mut PairQuery<S>, glances: Glances) -> Result<()> {
     let mut attempt = Attempt::Untried;
     if pair.is_simple() & pair.asks_cache() {
         if glances == Glances::Asked && pair.last_axis_separates(query) {
@@ -171,7 +180,7 @@ fn answer_by_bodies(query: Query, pair: &mut PairQuery, glances: Glances) -> Res
 
 /// The rest, for the less common cases.
 #[inline(never)]
-fn answer_on(pair: &mut PairQuery, mut attempt: Attempt) -> Result<()> {
+fn answer_on<S: Sweep>(pair: &mut PairQuery<S>, mut attempt: Attempt) -> Result<()> {
     pair.forget()?;
     if matches!(attempt, Attempt::Untried | Attempt::NotEnclosed) && pair.meets_or_misses() {
         return Ok(());

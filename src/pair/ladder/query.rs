@@ -1,5 +1,6 @@
 //! One query: the request, its bodies, and the destination of the answer.
 
+use super::sweep::{PolyhedraDistance, Surfaces, Sweep};
 use crate::answer::{Accuracy, Outcome, PairAnswer, PairConfig, Query, Start};
 use crate::base::error::Result;
 use crate::base::math::{Pose, clamp};
@@ -22,16 +23,18 @@ pub(super) enum Glances {
 }
 
 /// One query, its configuration checked. The requested result is read only here and in [`level_choice`](super::level_choice).
-pub(crate) struct PairQuery<'a> {
+pub(crate) struct PairQuery<'a, S> {
     pub query: Query,
     /// Borrowed from the caller: a copy would load at once what has just been stored pointer by pointer, and wait for it (R1).
     pub bodies: &'a [Placed<'a>; 2],
     pub cache: &'a mut PairCache,
     pub config: &'a PairConfig,
     pub answer: &'a mut PairAnswer,
+    /// What is swept over the bodies.
+    pub sweep: &'a mut S,
 }
 
-impl<'a> PairQuery<'a> {
+impl<'a, S: Sweep> PairQuery<'a, S> {
     #[inline(always)]
     pub fn polyhedra(&self) -> [&'a Polyhedron; 2] {
         [self.bodies[0].shape.polyhedron(), self.bodies[1].shape.polyhedron()]
@@ -54,17 +57,23 @@ impl<'a> PairQuery<'a> {
         body1.simple & body2.simple
     }
 
+    /// Beyond what distance of the polyhedra nothing more is asked.
+    #[inline(always)]
+    pub fn max_distance(&self) -> f64 {
+        self.sweep.max_distance(self.config)
+    }
+
     /// The accuracy that an approximate query needs.
     #[inline(always)]
     pub fn accuracy(&self) -> Accuracy {
         let config = self.config;
-        Accuracy { absolute: config.absolute_error, relative: config.relative_error, beyond: config.max_distance }
+        Accuracy { absolute: config.absolute_error, relative: config.relative_error, beyond: self.max_distance() }
     }
 
     /// Beyond what distance of the bounding spheres nothing more is asked. Distances without a tolerance have an infinite one.
     #[inline(always)]
     pub fn enough(&self) -> f64 {
-        let tolerance = self.config.max_distance;
+        let tolerance = self.max_distance();
         let is_verdict = (self.query == Query::Intersection) & (tolerance == f64::INFINITY);
         if is_verdict { 0.0 } else { tolerance }
     }
@@ -120,7 +129,7 @@ impl<'a> PairQuery<'a> {
 
     /// The result that the integers and the fallback must deliver. Cheap bounds or not, nearest points must be nearest.
     pub fn wanted(&self) -> Wanted {
-        let max_distance = self.config.max_distance;
+        let max_distance = self.max_distance();
         let tight = self.query != Query::Intersection || max_distance < f64::INFINITY;
         Wanted { tight, max_distance }
     }
@@ -145,20 +154,34 @@ impl<'a> PairQuery<'a> {
     /// Whether an interval tells on which side of the tolerance the distance is.
     #[inline(always)]
     pub fn is_settled_by(&self, interval: &Interval) -> bool {
-        interval.settles(self.config.max_distance)
+        interval.settles(self.max_distance())
+    }
+
+    /// Outcome, interval and best estimate of a separated pair, as [`PairQuery::set_interval`] has them; of the bodies, if what is
+    /// swept over the polyhedra leaves nothing open.
+    #[inline(always)]
+    pub fn settle(&mut self, interval: &Interval, distance: f64) -> Surfaces {
+        let found = PolyhedraDistance { interval: *interval, distance };
+        if let Some(surfaces) = self.sweep.settle(self.query, self.config, self.answer, found) {
+            return surfaces;
+        }
+        self.set_interval(interval, distance);
+        let has_points = (self.query != Query::Intersection) & (self.answer.outcome == Outcome::Separated);
+        if has_points { Surfaces::Points { outwards: None } } else { Surfaces::Normal }
     }
 
     /// Outcome, interval and best estimate (`distance`, put into the interval) of a separated pair. The interval settles the
     /// tolerance: its upper end is beyond it just where the true distance is.
     #[inline(always)]
     pub fn set_interval(&mut self, interval: &Interval, distance: f64) {
-        set_interval(self.answer, interval, distance, self.config.max_distance);
+        let max_distance = self.max_distance();
+        set_interval(self.answer, interval, distance, max_distance);
     }
 
     /// The same for an interval that need not settle the tolerance: a case that a budget leaves open is not beyond.
     #[inline(always)]
     pub fn set_open_interval(&mut self, interval: &Interval, distance: f64) {
-        let tolerance = if self.is_settled_by(interval) { self.config.max_distance } else { f64::INFINITY };
+        let tolerance = if self.is_settled_by(interval) { self.max_distance() } else { f64::INFINITY };
         set_interval(self.answer, interval, distance, tolerance);
     }
 }
