@@ -255,7 +255,6 @@ private:
 };
 
 #include "swift_legacy/scene_adding.h"
-#include "swift_legacy/scene_pairs.h"
 #include "swift_legacy/scene_queries.h"
 
 /* Last: they break the headers of the standard library. */

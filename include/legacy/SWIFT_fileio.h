@@ -86,7 +86,6 @@ private:
     SWIFT_File_Read_Dispatcher& operator=(const SWIFT_File_Read_Dispatcher&);
 };
 
-#include "swift_legacy/file_dispatcher.h"
 #include "swift_legacy/mesh_files.h"
 
 #endif
