@@ -217,8 +217,10 @@ impl MovingPoint<'_> {
         let (along, by) = (L::from_vector(normal), L::splat(self.by));
         let local = L::from_vector(&Vector::from(*self.local));
         let world = L::from_vector(&Vector::from(*self.world));
-        world.add(along.mul(by)).store_vector(self.world);
-        local.add(turned_back::<L>(self.pose, normal).mul(by)).store_vector(self.local);
+        // No surface that is reported is beyond the doubles: there rounding is longer than what is cut off.
+        let (least, most) = (L::splat(f64::MIN), L::splat(f64::MAX));
+        world.add(along.mul(by)).max(least).min(most).store_vector(self.world);
+        local.add(turned_back::<L>(self.pose, normal).mul(by)).max(least).min(most).store_vector(self.local);
     }
 }
 

@@ -142,7 +142,7 @@ pub fn error_at_sides(outlines: &[Outline; 2], precision: &Precision) -> f64 {
 
 /// Whether a place lies between two chains.
 fn is_between(chains: &[Chain; 2], place: &Vector, precision: &Precision) -> bool {
-    let [low, high] = [0, 1].map(|side| chains[side].at(place.x));
+    let (low, high) = (chains[0].at(place.x), chains[1].at(place.x));
     let off = (low.x - place.x).abs().max((high.x - place.x).abs());
     off <= precision.rounding && place.y >= low.y && place.y <= high.y
 }
@@ -173,7 +173,7 @@ fn crossing(chains: [&Chain; 2], precision: &Precision) -> Option<Spot> {
         return None;
     }
     let share = before / (before - after);
-    let spots = [0, 1].map(|i| begin[i] + (end[i] - begin[i]) * share);
+    let spots = [begin[0] + (end[0] - begin[0]) * share, begin[1] + (end[1] - begin[1]) * share];
     // The place of the crossing along the segments is off by the rounding over how fast they part.
     let off = (2.0 * precision.rounding / (before - after).abs()).min(1.0);
     let gaps = [begin[0].z - begin[1].z, end[0].z - end[1].z];

@@ -4,6 +4,7 @@ use super::patch::Patch;
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF, Vector, divisor};
 use crate::base::simd::Lanes;
 use crate::body::polyhedron::Polyhedron;
+use nalgebra::Vector2;
 
 /// Axes of a contact: two across its normal, and that.
 #[derive(Debug, Clone, Copy)]
@@ -253,6 +254,12 @@ pub struct Chain<'a> {
     pub has_begun: bool,
 }
 
+/// The length of a vector. Where its square might leave the range of doubles, `hypot` takes ten times as long.
+fn length_of(v: Vector2<f64>) -> f64 {
+    let square = v.norm_squared();
+    if (1e-280..1e280).contains(&square) { square.sqrt() } else { v.x.hypot(v.y) }
+}
+
 impl Chain<'_> {
     /// Whether it has a further event: the corner at `to`.
     pub fn advance(&mut self) -> bool {
@@ -275,16 +282,24 @@ impl Chain<'_> {
     /// that is no longer than that, seen along the normal, the point is the end that is farther along it, or against it:
     /// `towards` is the sign.
     pub fn point_near(&self, place: &Vector, distance: f64, towards: f64) -> Option<(Vector, f64)> {
+        // Most are far from it; twice the distance, as what follows rounds.
+        let reach = 2.0 * distance;
+        let is_beside = |k: usize| {
+            let (a, b) = (self.from[k] - place[k], self.to[k] - place[k]);
+            (a > reach) & (b > reach) | (a < -reach) & (b < -reach)
+        };
+        if is_beside(0) | is_beside(1) {
+            return None;
+        }
         let (along, arm) = ((self.to - self.from).xy(), (place - self.from).xy());
-        // No squares, which would underflow where lengths do not.
-        let length = along.x.hypot(along.y);
+        let length = length_of(along);
         let direction = along / divisor(length);
         let reach = arm.dot(&direction).clamp(0.0, length);
         let rest = arm - direction * reach;
         if !(rest.x.abs() <= distance && rest.y.abs() <= distance) {
             return None;
         }
-        let off = rest.x.hypot(rest.y);
+        let off = length_of(rest);
         if !(off <= distance) {
             return None;
         }

@@ -192,6 +192,39 @@ fn what_rests_on_faces_rounded_to_single_precision_is_proved_as_well() {
     assert!((0..4).all(|which| asked[which] > 50 && 10 * held[which] > 9 * asked[which]), "{held:?} of {asked:?}");
 }
 
+/// Equal bodies on each other, their sides in line or half over each other: the foot of the origin is next to a side of the facet.
+/// Before, one disc proved none of these, and each was a search.
+#[test]
+fn facets_prove_what_stands_in_line() {
+    let mut random = Random::new(95);
+    let brick = cuboid([0.5, 0.25, 0.15]);
+    let drum = |sides: u32| hull(&models::prism(sides, 0.5).unwrap().vertices);
+    let shapes = [cuboid([0.5; 3]), brick, drum(6), drum(12)];
+    let (mut asked, mut held) = ([0; 4], [0; 4]);
+    for round in 0..240 {
+        let (which, jitter) = (round % 4, random.pick(&[0.0, 1e-12, 1e-9, 1e-6, 1e-4]));
+        let pair = [&shapes[which]; 2];
+        let [unit, height] = sizes(pair);
+        let aside = random.pick(&[Vector::zeros(), Vector::new(0.5, 0.0, 0.0)]);
+        let yaw = random.pick(&[0.0, 0.25 * std::f64::consts::PI, 0.5 * std::f64::consts::PI]);
+        let turns = [Matrix::identity(), rotation(&Vector::z(), yaw)];
+        let deep = unit * random.pick(&[1e-6, 1e-4, 3e-3]);
+        let mut rest = Rest { shapes: pair, turns, aside, height, deep, unit };
+        let mut cache = DepthCache::default();
+        for step in 0..8 {
+            let answer = check(pair, &rest.settle(), &mut cache);
+            if step > 2 && answer.outcome == Outcome::Intersecting {
+                asked[which] += 1;
+                held[which] += usize::from(is_by_facet(&answer));
+            }
+            rest.turns[1] = rotation(&random.direction(), jitter * random.signed()) * turns[1];
+            rest.aside = aside + random.vector() * (jitter * unit);
+        }
+    }
+    println!("{held:?} of {asked:?}");
+    assert!((0..4).all(|which| asked[which] > 200 && 10 * held[which] > 9 * asked[which]), "{held:?} of {asked:?}");
+}
+
 /// Where a cache has the facet: its kind and two indices.
 const FACET: std::ops::Range<usize> = 16..28;
 

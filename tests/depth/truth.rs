@@ -276,15 +276,20 @@ fn depths_at_rest_hold_the_exact_ones() {
     let mut seen = Seen::default();
     let on_grid = |turn: Matrix| turn.map(|x| (x / ROTATION_UNIT).round() * ROTATION_UNIT);
     for round in 0..60 {
-        let bodies = [solid(&mut random), solid(&mut random)];
-        let shapes = [hull(&bodies[0]), hull(&bodies[1])];
-        let mut cache = DepthCache::default();
+        let mut bodies = [solid(&mut random), solid(&mut random)];
         let lower = match round % 3 {
             0 => Matrix::identity(),
             _ => random.rotation(),
         };
         let mut upper = if round % 2 == 0 { rotation(&Vector::z(), random.signed()) } else { random.rotation() };
         let mut aside = random.vector() * 0.2;
+        // Equal ones, one straight over the other.
+        if round % 4 == 3 {
+            bodies[1] = bodies[0].clone();
+            (upper, aside) = (lower, Vector::zeros());
+        }
+        let shapes = [hull(&bodies[0]), hull(&bodies[1])];
+        let mut cache = DepthCache::default();
         let deep = random.power(-11, -7);
         for _ in 0..8 {
             let turns = [on_grid(lower), on_grid(upper)];

@@ -7,11 +7,11 @@ use swiftprox::manifold::{ManifoldCache, ManifoldConfig, ManifoldPoint, half_spa
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::contact;
 use swiftprox::pair::{
-    HalfSpace, Outcome, PairAnswer, PairCache, PairConfig, SignedDistance, SignedDistanceCache, approximate, distance,
-    half_space_distance, signed_distance,
+    DepthAnswer, DepthCache, DepthConfig, HalfSpace, Outcome, PairAnswer, PairCache, PairConfig, SignedDistance,
+    SignedDistanceCache, approximate, depth, distance, half_space_distance, signed_distance,
 };
 use swiftprox::shape::Shape;
-use swiftprox::verify::{verify, verify_manifold};
+use swiftprox::verify::{verify, verify_depth, verify_manifold};
 use testkit::cases::coordinates;
 use testkit::shapes::{at, lattice_box};
 use testkit::swept::Length;
@@ -137,5 +137,25 @@ fn heights_beyond_the_doubles_less_the_radius() {
             let height = &heights[point.feature1.ids[0] as usize];
             assert!(is_told(height, [point.gap_lower, point.gap_upper]), "{point:?} {radius:e}");
         }
+    }
+}
+
+/// A ball at the end of the doubles, whose surface is a little beyond it: its witness point is the last double.
+#[test]
+fn surfaces_beyond_the_doubles_are_at_their_end() {
+    let ball = swept(&[Vector::new(f64::MIN, 0.0, 0.0)], 6e293);
+    let points = [[-32.0, -32.0, -32.0], [0.0, -32.0, -32.0], [-32.0, 0.0, -32.0], [-18.0, -32.0, 30.0]];
+    let body = swept(&points.map(Vector::from), 0.0);
+    let at = |x: f64| Pose { rows: [[1.0, 0.0, 0.0, x], [0.0, 1.0, 0.0, 0.0], [0.0, 0.0, 1.0, 0.0]] };
+    for x in [f64::MIN, f64::MIN.next_up(), 0.0] {
+        let poses = [Pose::IDENTITY, at(x)];
+        let placed = [ball.at(&poses[0]), body.at(&poses[1])];
+        let (mut cache, mut answer) = (DepthCache::default(), DepthAnswer::default());
+        depth(placed, &mut cache, &DepthConfig::default(), &mut answer).unwrap();
+        assert!(accepts(verify_depth(placed, &cache, &answer)), "{answer:?}");
+        assert!([answer.local1, answer.world1].as_flattened().iter().all(|x| x.is_finite()), "{answer:?}");
+        let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
+        distance(placed, &mut cache, &PairConfig::default(), &mut answer).unwrap();
+        assert!(accepts(verify(placed, &answer)), "{answer:?}");
     }
 }

@@ -8,6 +8,12 @@
 //! where they are equal: u is there across the line through both points, which is (rh + t'a')/√((r − a')² + (h + t')²) from the
 //! origin, at least (rh − ta)/√((r + a)² + (h + t)²) ≥ t. □
 //!
+//! *Two discs.* Where the foot is next to a side, as where equal boxes stand on each other, r is too small. Let C have a second disc
+//! around the foot, of radius R > t, at heights from l − e > 0 to t. With s = r/t ≤ 1 the ball is in C if R ≥ r + e(1 − s²)/2s and
+//! the condition above holds of R. For let θ be the angle of u and m. The first disc gives l·cos θ + r·sin θ ≥ l up to tan(θ/2) = s.
+//! The second gives (l − e)cos θ + R·sin θ ≥ l if R ≥ l·tan(θ/2) + e·cot θ, which is convex up to 90°: so it holds from there to 90°
+//! if at both ends, and beyond 90° as above. If e is no more than rounding, the second disc proves l − e alone. □
+//!
 //! *From above*: along m the bodies overlap by no more than both reach.
 //!
 //! Any facet and any bytes will do: indices are looked at, all else is proved anew. Where the origin's foot is beyond a side of the
@@ -169,7 +175,7 @@ fn lowest<L: Lanes>(polyhedron: &Polyhedron, along: L) -> (f64, u32) {
 /// Whether the lemma's condition holds: of a disc of radius `r` at heights up to `top`, and a point `h` below the origin, `a`
 /// aside.
 #[inline(always)]
-fn encloses(r: f64, h: f64, a: f64, top: f64) -> bool {
+fn encloses(r: f64, [h, a]: [f64; 2], top: f64) -> bool {
     let (arm, rise) = (r + a, h + top);
     let over = r * h - a * top;
     r > 0.0 && h > 0.0 && over > 0.0 && over * over * (1.0 - SURELY) >= top * top * (arm * arm + rise * rise)
@@ -209,14 +215,23 @@ fn look_at_face<L: Lanes>(frame: &Frame<L>, body: usize, face: u32) -> Result<Pr
     let below = own.rotate_back(other.rotate(deepest).sub(own.offset));
     // Sides and their offsets are right to some 10u of 3ρ, the place to less than `error`.
     let (inside, side) = least_inside(own.polyhedron, record, below);
-    if !(inside > 0.0) {
+    // A foot on a side, rounding apart, is under faces that are parallel, or never far from the next facet.
+    if !(inside > -error) {
         let (edge, away) = side_of(own, record, side);
         return Err(L::out_of_line(&mut GiftWrap { frame, body, edge, vertex, m, away, from: [face, NONE] }));
     }
-    let [h, aside] = middle(frame, own, other, m, error);
-    if !encloses(inside - 2.0 * error, h, aside, upper) {
-        return Err(NextFacet::Nothing);
-    }
+    let around = middle(frame, own, other, m, error);
+    let small = Disc { radius: inside - 2.0 * error, lower };
+    let lower = if encloses(small.radius, around, upper) {
+        lower
+    } else {
+        let patch = most_across(other.polyhedron, vertex, other.rotate_back(m).negate());
+        let faces = [face, patch];
+        match L::out_of_line(&mut WideDisc { frame, body, faces, m, error, small, upper, around }) {
+            Some(lower) => lower,
+            None => return Err(NextFacet::Nothing),
+        }
+    };
     let above = normal.negated_mul_add(L::splat(normal.dot(below) + record.planes.offset[0]), below);
     let (mut points, mut features) =
         ([above, L::from_vector(deepest)], [FeatureId::Face(face), FeatureId::Vertex(vertex)]);
@@ -226,6 +241,122 @@ fn look_at_face<L: Lanes>(frame: &Frame<L>, body: usize, face: u32) -> Result<Pr
     }
     let facet = Facet::Face(body, face);
     Ok(Proved { lower, upper, depth, direction, points, features, facet, steps: 0 })
+}
+
+/// A disc of C around the origin's foot, across a direction up to what its lowest place is lower.
+#[derive(Clone, Copy)]
+struct Disc {
+    radius: f64,
+    /// No place of it is lower along the direction.
+    lower: f64,
+}
+
+/// The face at a vertex whose normal is most along a direction in the body's axes.
+#[inline(always)]
+fn most_across<L: Lanes>(polyhedron: &Polyhedron, vertex: u32, along: L) -> u32 {
+    let (mut best, mut most) = (0, f64::NEG_INFINITY);
+    for block in polyhedron.neighbour_blocks(vertex) {
+        // No closures: the compiler may leave them without the vector unit's instructions (R2).
+        for edge in block.edge {
+            if edge == NONE {
+                continue;
+            }
+            let edge = &polyhedron.edges[edge as usize];
+            // Around the vertex each face comes with one edge as its left one.
+            let at = usize::from(edge.tail() != vertex);
+            let cosine = L::from_vector(&edge.normals[at]).dot(along);
+            if cosine > most {
+                (best, most) = ([edge.left(), edge.right()][at], cosine);
+            }
+        }
+    }
+    best
+}
+
+/// The wide one of two discs: a face of a body less one low point of the other, which is on a face that looks at it.
+struct WideDisc<'a, L> {
+    frame: &'a Frame<'a, L>,
+    /// The one whose face it is.
+    body: usize,
+    /// Of this body and the other.
+    faces: [u32; 2],
+    /// Out of this body.
+    m: L,
+    error: f64,
+    small: Disc,
+    upper: f64,
+    /// How deep below the origin C has a point, and how far aside.
+    around: [f64; 2],
+}
+
+impl<L: Lanes> Work for WideDisc<'_, L> {
+    /// What the depth is at least, if both discs prove it.
+    type Output = Option<f64>;
+
+    #[inline(always)]
+    fn run(&mut self) -> Option<f64> {
+        let &mut WideDisc { frame, small, upper, around, .. } = self;
+        let wide = self.find()?;
+        if encloses(wide.radius, around, upper) && wide.lower > 0.0 && wide.radius > upper * (1.0 + SURELY) {
+            if wide.lower < small.lower && is_good(frame, wide.lower, upper) {
+                return Some(wide.lower);
+            }
+            let (s, e) = (small.radius / upper, (small.lower - wide.lower).max(0.0));
+            let needed = small.radius + e * (1.0 - s * s) / (2.0 * s);
+            // False for a NaN.
+            let is_enough = wide.radius * (1.0 - SURELY) >= needed;
+            return (small.radius > 0.0 && s <= 1.0 && is_enough).then_some(small.lower);
+        }
+        None
+    }
+}
+
+impl<L: Lanes> WideDisc<'_, L> {
+    /// The place of the other body that is chosen may be any that is in it: the middle of this body's face, or where that is not
+    /// below the other's, the nearest place on the way to the middle of that.
+    #[inline(always)]
+    fn find(&self) -> Option<Disc> {
+        let &WideDisc { frame, body, faces: [face, patch], m, error, .. } = self;
+        let (own, other) = (&frame.bodies[body], &frame.bodies[1 - body]);
+        let record = own.polyhedron.faces.get(face as usize)?;
+        let patch = other.polyhedron.faces.get(patch as usize)?;
+        let from = on_face(record, L::from_vector(&own.polyhedron.outlines.middle));
+        let from = on_face(patch, other.rotate_back(own.rotate_lanes(from).add(own.offset)));
+        let to = on_face(patch, L::from_vector(&other.polyhedron.outlines.middle));
+        let way = to.sub(from);
+        let (start, _) = least_inside(other.polyhedron, patch, from);
+        let (end, _) = least_inside(other.polyhedron, patch, to);
+        // Sides are right to far less; what is inside by this is in the face.
+        let least = 4.0 * error;
+        let share = if start >= least { 0.0 } else { (least - start) / (end - start) };
+        // False for a NaN.
+        if !(end > least) || !(share <= 1.0) {
+            return None;
+        }
+        // A point of the other body up to what the face is thick: least heights of sides are concave along the way.
+        let point = way.mul_add(L::splat(share), from);
+        let below = own.rotate_back(other.rotate_lanes(point).sub(own.offset));
+        // Along m the origin is over this place of the face.
+        let (normal, along) = (L::from_vector(&record.normal), own.rotate_back(m));
+        let cosine = normal.dot(along);
+        let height = (-record.planes.offset[0] - normal.dot(below)) / cosine;
+        let foot = along.mul_add(L::splat(height), below);
+        let (inside, _) = least_inside(own.polyhedron, record, foot);
+        // Both are of length 1 up to 45u.
+        let lean = normal.negated_mul_add(L::splat(cosine), along);
+        let sine = lean.dot(lean).sqrt() + 64.0 * U;
+        let (aside, thick) = (4.0 * error, record.slack + patch.slack);
+        // The point is off its plane, and the foot off its own, by less than `error` each.
+        let lower = height - inside * sine - thick - 2.0 * error;
+        (cosine > 0.5 && inside > aside).then(|| Disc { radius: (inside - aside) * (cosine - 64.0 * U), lower })
+    }
+}
+
+/// The foot of a point on a face's plane.
+#[inline(always)]
+fn on_face<L: Lanes>(face: &MergedFace, point: L) -> L {
+    let normal = L::from_vector(&face.normal);
+    normal.negated_mul_add(L::splat(normal.dot(point) + face.planes.offset[0]), point)
 }
 
 /// How far a place is inside the nearest side of a face, and which that is.
@@ -367,7 +498,7 @@ impl<L: Lanes> Work for AtEdges<'_, L> {
         // C reaches as high, and the corners of the parallelogram are as high.
         let upper = m.dot(body1.offset) - top - bottom + error;
         let heights = [m.dot(a), m.dot(b), m.dot(c), m.dot(d)];
-        let lower = heights[0].min(heights[1]) - heights[2].max(heights[3]) - error;
+        let mut lower = heights[0].min(heights[1]) - heights[2].max(heights[3]) - error;
         if !is_good(frame, lower, upper) {
             return Err(self.beside(m));
         }
@@ -386,9 +517,14 @@ impl<L: Lanes> Work for AtEdges<'_, L> {
         if !(inside[side] > 0.0) {
             return Err(self.next_beyond(side, m, [e, g]));
         }
-        let [h, aside] = middle(frame, body1, body2, m, error);
-        if !encloses(inside[side] - 4.0 * error, h, aside, upper) {
-            return Err(NextFacet::Nothing);
+        let around = middle(frame, body1, body2, m, error);
+        let small = Disc { radius: inside[side] - 4.0 * error, lower };
+        if !encloses(small.radius, around, upper) {
+            let faces = [self.face_most_across(0, m), self.face_most_across(1, m.negate())];
+            match L::out_of_line(&mut WideDisc { frame, body: 0, faces, m, error, small, upper, around }) {
+                Some(proved) => lower = proved,
+                None => return Err(NextFacet::Nothing),
+            }
         }
         // a + s·e is over c + t·g along m.
         let (per, between) = (1.0 / across.dot(m), c.sub(a));
@@ -400,6 +536,17 @@ impl<L: Lanes> Work for AtEdges<'_, L> {
 }
 
 impl<L: Lanes> AtEdges<'_, L> {
+    /// The face beside a body's edge whose normal is most along a direction.
+    #[inline(always)]
+    fn face_most_across(&self, body: usize, direction: L) -> u32 {
+        let placed = &self.frame.bodies[body];
+        let record = &placed.polyhedron.edges[self.edges[body] as usize];
+        let along = placed.rotate_back(direction);
+        let [left, right] = &record.normals;
+        let is_left = along.dot(L::from_vector(left)) >= along.dot(L::from_vector(right));
+        if is_left { record.left() } else { record.right() }
+    }
+
     /// Where the edges have no facet any more: of the faces beside them that which is most across a direction.
     #[inline(always)]
     fn beside(&self, direction: L) -> NextFacet {
