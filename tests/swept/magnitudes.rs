@@ -153,7 +153,9 @@ fn surfaces_beyond_the_doubles_are_at_their_end() {
         let (mut cache, mut answer) = (DepthCache::default(), DepthAnswer::default());
         depth(placed, &mut cache, &DepthConfig::default(), &mut answer).unwrap();
         assert!(accepts(verify_depth(placed, &cache, &answer)), "{answer:?}");
-        assert!([answer.local1, answer.world1].as_flattened().iter().all(|x| x.is_finite()), "{answer:?}");
+        let surface = [answer.local1, answer.world1];
+        let is_there = surface.as_flattened().iter().all(|x| x.is_finite());
+        assert!(is_there || answer.outcome == Outcome::Separated, "{answer:?}");
         let (mut cache, mut answer) = (PairCache::default(), PairAnswer::default());
         distance(placed, &mut cache, &PairConfig::default(), &mut answer).unwrap();
         assert!(accepts(verify(placed, &answer)), "{answer:?}");
