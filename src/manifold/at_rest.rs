@@ -2,7 +2,8 @@
 //! axes of its body, and compared with its sides, as bits. So are those of the other, where any is needed. For a pair at rest the
 //! facet of before proves the depth first.
 //!
-//! Skewed rotations, many corners, corners next to a side and witness points that no corner is as deep as are left to the
+//! A corner on a side counts as inside, and no side crosses where it ends: so equal faces in line have their corners in common.
+//! Skewed rotations, many corners, corners nearly on a side and witness points that no corner is as deep as are left to the
 //! [overlay](super::overlay) and [the sweep](super::clip).
 
 use super::answer::{FOUR, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Reference};
@@ -35,6 +36,9 @@ const MOST: usize = 32;
 const ONE: usize = 1;
 const FEW: usize = 2;
 const MANY: usize = MOST / 4;
+
+/// Corners nearer to a side than this part of what is too near to tell are on it: a quarter of what the sweep makes one.
+const ON: f64 = 0.0625;
 
 /// The query of a pair that may rest.
 pub struct AtRest<'a, 'b> {
@@ -194,11 +198,24 @@ struct Slid<const F: usize> {
     z: [[f64; 4]; F],
     /// How far they were over the plane.
     gaps: [[f64; 4]; F],
-    /// For each side of the plane's face the corners that are outside of it, and those outside of any.
-    outside: [[u32; 4]; F],
+    /// For each side of the plane's face the corners that are outside of it, and those on it.
+    sides: [[SideMasks; 4]; F],
+    /// The corners outside of any, on any, and on more than one.
     of_any: u32,
+    on_any: u32,
+    on_more: u32,
+    /// Those at a corner of the plane's face.
+    at_corners: u32,
     /// One over the cosine between the plane's normal and the contact's.
     stretch: f64,
+}
+
+/// The corners of one patch beside a side of the other, as bits.
+#[derive(Clone, Copy)]
+struct SideMasks {
+    outside: u32,
+    /// Nearer to its line than corners that are one.
+    on: u32,
 }
 
 impl<const F: usize> Slid<F> {
@@ -207,13 +224,16 @@ impl<const F: usize> Slid<F> {
         y: [[0.0; 4]; F],
         z: [[0.0; 4]; F],
         gaps: [[0.0; 4]; F],
-        outside: [[0; 4]; F],
+        sides: [[SideMasks { outside: 0, on: 0 }; 4]; F],
         of_any: 0,
+        on_any: 0,
+        on_more: 0,
+        at_corners: 0,
         stretch: 0.0,
     };
 
-    /// `None` where a corner is as near to a side as `doubt`, or the plane too steep. `out`: along the normal out of the plane's
-    /// body.
+    /// `None` where a corner is as near to a side as `doubt` and not on it, or the plane too steep. `out`: along the normal out of
+    /// the plane's body.
     #[inline(always)]
     fn fill<L: Lanes>(
         &mut self,
@@ -256,20 +276,66 @@ impl<const F: usize> Slid<F> {
         for side in 0..plane.count {
             let [a, b, c, d] = plane.side_plane(side);
             let inwards = [L::splat(a), L::splat(b), L::splat(c), L::splat(d)];
-            let mut outside = 0;
+            let mut masks = SideMasks { outside: 0, on: 0 };
             for four in 0..corners.blocks.len() {
                 let place = [L::load(&self.x[four]), L::load(&self.y[four]), L::load(&self.z[four])];
                 let inside = combined(&inwards, &place);
                 let beyond = far.greater(inside);
-                // A NaN fails both comparisons.
-                if (beyond | inside.greater(near)) & 0b1111 != 0b1111 {
-                    return None;
+                let is_clear = beyond | inside.greater(near);
+                // A NaN fails all comparisons.
+                if is_clear & 0b1111 != 0b1111 {
+                    let on = L::splat(ON * doubt).greater(inside) & inside.greater(L::splat(-ON * doubt));
+                    if (is_clear | on) & 0b1111 != 0b1111 {
+                        return None;
+                    }
+                    masks.on |= (on & 0b1111) << (4 * four);
                 }
-                outside |= (beyond & 0b1111) << (4 * four);
+                masks.outside |= (beyond & 0b1111) << (4 * four);
             }
-            outside &= corners.all();
-            self.outside[side / 4][side % 4] = outside;
-            self.of_any |= outside;
+            masks.outside &= corners.all();
+            masks.on &= corners.all();
+            self.sides[side / 4][side % 4] = masks;
+            self.of_any |= masks.outside;
+            self.on_more |= self.on_any & masks.on;
+            self.on_any |= masks.on;
+        }
+        if self.on_any & !self.of_any == 0 { Some(()) } else { self.move_onto(plane, &towards.to_vector(), doubt) }
+    }
+
+    /// Moves places that are on sides, and may be a little outside, to those sides or their corners: no plane is taken beyond its
+    /// sides. `None` where a place is on two of them and at no corner.
+    #[cold]
+    fn move_onto(&mut self, plane: &PatchCorners, towards: &Vector, doubt: f64) -> Option<()> {
+        let mut left = self.on_any & !self.of_any;
+        while left != 0 {
+            let corner = left.trailing_zeros() as usize;
+            left &= left - 1;
+            let place = self.place(corner);
+            let is_on_more = self.on_more >> corner & 1 == 1;
+            // How far it is outside of a side that it is on, as a way back.
+            let back = |side: usize, place: &Vector| {
+                let [x, y, z, offset] = plane.side_plane(side);
+                let inwards = Vector::new(x, y, z);
+                inwards * (-(inwards.dot(place) + offset)).max(0.0)
+            };
+            let mut sides = (0..plane.count).filter(|side| self.sides[side / 4][side % 4].on >> corner & 1 == 1);
+            let first = sides.next()?;
+            let mut way = back(first, &place);
+            if is_on_more {
+                let second = sides.next()?;
+                way += back(second, &(place + way));
+                self.at_corners |= 1 << corner;
+                let mut corners = (0..plane.count).map(|other| plane.position(other) - place);
+                let to_corner = corners.find(|way| way.amax() <= 0.5 * doubt)?;
+                // Beyond the end of a side, rounding apart.
+                let is_beyond = back(first, &(place + way)).amax() > 1e-6 * doubt;
+                way = if is_beyond { to_corner } else { way };
+            }
+            let (four, lane) = (corner / 4, corner % 4);
+            self.x[four][lane] += way.x;
+            self.y[four][lane] += way.y;
+            self.z[four][lane] += way.z;
+            self.gaps[four][lane] -= way.dot(towards);
         }
         Some(())
     }
@@ -283,9 +349,11 @@ impl<const F: usize> Slid<F> {
         self.gaps[corner / 4][corner % 4]
     }
 
-    /// The corners that are outside of a side.
-    fn outside(&self, side: usize) -> u32 {
-        self.outside[side / 4][side % 4]
+    /// The sides of the corners' patch, as bits, that cross the line of a side of the other: of those that end on it, that end
+    /// speaks.
+    fn crossing(&self, corners: &PatchCorners, side: usize) -> u32 {
+        let SideMasks { outside, on } = self.sides[side / 4][side % 4];
+        (outside ^ corners.next_of_all(outside)) & !(on | corners.next_of_all(on))
     }
 }
 
@@ -362,9 +430,9 @@ impl<'a> PatchCorners<'a> {
         Vector::new(block.x[lane], block.y[lane], block.z[lane])
     }
 
-    /// Bits of the sides whose ends are on different sides of something, of bits of corners.
-    fn crossing_sides(&self, outside: u32) -> u32 {
-        outside ^ (outside >> 1 | (outside & 1) << (self.count - 1))
+    /// The bit of each corner's next one in its place.
+    fn next_of_all(&self, corners: u32) -> u32 {
+        corners >> 1 | (corners & 1) << (self.count - 1)
     }
 
     fn side_label(&self, side: usize) -> Feature {
@@ -491,7 +559,7 @@ impl Writing<'_, '_> {
         let mut slid = [Slid::<F>::NONE, Slid::NONE];
         // Slid onto the plane of a body are the other's corners.
         slid[reference].fill(frame, (reference, &corners[reference]), &corners[incident], *out, doubt)?;
-        let is_inside = slid[reference].of_any == 0;
+        let is_inside = slid[reference].of_any | slid[reference].on_any == 0;
         if !is_inside {
             slid[incident].fill(frame, (incident, &corners[incident]), &corners[reference], out.negate(), doubt)?;
         }
@@ -505,6 +573,10 @@ impl Writing<'_, '_> {
             let slid = &slid[1 - body];
             let error = seen.error(1 - body, slid.stretch, rounding);
             let mut inside = corners[body].all() & !slid.of_any;
+            if body == incident {
+                // The reference's corner speaks for both.
+                inside &= !slid.at_corners;
+            }
             while inside != 0 {
                 let corner = inside.trailing_zeros() as usize;
                 inside &= inside - 1;
@@ -571,9 +643,10 @@ impl<L: Lanes, const F: usize> Work for Crossing<'_, L, F> {
         let mut count = 0;
         let incident = &corners[1 - reference];
         let on = &slid[reference];
-        let crossed_by = |second: usize| corners[0].crossing_sides(slid[1].outside(second));
+        let moved = on.on_any & !on.of_any;
+        let crossed_by = |second: usize| slid[1].crossing(&corners[0], second);
         for first in 0..corners[0].count {
-            let mut seconds = corners[1].crossing_sides(slid[0].outside(first));
+            let mut seconds = slid[0].crossing(&corners[1], first);
             while seconds != 0 {
                 let second = seconds.trailing_zeros() as usize;
                 seconds &= seconds - 1;
@@ -583,6 +656,10 @@ impl<L: Lanes, const F: usize> Work for Crossing<'_, L, F> {
                 let (side, edge) = if reference == 0 { (first, second) } else { (second, first) };
                 let [a, b, c, d] = corners[reference].side_plane(side);
                 let inside = |place: &Vector| a * place.x + b * place.y + c * place.z + d;
+                // An end on another side has been moved onto it.
+                if moved >> edge & 1 | moved >> incident.next(edge) & 1 == 1 {
+                    return None;
+                }
                 let (from, to) = (on.place(edge), on.place(incident.next(edge)));
                 let [before, after] = [inside(&from), inside(&to)];
                 let share = before / (before - after);
@@ -809,19 +886,29 @@ mod tests {
     #[test]
     fn masks_find_what_the_sweep_finds() {
         let mut random = Random::new(29);
-        let (mut compared, mut left) = (0, 0);
+        let (mut compared, mut left) = ([0; 2], [0; 2]);
         for round in 0..3_000 {
             let noise = if round % 4 == 0 { 1e-7 } else { 0.0 };
             let shapes = [prism(3 + round % 10, noise, &mut random), prism(3 + round / 10 % 30, noise, &mut random)];
             let tilt: f64 = if round % 3 == 0 { 0.0 } else { 0.3 * random.signed() };
             let (sine, cosine) = tilt.sin_cos();
             let turn = Matrix::new(cosine, 0.0, sine, 0.0, 1.0, 0.0, -sine, 0.0, cosine);
-            let poses = [
+            let mut poses = [
                 Pose::new(&turn, &Vector::new(1.5 * random.signed(), 1.5 * random.signed(), -1.0)),
                 Pose::new(&Matrix::identity(), &Vector::zeros()),
             ];
-            let bodies = [shapes[0].at(&poses[0]), shapes[1].at(&poses[1])];
-            let facing = [patch(&shapes[0], Vector::z()), patch(&shapes[1], -Vector::z())];
+            let mut pair = [&shapes[0], &shapes[1]];
+            // Equal ones in line, or moved along a side.
+            let in_line = round % 5 == 4;
+            if in_line {
+                pair = [pair[0]; 2];
+                let [a, b] = [0, 2].map(|k| pair[0].polyhedron().vertices[k].position);
+                let along = Vector::new(b.x - a.x, b.y - a.y, 0.0) * random.pick(&[0.0, 0.0, 0.5]);
+                let aside = random.vector() * random.pick(&[0.0, 1e-12, 1e-9, 1e-8, 1e-7, 1e-6]);
+                poses[0] = Pose::new(&turn, &(along + aside - Vector::z()));
+            }
+            let bodies = [pair[0].at(&poses[0]), pair[1].at(&poses[1])];
+            let facing = [patch(pair[0], Vector::z()), patch(pair[1], -Vector::z())];
             let patches = Patches { facing, reference: round % 2 };
             // Witness points that are no deeper than any other.
             let contact = SignedDistance {
@@ -843,7 +930,7 @@ mod tests {
             })
             .unwrap();
             if is_found.unwrap().is_none() {
-                left += usize::from(!swept.is_empty());
+                left[usize::from(in_line)] += usize::from(!swept.is_empty());
                 continue;
             }
             let by_id = |a: &ManifoldPoint, b: &ManifoldPoint| a.id.cmp(&b.id);
@@ -855,14 +942,17 @@ mod tests {
                 let overlap = own.gap_lower <= other.gap_upper && other.gap_lower <= own.gap_upper;
                 let off = |a: [f64; 3], b: [f64; 3]| (Vector::from(a) - Vector::from(b)).norm();
                 let offs = [off(own.world1, other.world1), off(own.world2, other.world2)];
+                // Next to a corner either of its sides may hold the point: they count as one place.
+                let one_place = if in_line { 4.0 * COINCIDENT } else { 0.0 };
                 assert!(
-                    overlap && offs.into_iter().all(|off| off <= 1e-9 + 100.0 * noise),
+                    overlap && offs.into_iter().all(|off| off <= 1e-9 + 100.0 * noise + one_place),
                     "{round} {own:?} {other:?}"
                 );
             }
-            compared += 1;
+            compared[usize::from(in_line)] += 1;
         }
-        println!("{compared} {left}");
-        assert!(cfg!(miri) || compared > 2_000 && left < 60, "{compared} {left}");
+        println!("{compared:?} {left:?}");
+        assert!(cfg!(miri) || compared[0] > 1_700 && left[0] < 60, "{compared:?} {left:?}");
+        assert!(cfg!(miri) || compared[1] > 300 && left[1] < 300, "{compared:?} {left:?}");
     }
 }

@@ -191,7 +191,7 @@ fn small_bodies() {
 #[test]
 fn bodies_of_thousands() {
     let mut random = Random::new(0x7002);
-    for count in [4000, 4001, 4095, 4096, 5000] {
+    for count in [4000, 4096] {
         check(&format!("ball {count}"), &ball(count), &all_ways(&mut random), false, &mut random);
     }
 }
