@@ -217,10 +217,15 @@ impl MovingPoint<'_> {
         let (along, by) = (L::from_vector(normal), L::splat(self.by));
         let local = L::from_vector(&Vector::from(*self.local));
         let world = L::from_vector(&Vector::from(*self.world));
-        // No surface that is reported is beyond the doubles: there rounding is longer than what is cut off.
-        let (least, most) = (L::splat(f64::MIN), L::splat(f64::MAX));
-        world.add(along.mul(by)).max(least).min(most).store_vector(self.world);
-        local.add(turned_back::<L>(self.pose, normal).mul(by)).max(least).min(most).store_vector(self.local);
+        world.add(along.mul(by)).store_vector(self.world);
+        local.add(turned_back::<L>(self.pose, normal).mul(by)).store_vector(self.local);
+        // No surface that is reported is beyond the doubles: there rounding is longer than what is cut off. Not by lanes' `max`, which
+        // raises a flag for a NaN.
+        for x in self.world.iter_mut().chain(self.local.iter_mut()) {
+            if x.is_infinite() {
+                *x = f64::MAX.copysign(*x);
+            }
+        }
     }
 }
 
@@ -252,10 +257,12 @@ fn inverted(pose: &Pose, normal: &Vector) -> Vector {
 /// a + b, rounded down: at most the largest double where both are finite; infinite or NaN only if a or b is.
 #[inline(always)]
 pub fn sum_below(a: f64, b: f64) -> f64 {
-    let sum = two_sum(a, b);
-    if !sum.hi.is_finite() {
-        return beyond([a, b], sum.hi, f64::MAX);
+    // First, as the rest of a sum that is infinite has no value.
+    let high = a + b;
+    if !high.is_finite() {
+        return beyond([a, b], high, f64::MAX);
     }
+    let sum = two_sum(a, b);
     // Without a branch, which would be taken every other time. (0 is exact.)
     let step = if sum.hi < 0.0 { 1 } else { u64::MAX };
     f64::from_bits(sum.hi.to_bits().wrapping_add(if sum.lo < 0.0 { step } else { 0 }))
@@ -264,10 +271,12 @@ pub fn sum_below(a: f64, b: f64) -> f64 {
 /// a + b, rounded up: the same of the other side.
 #[inline(always)]
 pub fn sum_above(a: f64, b: f64) -> f64 {
-    let sum = two_sum(a, b);
-    if !sum.hi.is_finite() {
-        return beyond([a, b], sum.hi, f64::MIN);
+    // First, as the rest of a sum that is infinite has no value.
+    let high = a + b;
+    if !high.is_finite() {
+        return beyond([a, b], high, f64::MIN);
     }
+    let sum = two_sum(a, b);
     let step = if sum.hi < 0.0 { u64::MAX } else { 1 };
     f64::from_bits(sum.hi.to_bits().wrapping_add(if sum.lo > 0.0 { step } else { 0 }))
 }

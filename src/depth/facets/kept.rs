@@ -297,17 +297,19 @@ impl<L: Lanes> Work for WideDisc<'_, L> {
     fn run(&mut self) -> Option<f64> {
         let &mut WideDisc { frame, small, upper, around, .. } = self;
         let wide = self.find()?;
-        if encloses(wide.radius, around, upper) && wide.lower > 0.0 && wide.radius > upper * (1.0 + SURELY) {
-            if wide.lower < small.lower && is_good(frame, wide.lower, upper) {
-                return Some(wide.lower);
-            }
-            let (s, e) = (small.radius / upper, (small.lower - wide.lower).max(0.0));
-            let needed = small.radius + e * (1.0 - s * s) / (2.0 * s);
-            // False for a NaN.
-            let is_enough = wide.radius * (1.0 - SURELY) >= needed;
-            return (small.radius > 0.0 && s <= 1.0 && is_enough).then_some(small.lower);
+        if !(encloses(wide.radius, around, upper) && wide.lower > 0.0 && wide.radius > upper * (1.0 + SURELY)) {
+            return None;
         }
-        None
+        if wide.lower >= small.lower || is_good(frame, wide.lower, upper) {
+            return Some(wide.lower.min(small.lower));
+        }
+        if !(small.radius > 0.0 && small.radius <= upper) {
+            return None;
+        }
+        let (s, e) = (small.radius / upper, small.lower - wide.lower);
+        let needed = small.radius + e * (1.0 - s * s) / (2.0 * s);
+        // False for a NaN.
+        (wide.radius * (1.0 - SURELY) >= needed).then_some(small.lower)
     }
 }
 
@@ -328,17 +330,20 @@ impl<L: Lanes> WideDisc<'_, L> {
         let (end, _) = least_inside(other.polyhedron, patch, to);
         // Sides are right to far less; what is inside by this is in the face.
         let least = 4.0 * error;
-        let share = if start >= least { 0.0 } else { (least - start) / (end - start) };
         // False for a NaN.
-        if !(end > least) || !(share <= 1.0) {
+        if !(end > least) {
             return None;
         }
+        let share = if start >= least { 0.0 } else { (least - start) / (end - start) };
         // A point of the other body up to what the face is thick: least heights of sides are concave along the way.
         let point = way.mul_add(L::splat(share), from);
         let below = own.rotate_back(other.rotate_lanes(point).sub(own.offset));
         // Along m the origin is over this place of the face.
         let (normal, along) = (L::from_vector(&record.normal), own.rotate_back(m));
         let cosine = normal.dot(along);
+        if !(cosine > 0.5) {
+            return None;
+        }
         let height = (-record.planes.offset[0] - normal.dot(below)) / cosine;
         let foot = along.mul_add(L::splat(height), below);
         let (inside, _) = least_inside(own.polyhedron, record, foot);
@@ -348,7 +353,7 @@ impl<L: Lanes> WideDisc<'_, L> {
         let (aside, thick) = (4.0 * error, record.slack + patch.slack);
         // The point is off its plane, and the foot off its own, by less than `error` each.
         let lower = height - inside * sine - thick - 2.0 * error;
-        (cosine > 0.5 && inside > aside).then(|| Disc { radius: (inside - aside) * (cosine - 64.0 * U), lower })
+        (inside > aside).then(|| Disc { radius: (inside - aside) * (cosine - 64.0 * U), lower })
     }
 }
 

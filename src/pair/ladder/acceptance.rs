@@ -1,7 +1,7 @@
 //! Which minima that marching finds are good enough for an answer, at a quick look or a closer one.
 
 use super::query::PairQuery;
-use super::sweep::{Surfaces, Sweep};
+use super::sweep::{NoBalls, Surfaces, Sweep};
 use crate::answer::{DecidedBy, Query, contact};
 use crate::base::math::divisor;
 use crate::base::simd::{Kernel, Lanes};
@@ -67,12 +67,12 @@ impl<S: Sweep> Acceptance<'_, '_, S> {
 }
 
 /// A minimum that a quick look leaves open, looked at more closely, as [`CloserLook`] does.
-pub(super) struct Closely<'a, 'b, S, const BETWEEN_PLANES: bool> {
-    pub(super) acceptance: Acceptance<'a, 'b, S>,
+pub(super) struct Closely<'a, 'b, const BETWEEN_PLANES: bool> {
+    pub(super) acceptance: Acceptance<'a, 'b, NoBalls>,
     pub(super) at: State,
 }
 
-impl<S: Sweep, const BETWEEN_PLANES: bool> Kernel for Closely<'_, '_, S, BETWEEN_PLANES> {
+impl<const BETWEEN_PLANES: bool> Kernel for Closely<'_, '_, BETWEEN_PLANES> {
     type Output = ();
 
     #[inline(always)]

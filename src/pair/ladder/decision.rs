@@ -2,7 +2,7 @@
 
 use super::acceptance::{Acceptance, Closely};
 use super::query::{Attempt, PairQuery};
-use super::sweep::Sweep;
+use super::sweep::NoBalls;
 use crate::answer::{DecidedBy, Outcome, Query, Statistics, contact};
 use crate::base::error::Result;
 use crate::base::memory::in_integers;
@@ -25,7 +25,7 @@ pub(super) struct Hint {
     pub steps: u32,
 }
 
-impl<S: Sweep> PairQuery<'_, S> {
+impl PairQuery<'_, NoBalls> {
     /// Whether a closer look at the result of marching answers; else where to go on.
     pub(super) fn look_closer(&mut self, attempt: Attempt) -> Option<Hint> {
         let (at, steps) = match attempt {
@@ -38,11 +38,11 @@ impl<S: Sweep> PairQuery<'_, S> {
     }
 
     fn accepts_closely(&mut self, at: State, steps: u32) -> bool {
-        let mut look = Closely::<S, false> { acceptance: Acceptance { pair: self, accepted: false }, at };
+        let mut look = Closely::<false> { acceptance: Acceptance { pair: self, accepted: false }, at };
         simd::dispatch(&mut look);
         let mut accepted = look.acceptance.accepted;
         if !accepted {
-            let mut look = Closely::<S, true> { acceptance: look.acceptance, at };
+            let mut look = Closely::<true> { acceptance: look.acceptance, at };
             simd::dispatch(&mut look);
             accepted = look.acceptance.accepted;
         }
@@ -55,22 +55,26 @@ impl<S: Sweep> PairQuery<'_, S> {
         accepted
     }
 
-    /// Whether the vertex pairs of the last intersection may hold the origin, be they any that the bodies have or not.
+    /// Whether the pyramid or the tetrahedron of the last query still proves that the bodies intersect, if they are
+    /// [simple](PairQuery::is_simple).
     #[inline(always)]
-    pub(super) fn holds_enclosure(&self) -> bool {
-        self.cache.holds_enclosure()
+    pub(super) fn look_at_last_proof(&mut self) -> Attempt {
+        match self.look_at_last_pyramid() {
+            Attempt::Answered => Attempt::Answered,
+            _ => self.look_at_last_enclosure(),
+        }
     }
 
     /// Whether the tetrahedron of the last query still encloses the origin, for bodies that are [simple](PairQuery::is_simple).
     #[inline(always)]
-    pub(super) fn look_at_last_enclosure(&mut self) -> Attempt {
+    fn look_at_last_enclosure(&mut self) -> Attempt {
         simd::dispatch_to_avx2(&mut LastEnclosure { pair: self })
     }
 
     /// Whether the pyramid that proved the last depth, of which contacts are made, still does, for bodies that are
     /// [simple](PairQuery::is_simple).
     #[inline(always)]
-    pub(super) fn look_at_last_pyramid(&mut self) -> Attempt {
+    fn look_at_last_pyramid(&mut self) -> Attempt {
         let Some(pyramid) = self.cache.pyramid().filter(|_| self.query == Query::Contact) else {
             return Attempt::Untried;
         };
@@ -150,7 +154,8 @@ impl<S: Sweep> PairQuery<'_, S> {
     fn fill(&mut self, decision: &Decision, statistics: Statistics, decided_by: DecidedBy) -> Result<()> {
         let pair = &self.pair();
         // A pair that intersected the last time may rest. All that may fail comes first.
-        let pyramids = if self.is_simple() && self.holds_enclosure() { Pyramids::Shallow } else { Pyramids::Unused };
+        let pyramids =
+            if self.is_simple() && self.cache.holds_enclosure() { Pyramids::Shallow } else { Pyramids::Unused };
         let is_contact = self.query == Query::Contact && matches!(decision, Decision::Intersecting { .. });
         let depth = if is_contact { Some(deepest(pair, pyramids)?) } else { None };
         (self.answer.statistics, self.answer.decided_by) = (statistics, decided_by);
@@ -205,11 +210,11 @@ impl<S: Sweep> PairQuery<'_, S> {
 }
 
 /// The common case of bodies that intersect: the last proof still holds.
-struct LastEnclosure<'a, 'b, S> {
-    pair: &'a mut PairQuery<'b, S>,
+struct LastEnclosure<'a, 'b> {
+    pair: &'a mut PairQuery<'b, NoBalls>,
 }
 
-impl<S: Sweep> Kernel for LastEnclosure<'_, '_, S> {
+impl Kernel for LastEnclosure<'_, '_> {
     type Output = Attempt;
 
     #[inline(always)]
@@ -230,12 +235,12 @@ impl<S: Sweep> Kernel for LastEnclosure<'_, '_, S> {
 }
 
 /// The common case of bodies in contact: the last proof of their depth still holds.
-struct LastPyramid<'a, 'b, S> {
-    pair: &'a mut PairQuery<'b, S>,
+struct LastPyramid<'a, 'b> {
+    pair: &'a mut PairQuery<'b, NoBalls>,
     pyramid: Pyramid,
 }
 
-impl<S: Sweep> Kernel for LastPyramid<'_, '_, S> {
+impl Kernel for LastPyramid<'_, '_> {
     type Output = Attempt;
 
     #[inline(always)]

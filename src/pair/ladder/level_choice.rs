@@ -2,7 +2,7 @@
 
 use super::query::PairQuery;
 use super::support_glance;
-use super::sweep::Sweep;
+use super::sweep::{NoBalls, Sweep};
 use crate::answer::{Accuracy, Levels, Query};
 use crate::base::error::Result;
 use crate::pair::levels::{LevelBounds, LevelDescent, LevelState, Leveled, TRIAL_STEPS};
@@ -140,7 +140,9 @@ impl<'a, S: Sweep> PairQuery<'a, S> {
         let relative = self.config.relative_error * gap;
         if relative > self.config.absolute_error { relative } else { self.config.absolute_error }
     }
+}
 
+impl<'a> PairQuery<'a, NoBalls> {
     /// Whether automatic levels must be gone through. They are made if they are missing.
     fn automatic_levels_may_answer(&self) -> Result<bool> {
         if !self.is_large(self.query) {

@@ -2,12 +2,12 @@
 //! nearest, and they suffice. A direct path to the answer of the search among the levels, to the last bit.
 
 use super::query::PairQuery;
-use super::sweep::Sweep;
+use super::sweep::NoBalls;
 use crate::answer::DecidedBy;
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::pair::levels::{LevelState, Leveled, try_first};
 
-impl<S: Sweep> PairQuery<'_, S> {
+impl PairQuery<'_, NoBalls> {
     /// Whether it is the common case; answer and cache are then written.
     #[inline(always)]
     pub(super) fn last_levels_answer(&mut self) -> bool {
@@ -15,11 +15,11 @@ impl<S: Sweep> PairQuery<'_, S> {
     }
 }
 
-struct LastLevels<'a, 'b, S> {
-    pair: &'a mut PairQuery<'b, S>,
+struct LastLevels<'a, 'b> {
+    pair: &'a mut PairQuery<'b, NoBalls>,
 }
 
-impl<S: Sweep> Kernel for LastLevels<'_, '_, S> {
+impl Kernel for LastLevels<'_, '_> {
     type Output = bool;
 
     #[inline(always)]

@@ -3,7 +3,7 @@
 
 use super::marching::Leg;
 use super::query::{Attempt, Open, PairQuery};
-use super::sweep::Sweep;
+use super::sweep::NoBalls;
 use crate::answer::{DecidedBy, Outcome, Query, Statistics, contact};
 use crate::base::error::Result;
 use crate::base::simd::{self, Kernel, Lanes};
@@ -39,7 +39,7 @@ pub(super) struct LevelSearch<'a> {
     before: u32,
 }
 
-impl<'a, S: Sweep> PairQuery<'a, S> {
+impl<'a> PairQuery<'a, NoBalls> {
     /// The query through the levels of detail, from the cache or afresh.
     #[inline(never)]
     pub(super) fn search_levels(&mut self) -> Result<LevelSearched<'a>> {
@@ -67,7 +67,7 @@ impl<'a, S: Sweep> PairQuery<'a, S> {
 }
 
 impl<'a> LevelSearch<'a> {
-    fn run<S: Sweep>(self, pair: &mut PairQuery<'a, S>) -> LevelSearched<'a> {
+    fn run(self, pair: &mut PairQuery<'a, NoBalls>) -> LevelSearched<'a> {
         let bodies = self.bodies;
         let (from, is_trial) = self.start(pair);
         // Marching in pieces, a budget at a time, does not see that it goes round in circles: penetration, mostly.
@@ -100,7 +100,7 @@ impl<'a> LevelSearch<'a> {
     }
 
     /// The start of the search: where the last one ended, else at the coarsest levels. Also returns whether it is the former.
-    fn start<S: Sweep>(&self, pair: &PairQuery<S>) -> (LevelState, bool) {
+    fn start(&self, pair: &PairQuery<NoBalls>) -> (LevelState, bool) {
         let recalled = if pair.asks_cache() { pair.cache.level_state(&self.bodies) } else { None };
         match recalled {
             // An exact query left it.
@@ -116,7 +116,7 @@ impl<'a> LevelSearch<'a> {
 
     /// The start if it is not where the last search ended: at the levels that may be near enough, at the vertices from their
     /// tables. Without tables it is at the coarsest levels.
-    fn start_anew<S: Sweep>(&self, pair: &PairQuery<S>) -> LevelState {
+    fn start_anew(&self, pair: &PairQuery<NoBalls>) -> LevelState {
         let bodies = &self.bodies;
         let levels = if !self.has_levels {
             [0, 0]
@@ -132,7 +132,7 @@ impl<'a> LevelSearch<'a> {
     }
 
     /// Marching at the bodies themselves, from a state of theirs, of an earlier query or not; `steps` are made already.
-    fn march<S: Sweep>(self, pair: &mut PairQuery<'a, S>, state: State, steps: u32, leg: Leg) -> LevelSearched<'a> {
+    fn march(self, pair: &mut PairQuery<'a, NoBalls>, state: State, steps: u32, leg: Leg) -> LevelSearched<'a> {
         let at_bodies = |state| LevelState { levels: [0, 0], state };
         if leg == Leg::Budget(0) {
             return self.spend(pair, None, at_bodies(state), steps);
@@ -147,7 +147,7 @@ impl<'a> LevelSearch<'a> {
     }
 
     /// The cache for the next query, after the bodies themselves have answered.
-    pub(super) fn remember<S: Sweep>(&self, pair: &mut PairQuery<S>) {
+    pub(super) fn remember(&self, pair: &mut PairQuery<NoBalls>) {
         if pair.answer.outcome != Outcome::Intersecting
             && let Some(state) = pair.cache.features_of(pair.polyhedra())
         {
@@ -157,7 +157,7 @@ impl<'a> LevelSearch<'a> {
     }
 
     /// The cache for the next query: as high up as its levels would be disjoint and, where that is all that counts, near enough.
-    fn remember_at<S: Sweep>(&self, pair: &mut PairQuery<S>, at: LevelState, gap: f64) {
+    fn remember_at(&self, pair: &mut PairQuery<NoBalls>, at: LevelState, gap: f64) {
         if !self.has_levels {
             pair.cache.remember_features(at.state);
             return;
@@ -168,9 +168,9 @@ impl<'a> LevelSearch<'a> {
 
     /// The answer when the steps are spent: the bounds of the levels, or of a look along the line of two vertices.
     #[cold]
-    fn spend<S: Sweep>(
+    fn spend(
         &self,
-        pair: &mut PairQuery<S>,
+        pair: &mut PairQuery<NoBalls>,
         found: Option<LevelBounds>,
         at: LevelState,
         steps: u32,

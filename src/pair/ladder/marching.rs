@@ -3,7 +3,7 @@
 
 use super::acceptance::{Acceptance, AtFirst};
 use super::query::{Attempt, Open, PairQuery};
-use super::sweep::Sweep;
+use super::sweep::{NoBalls, Sweep};
 use crate::answer::{Query, Statistics};
 use crate::base::simd::{self, Kernel, Lanes, Work};
 use crate::body::polyhedron::Polyhedron;
@@ -20,7 +20,9 @@ impl<S: Sweep> PairQuery<'_, S> {
     pub(super) fn march_from_last_features(&mut self) -> Attempt {
         simd::dispatch(&mut Coherent { pair: self })
     }
+}
 
+impl PairQuery<'_, NoBalls> {
     /// Marching of any bodies, from the features that the cache holds; else from `start`, if that is known.
     pub(super) fn march(&mut self, start: Option<StartPair>) -> Attempt {
         simd::dispatch(&mut General { pair: self, start })
@@ -154,13 +156,13 @@ impl<L: Lanes, S: Sweep> Work for MarchOn<'_, '_, L, S> {
 }
 
 /// The general case: any bodies, poses and caches.
-struct General<'a, 'b, S> {
-    pair: &'a mut PairQuery<'b, S>,
+struct General<'a, 'b> {
+    pair: &'a mut PairQuery<'b, NoBalls>,
     /// The start if the cache holds no features, if it is known.
     start: Option<StartPair>,
 }
 
-impl<S: Sweep> Kernel for General<'_, '_, S> {
+impl Kernel for General<'_, '_> {
     type Output = Attempt;
 
     #[inline(always)]
@@ -187,14 +189,14 @@ impl<S: Sweep> Kernel for General<'_, '_, S> {
 }
 
 /// From a given state.
-struct FromState<'a, 'b, S> {
-    pair: &'a mut PairQuery<'b, S>,
+struct FromState<'a, 'b> {
+    pair: &'a mut PairQuery<'b, NoBalls>,
     start: State,
     steps: u32,
     leg: Leg,
 }
 
-impl<S: Sweep> Kernel for FromState<'_, '_, S> {
+impl Kernel for FromState<'_, '_> {
     type Output = Attempt;
 
     #[inline(always)]

@@ -4,7 +4,7 @@
 
 use super::glance::answer_by_axis;
 use super::query::PairQuery;
-use super::sweep::Sweep;
+use super::sweep::NoBalls;
 use crate::answer::{DecidedBy, Outcome, Query, Start, Statistics, contact};
 use crate::base::math::UNIT_ROUNDOFF;
 use crate::base::simd::{self, Kernel, Lanes};
@@ -29,7 +29,7 @@ enum WalkEnd<L> {
     Unclear,
 }
 
-impl<S: Sweep> PairQuery<'_, S> {
+impl PairQuery<'_, NoBalls> {
     /// Whether such a walk answers: asked where the cache has neither an axis that separates nor an enclosure that holds.
     #[inline(always)]
     pub(super) fn meets_or_misses(&mut self) -> bool {
@@ -40,11 +40,11 @@ impl<S: Sweep> PairQuery<'_, S> {
     }
 }
 
-struct OverlapWalk<'a, 'b, S> {
-    pair: &'a mut PairQuery<'b, S>,
+struct OverlapWalk<'a, 'b> {
+    pair: &'a mut PairQuery<'b, NoBalls>,
 }
 
-impl<S: Sweep> Kernel for OverlapWalk<'_, '_, S> {
+impl Kernel for OverlapWalk<'_, '_> {
     type Output = bool;
 
     #[inline(always)]

@@ -114,17 +114,20 @@ fn answer<S: Sweep>(query: Query, pair: &mut PairQuery<S>, glances: Glances) -> 
         return Ok(());
     }
     if pair.may_ask_support_maps(query) {
-        return answer_by_support_maps(pair, glances);
+        return S::of_polyhedra(pair, |pair| answer_by_support_maps(pair, glances));
     }
     if pair.may_ask_levels(query) {
-        return answer_by_levels(pair, glances);
+        return S::of_polyhedra(pair, |pair| answer_by_levels(pair, glances));
     }
-    answer_by_bodies(query, pair, glances)
+    match answer_at_once(query, pair, glances) {
+        Attempt::Answered => Ok(()),
+        attempt => S::of_polyhedra(pair, |pair| answer_on(pair, attempt)),
+    }
 }
 
 /// Maps of support functions, unless the pair does better by marching at the moment; else as without them.
 #[inline(never)]
-fn answer_by_support_maps<S: Sweep>(pair: &mut PairQuery<S>, glances: Glances) -> Result<()> {
+fn answer_by_support_maps(pair: &mut PairQuery<NoBalls>, glances: Glances) -> Result<()> {
     let looks_up = pair.cache.looks_up();
     if looks_up && pair.support_maps_answer()? {
         return Ok(());
@@ -140,7 +143,7 @@ fn answer_by_support_maps<S: Sweep>(pair: &mut PairQuery<S>, glances: Glances) -
 
 /// Levels of detail, where they may answer; else the bodies themselves.
 #[inline(never)]
-fn answer_by_levels<S: Sweep>(pair: &mut PairQuery<S>, glances: Glances) -> Result<()> {
+fn answer_by_levels(pair: &mut PairQuery<NoBalls>, glances: Glances) -> Result<()> {
     if pair.last_levels_answer() {
         return Ok(());
     }
@@ -157,30 +160,31 @@ fn answer_by_levels<S: Sweep>(pair: &mut PairQuery<S>, glances: Glances) -> Resu
 
 /// The bodies themselves.
 #[inline(always)]
-fn answer_by_bodies<S: Sweep>(query: Query, pair: &mut PairQuery<S>, glances: Glances) -> Result<()> {
-    let mut attempt = Attempt::Untried;
-    if pair.is_simple() & pair.asks_cache() {
-        if glances == Glances::Asked && pair.last_axis_separates(query) {
-            return Ok(());
-        }
-        if pair.holds_enclosure() {
-            attempt = pair.look_at_last_pyramid();
-            if !matches!(attempt, Attempt::Answered) {
-                attempt = pair.look_at_last_enclosure();
-            }
-        } else {
-            attempt = pair.march_from_last_features();
-        }
-    }
-    match attempt {
+fn answer_by_bodies(query: Query, pair: &mut PairQuery<NoBalls>, glances: Glances) -> Result<()> {
+    match answer_at_once(query, pair, glances) {
         Attempt::Answered => Ok(()),
         attempt => answer_on(pair, attempt),
     }
 }
 
+/// From what the cache holds.
+#[inline(always)]
+fn answer_at_once<S: Sweep>(query: Query, pair: &mut PairQuery<S>, glances: Glances) -> Attempt {
+    if !(pair.is_simple() & pair.asks_cache()) {
+        return Attempt::Untried;
+    }
+    if glances == Glances::Asked && pair.last_axis_separates(query) {
+        return Attempt::Answered;
+    }
+    if pair.cache.holds_enclosure() {
+        return S::of_polyhedra(pair, |pair| pair.look_at_last_proof());
+    }
+    pair.march_from_last_features()
+}
+
 /// The rest, for the less common cases.
 #[inline(never)]
-fn answer_on<S: Sweep>(pair: &mut PairQuery<S>, mut attempt: Attempt) -> Result<()> {
+fn answer_on(pair: &mut PairQuery<NoBalls>, mut attempt: Attempt) -> Result<()> {
     pair.forget()?;
     if matches!(attempt, Attempt::Untried | Attempt::NotEnclosed) && pair.meets_or_misses() {
         return Ok(());

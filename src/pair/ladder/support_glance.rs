@@ -1,7 +1,7 @@
 //! Approximate distances by look-ups of both bodies' support functions: an approximate query need not find the nearest features.
 
 use super::query::PairQuery;
-use super::sweep::Sweep;
+use super::sweep::{NoBalls, Sweep};
 use crate::answer::{DecidedBy, Levels, Query, Start, Statistics, contact};
 use crate::base::error::Result;
 use crate::base::simd::{self, Kernel, Lanes};
@@ -23,7 +23,7 @@ pub(super) fn least_error(shapes: [&Shape; 2]) -> f64 {
     if error1 > error2 { error1 } else { error2 }
 }
 
-impl<'a, S: Sweep> PairQuery<'a, S> {
+impl<S: Sweep> PairQuery<'_, S> {
     /// Whether look-ups of the support functions may answer it: that takes bodies of many vertices and an error that leaves room.
     #[inline(always)]
     pub(super) fn may_ask_support_maps(&self, query: Query) -> bool {
@@ -34,7 +34,9 @@ impl<'a, S: Sweep> PairQuery<'a, S> {
                 & self.is_simple()
             && self.surely_most_error() >= least_error(self.shapes())
     }
+}
 
+impl<'a> PairQuery<'a, NoBalls> {
     /// Whether look-ups answer it; answer and cache are then written.
     #[inline(always)]
     pub(super) fn support_maps_answer(&mut self) -> Result<bool> {
@@ -65,12 +67,12 @@ fn grids_of(shape: &Shape, error: f64) -> Choice<'_> {
     shape.support_map.choose(error)
 }
 
-struct SupportMaps<'a, 'b, S> {
-    pair: &'a mut PairQuery<'b, S>,
+struct SupportMaps<'a, 'b> {
+    pair: &'a mut PairQuery<'b, NoBalls>,
     grids: [Grids<'b>; 2],
 }
 
-impl<S: Sweep> Kernel for SupportMaps<'_, '_, S> {
+impl Kernel for SupportMaps<'_, '_> {
     type Output = bool;
 
     #[inline(always)]
@@ -110,7 +112,7 @@ impl<S: Sweep> Kernel for SupportMaps<'_, '_, S> {
 
 /// The direction of the last query where the bodies lie as they did, else that of the line between their origins.
 #[inline(always)]
-fn first_direction<L: Lanes, S: Sweep>(pair: &PairQuery<S>, frame: &Frame<L>) -> L {
+fn first_direction<L: Lanes>(pair: &PairQuery<NoBalls>, frame: &Frame<L>) -> L {
     let offset = frame.bodies[0].offset;
     let between = offset.mul(L::splat(reciprocal_length(offset.dot(offset))));
     let Some((axis, lean)) = pair.cache.direction() else { return between };

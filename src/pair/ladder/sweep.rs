@@ -1,6 +1,7 @@
-//! Balls that are swept over the bodies of a query. The rungs search among the polyhedra and take the radii off as they fill the
-//! answer. What the radii leave open is put right once the ladder has ended ([`swept`](crate::pair::swept)).
+//! Balls that are swept over the bodies of a query. The rungs search among the polyhedra; those that mostly answer take the radii
+//! off as they fill the answer. What they leave open is put right once the ladder has ended ([`swept`](crate::pair::swept)).
 
+use super::query::PairQuery;
 use crate::answer::{Outcome, PairAnswer, PairConfig, Query, Radii, Side};
 use crate::base::math::clamp;
 use crate::distance::certificate::Interval;
@@ -12,6 +13,11 @@ pub(in crate::pair) trait Sweep {
 
     /// The sum of the radii, rounded down, if balls inside the bodies that overlap are an answer.
     fn inner_radius(&self, query: Query) -> Option<f64>;
+
+    /// Asks of the polyhedra, as the rungs do that are rarely asked. What is swept over them is put right later.
+    fn of_polyhedra<R>(pair: &mut PairQuery<Self>, ask: impl FnOnce(&mut PairQuery<NoBalls>) -> R) -> R
+    where
+        Self: Sized;
 
     /// Whether [`Sweep::settle`] has made the answer.
     fn has_settled(&self) -> bool;
@@ -58,6 +64,11 @@ impl Sweep for NoBalls {
     #[inline(always)]
     fn inner_radius(&self, query: Query) -> Option<f64> {
         (query == Query::Intersection).then_some(0.0)
+    }
+
+    #[inline(always)]
+    fn of_polyhedra<R>(pair: &mut PairQuery<NoBalls>, ask: impl FnOnce(&mut PairQuery<NoBalls>) -> R) -> R {
+        ask(pair)
     }
 
     #[inline(always)]
@@ -114,6 +125,13 @@ impl Sweep for Balls<'_> {
     #[inline(always)]
     fn inner_radius(&self, _: Query) -> Option<f64> {
         matches!(self.query, BallQuery::Verdict | BallQuery::VerdictWithin).then_some(self.radii.lower)
+    }
+
+    #[inline(always)]
+    fn of_polyhedra<R>(pair: &mut PairQuery<Self>, ask: impl FnOnce(&mut PairQuery<NoBalls>) -> R) -> R {
+        let config = &PairConfig { max_distance: pair.max_distance(), ..*pair.config };
+        let &mut PairQuery { query, bodies, ref mut cache, ref mut answer, .. } = pair;
+        ask(&mut PairQuery { query, bodies, cache, config, answer, sweep: &mut NoBalls })
     }
 
     #[inline(always)]
