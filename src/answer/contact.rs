@@ -40,16 +40,21 @@ pub fn fill_nothing(answer: &mut PairAnswer) {
     answer.feature2 = Feature::default();
 }
 
-/// From a prepared frame: a minimum, the unit normal from body 2 to body 1, the features on which the points lie, and how far
-/// the surfaces are from them along the normal.
+/// The features that hold the nearest points of two polyhedra.
+pub struct NearestFeatures {
+    pub features: [FeatureId; 2],
+    /// How far the surfaces of swept bodies are from the points, along the normal.
+    pub outwards: Option<[f64; 2]>,
+}
+
+/// From a prepared frame: a minimum, the unit normal from body 2 to body 1, and what holds the points.
 #[inline(always)]
 pub fn fill_separated<L: Lanes>(
     answer: &mut PairAnswer,
     frame: &Frame<L>,
     minimum: &Minimum<L>,
     normal: L,
-    features: [FeatureId; 2],
-    outwards: Option<[f64; 2]>,
+    NearestFeatures { features, outwards }: NearestFeatures,
 ) {
     let ([body1, body2], Minimum { points, rotated, .. }) = (&frame.bodies, minimum);
     let mut local1 = points[0].add(L::from_vector(&body1.polyhedron.centre));

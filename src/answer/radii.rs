@@ -219,8 +219,8 @@ impl MovingPoint<'_> {
         let world = L::from_vector(&Vector::from(*self.world));
         world.add(along.mul(by)).store_vector(self.world);
         local.add(turned_back::<L>(self.pose, normal).mul(by)).store_vector(self.local);
-        // No surface that is reported is beyond the doubles: there rounding is longer than what is cut off. Not by lanes' `max`, which
-        // raises a flag for a NaN.
+        // No surface that is reported is beyond the doubles: there rounding is longer than what is cut off. Lanes' `max` would
+        // raise a flag for a NaN.
         for x in self.world.iter_mut().chain(self.local.iter_mut()) {
             if x.is_infinite() {
                 *x = f64::MAX.copysign(*x);

@@ -1,7 +1,7 @@
 //! The queries of a pair.
 
 use super::cache::PairCache;
-use super::ladder::{self, NoBalls};
+use super::ladder::{self, NoBalls, PairQuery};
 use super::signed_distance::{self, SignedDistance, SignedDistanceCache};
 use super::swept;
 #[cfg(doc)]
@@ -104,7 +104,7 @@ fn query_with(
     if Radii::are_there(bodies) {
         return swept::query(query, bodies, cache, config, answer);
     }
-    ladder::ask(query, bodies, cache, config, answer, &mut NoBalls)
+    ladder::ask(PairQuery { query, bodies, cache, config, answer, sweep: &mut NoBalls })
 }
 
 /// How deep two objects are in each other, see [`DepthAnswer`]. Separated objects are detected, but only a normal that separates

@@ -3,7 +3,7 @@
 
 use super::cache::PairCache;
 use super::ladder;
-use super::ladder::Sweep;
+use super::ladder::{PairQuery, Sweep};
 use crate::answer::{Feature, Outcome, PairAnswer, PairConfig, Query};
 use crate::base::error::Result;
 use crate::base::simd::Lanes;
@@ -128,7 +128,8 @@ pub(crate) fn of_polyhedra(
         cache.depth.expect_apart();
     }
     let mut apart = PairAnswer::default();
-    ladder::ask(Query::Distance, bodies, &mut cache.distance, config, &mut apart, sweep)?;
+    let (query, cached, answer_apart) = (Query::Distance, &mut cache.distance, &mut apart);
+    ladder::ask(PairQuery { query, bodies, cache: cached, config, answer: answer_apart, sweep: &mut *sweep })?;
     let are_in_each_other = apart.outcome == Outcome::Intersecting && !sweep.has_settled();
     if !(are_in_each_other && overlaps(bodies, cache, answer)?) {
         *answer = SignedDistance::from(&apart);

@@ -4,7 +4,7 @@
 
 use super::cache::PairCache;
 use super::ladder;
-use super::ladder::{BallQuery, Balls};
+use super::ladder::{BallQuery, Balls, PairQuery};
 use super::round::{AnswerPlace, Round, are_round};
 use super::signed_distance::{SignedDistance, SignedDistanceCache, of_polyhedra};
 use crate::answer::{
@@ -60,13 +60,13 @@ pub(super) fn query(
     };
     let mut balls = Balls::new(radii, of_bodies, tolerance);
     // A refusal leaves the answer as it was.
-    ladder::ask_checked(asked, bodies, cache, config, answer, &mut balls)?;
+    ladder::ask_checked(PairQuery { query: asked, bodies, cache, config, answer, sweep: &mut balls })?;
     if balls.are_taken_off {
         return Ok(());
     }
     let is_open = query == Query::Approximate && is_too_wide(answer, radii, config);
     if is_open {
-        ladder::ask_checked(Query::Distance, bodies, cache, config, answer, &mut balls)
+        ladder::ask_checked(PairQuery { query: Query::Distance, bodies, cache, config, answer, sweep: &mut balls })
             .inspect_err(|_| *answer = PairAnswer::UNSAID)?;
     }
     if balls.are_taken_off {
@@ -228,7 +228,9 @@ fn signed_distance_apart(
         from.remember_features(state);
     }
     let mut balls = Balls::new(radii, BallQuery::SignedDistance, 0.0);
-    ladder::ask_checked(Query::Distance, bodies, &mut from, &PairConfig::default(), &mut found, &mut balls)?;
+    let (config, query) = (&PairConfig::default(), Query::Distance);
+    let (cached, answer) = (&mut from, &mut found);
+    ladder::ask_checked(PairQuery { query, bodies, cache: cached, config, answer, sweep: &mut balls })?;
     let are_apart = balls.are_taken_off || found.outcome != Outcome::Intersecting;
     match from.features() {
         Some(state) if are_apart => cache.keep_apart(state),

@@ -8,11 +8,11 @@
 //! where they are equal: u is there across the line through both points, which is (rh + t'a')/√((r − a')² + (h + t')²) from the
 //! origin, at least (rh − ta)/√((r + a)² + (h + t)²) ≥ t. □
 //!
-//! *Two discs.* Where the foot is next to a side, as where equal boxes stand on each other, r is too small. Let C have a second disc
-//! around the foot, of radius R > t, at heights from l − e > 0 to t. With s = r/t ≤ 1 the ball is in C if R ≥ r + e(1 − s²)/2s and
-//! the condition above holds of R. For let θ be the angle of u and m. The first disc gives l·cos θ + r·sin θ ≥ l up to tan(θ/2) = s.
-//! The second gives (l − e)cos θ + R·sin θ ≥ l if R ≥ l·tan(θ/2) + e·cot θ, which is convex up to 90°: so it holds from there to 90°
-//! if at both ends, and beyond 90° as above. If e is no more than rounding, the second disc proves l − e alone. □
+//! *Two discs.* Where the foot is next to a side, as where equal boxes stand on each other, r is too small. Let C have a second
+//! disc around the foot, of radius R > t, at heights from l − e > 0 to t. With s = r/t ≤ 1 the ball is in C if R ≥ r + e(1 − s²)/2s
+//! and the condition above holds of R. For let θ be the angle of u and m. The first disc gives l·cos θ + r·sin θ ≥ l up to tan(θ/2)
+//! = s. The second gives (l − e)cos θ + R·sin θ ≥ l if R ≥ l·tan(θ/2) + e·cot θ, which is convex up to 90°: it holds up to there if
+//! at both ends, and beyond 90° as above. If e is no more than rounding, the second disc proves l − e alone. □
 //!
 //! *From above*: along m the bodies overlap by no more than both reach.
 //!
@@ -353,7 +353,7 @@ impl<L: Lanes> WideDisc<'_, L> {
         let (aside, thick) = (4.0 * error, record.slack + patch.slack);
         // The point is off its plane, and the foot off its own, by less than `error` each.
         let lower = height - inside * sine - thick - 2.0 * error;
-        (inside > aside).then(|| Disc { radius: (inside - aside) * (cosine - 64.0 * U), lower })
+        (inside > aside).then_some(Disc { radius: (inside - aside) * (cosine - 64.0 * U), lower })
     }
 }
 

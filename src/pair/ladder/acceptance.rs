@@ -1,7 +1,6 @@
 //! Which minima that marching finds are good enough for an answer, at a quick look or a closer one.
 
-use super::query::PairQuery;
-use super::sweep::{NoBalls, Surfaces, Sweep};
+use super::query::{NoBalls, PairQuery, Surfaces, Sweep};
 use crate::answer::{DecidedBy, Query, contact};
 use crate::base::math::divisor;
 use crate::base::simd::{Kernel, Lanes};
@@ -50,7 +49,8 @@ impl<S: Sweep> Acceptance<'_, '_, S> {
         pair.answer.decided_by = DecidedBy::Marching;
         match pair.settle(&gap.interval, gap.distance) {
             Surfaces::Points { outwards } => {
-                contact::fill_separated(pair.answer, frame, minimum, normal, state.features(), outwards);
+                let nearest = contact::NearestFeatures { features: state.features(), outwards };
+                contact::fill_separated(pair.answer, frame, minimum, normal, nearest);
             }
             Surfaces::Normal => contact::fill_normal(pair.answer, normal),
             Surfaces::Nothing => contact::fill_nothing(pair.answer),

@@ -1,8 +1,7 @@
 //! The cases that marching leaves open: a closer look, the last enclosure re-tested, the fallback, integers.
 
 use super::acceptance::{Acceptance, Closely};
-use super::query::{Attempt, PairQuery};
-use super::sweep::NoBalls;
+use super::query::{Attempt, NoBalls, PairQuery};
 use crate::answer::{DecidedBy, Outcome, Query, Statistics, contact};
 use crate::base::error::Result;
 use crate::base::memory::in_integers;

@@ -1,8 +1,7 @@
 //! Queries settled at a glance: bounding spheres that are apart, balls inside that overlap, or the axis that separated the bodies
 //! the last time.
 
-use super::query::PairQuery;
-use super::sweep::{Surfaces, Sweep};
+use super::query::{PairQuery, Surfaces, Sweep};
 use crate::answer::{DecidedBy, Outcome, Query, Statistics, contact};
 use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::scalar::{Scalar, constant, dot};

@@ -1,8 +1,7 @@
 //! Whether levels of detail may answer a query, and how near to their bodies they then have to be.
 
-use super::query::PairQuery;
+use super::query::{NoBalls, PairQuery, Sweep};
 use super::support_glance;
-use super::sweep::{NoBalls, Sweep};
 use crate::answer::{Accuracy, Levels, Query};
 use crate::base::error::Result;
 use crate::pair::levels::{LevelBounds, LevelDescent, LevelState, Leveled, TRIAL_STEPS};

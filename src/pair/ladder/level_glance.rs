@@ -1,8 +1,7 @@
 //! The common case of approximate queries through levels of detail: near the features of the levels that the cache holds are the
 //! nearest, and they suffice. A direct path to the answer of the search among the levels, to the last bit.
 
-use super::query::PairQuery;
-use super::sweep::NoBalls;
+use super::query::{NoBalls, PairQuery};
 use crate::answer::DecidedBy;
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::pair::levels::{LevelState, Leveled, try_first};

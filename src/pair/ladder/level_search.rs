@@ -2,8 +2,7 @@
 //! start.
 
 use super::marching::Leg;
-use super::query::{Attempt, Open, PairQuery};
-use super::sweep::NoBalls;
+use super::query::{Attempt, NoBalls, Open, PairQuery};
 use crate::answer::{DecidedBy, Outcome, Query, Statistics, contact};
 use crate::base::error::Result;
 use crate::base::simd::{self, Kernel, Lanes};

@@ -2,8 +2,7 @@
 //! as it is found.
 
 use super::acceptance::{Acceptance, AtFirst};
-use super::query::{Attempt, Open, PairQuery};
-use super::sweep::{NoBalls, Sweep};
+use super::query::{Attempt, NoBalls, Open, PairQuery, Sweep};
 use crate::answer::{Query, Statistics};
 use crate::base::simd::{self, Kernel, Lanes, Work};
 use crate::body::polyhedron::Polyhedron;

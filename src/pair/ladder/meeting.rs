@@ -3,8 +3,7 @@
 //! first have to find that there are none.
 
 use super::glance::answer_by_axis;
-use super::query::PairQuery;
-use super::sweep::NoBalls;
+use super::query::{NoBalls, PairQuery};
 use crate::answer::{DecidedBy, Outcome, Query, Start, Statistics, contact};
 use crate::base::math::UNIT_ROUNDOFF;
 use crate::base::simd::{self, Kernel, Lanes};

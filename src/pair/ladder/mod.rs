@@ -2,7 +2,7 @@
 //! last one, integers, always answers.
 
 mod query;
-mod sweep;
+mod balls;
 mod glance;
 mod acceptance;
 mod marching;
@@ -22,49 +22,36 @@ use crate::pair::cache::PairCache;
 use crate::pair::start::policy::StartFrom;
 use crate::pair::start::{Guess, start_pair};
 use crate::shape::Placed;
+pub(super) use balls::{BallQuery, Balls};
 use decision::Hint;
 pub use glance::{shrunk, square_between, square_of_rigid, together};
 pub(crate) use level_choice::least_error;
 use level_search::LevelSearched;
-use query::{Attempt, Glances, PairQuery};
-pub(super) use sweep::{BallQuery, Balls, NoBalls, Sweep};
+use query::{Attempt, Glances};
+pub(super) use query::{NoBalls, PairQuery, Sweep};
 
-/// A query of two polyhedra.
+/// A query of two bodies.
 ///
 /// # Errors
 /// As of [`distance`](crate::pair::distance).
 #[inline(always)]
-pub(super) fn ask(
-    query: Query,
-    bodies: &[Placed; 2],
-    cache: &mut PairCache,
-    config: &PairConfig,
-    found: &mut PairAnswer,
-    sweep: &mut impl Sweep,
-) -> Result<()> {
+pub(super) fn ask<S: Sweep>(pair: PairQuery<S>) -> Result<()> {
     // Before there is a query in memory (R6), and before a number is refused, which comparing and printing may trap.
     if !environment::is_default() {
-        return ask_in_default(query, bodies, cache, config, found, sweep);
+        return ask_in_default(pair);
     }
     // Not by `?`, which looks again whether the error in memory is one, and keeps what it needs if not in registers (R3).
-    if !config.is_in_range(query) {
-        return Err(config.first_fault());
+    if !pair.config.is_in_range(pair.query) {
+        return Err(pair.config.first_fault());
     }
-    ask_checked(query, bodies, cache, config, found, sweep)
+    ask_checked(pair)
 }
 
 /// The same in the default environment of floating point, with a configuration whose members are in range.
 #[inline(always)]
-pub(super) fn ask_checked(
-    query: Query,
-    bodies: &[Placed; 2],
-    cache: &mut PairCache,
-    config: &PairConfig,
-    found: &mut PairAnswer,
-    sweep: &mut impl Sweep,
-) -> Result<()> {
-    debug_assert!(environment::is_default() && config.is_in_range(query));
-    answer(query, &mut PairQuery { query, bodies, cache, config, answer: found, sweep }, Glances::Asked)
+pub(super) fn ask_checked<S: Sweep>(mut pair: PairQuery<S>) -> Result<()> {
+    debug_assert!(environment::is_default() && pair.config.is_in_range(pair.query));
+    answer(pair.query, &mut pair, Glances::Asked)
 }
 
 /// The verdict alone, of marching: neither bounding spheres nor the last separating axis are asked.
@@ -93,15 +80,8 @@ pub(super) fn intersection_by_marching(
 /// In the default environment of floating point, as the program has set another.
 #[cold]
 #[inline(never)]
-fn ask_in_default(
-    query: Query,
-    bodies: &[Placed; 2],
-    cache: &mut PairCache,
-    config: &PairConfig,
-    found: &mut PairAnswer,
-    sweep: &mut impl Sweep,
-) -> Result<()> {
-    with_default(|| ask(query, bodies, cache, config, found, sweep))
+fn ask_in_default<S: Sweep>(pair: PairQuery<S>) -> Result<()> {
+    with_default(|| ask(pair))
 }
 
 /// From the first rung. The query is also handed on by value (R6).

@@ -1,6 +1,5 @@
 //! One query: the request, its bodies, and the destination of the answer.
 
-use super::sweep::{PolyhedraDistance, Surfaces, Sweep};
 use crate::answer::{Accuracy, Outcome, PairAnswer, PairConfig, Query, Start};
 use crate::base::error::Result;
 use crate::base::math::{Pose, clamp};
@@ -183,6 +182,82 @@ impl<'a, S: Sweep> PairQuery<'a, S> {
     pub fn set_open_interval(&mut self, interval: &Interval, distance: f64) {
         let tolerance = if self.is_settled_by(interval) { self.max_distance() } else { f64::INFINITY };
         set_interval(self.answer, interval, distance, tolerance);
+    }
+}
+
+/// What is swept over both bodies: [`NoBalls`] or [`Balls`](super::balls::Balls).
+pub(in crate::pair) trait Sweep {
+    /// Beyond what distance of the polyhedra nothing more is asked.
+    fn max_distance(&self, config: &PairConfig) -> f64;
+
+    /// The sum of the radii, rounded down, if balls inside the bodies that overlap are an answer.
+    fn inner_radius(&self, query: Query) -> Option<f64>;
+
+    /// Asks of the polyhedra, as the rungs do that are rarely asked. What is swept over them is put right later.
+    fn of_polyhedra<R>(pair: &mut PairQuery<Self>, ask: impl FnOnce(&mut PairQuery<NoBalls>) -> R) -> R
+    where
+        Self: Sized;
+
+    /// Whether [`Sweep::settle`] has made the answer.
+    fn has_settled(&self) -> bool;
+
+    /// Outcome, interval and best estimate of the bodies, from those of their polyhedra, which are apart. The answer is left alone
+    /// if there are no balls, or where they leave something open.
+    fn settle(
+        &mut self,
+        query: Query,
+        config: &PairConfig,
+        answer: &mut PairAnswer,
+        found: PolyhedraDistance,
+    ) -> Option<Surfaces>;
+}
+
+/// The distance of two polyhedra.
+#[derive(Clone, Copy)]
+pub(in crate::pair) struct PolyhedraDistance {
+    pub interval: Interval,
+    /// The best estimate.
+    pub distance: f64,
+}
+
+/// The part of an answer beside its interval.
+#[derive(Clone, Copy)]
+pub(in crate::pair) enum Surfaces {
+    /// Neither points nor a normal.
+    Nothing,
+    /// The normal alone.
+    Normal,
+    /// Normal, features and witness points, which move by this much along the normal.
+    Points { outwards: Option<[f64; 2]> },
+}
+
+/// The polyhedra are the bodies.
+pub(in crate::pair) struct NoBalls;
+
+impl Sweep for NoBalls {
+    #[inline(always)]
+    fn max_distance(&self, config: &PairConfig) -> f64 {
+        config.max_distance
+    }
+
+    #[inline(always)]
+    fn inner_radius(&self, query: Query) -> Option<f64> {
+        (query == Query::Intersection).then_some(0.0)
+    }
+
+    #[inline(always)]
+    fn of_polyhedra<R>(pair: &mut PairQuery<NoBalls>, ask: impl FnOnce(&mut PairQuery<NoBalls>) -> R) -> R {
+        ask(pair)
+    }
+
+    #[inline(always)]
+    fn has_settled(&self) -> bool {
+        false
+    }
+
+    #[inline(always)]
+    fn settle(&mut self, _: Query, _: &PairConfig, _: &mut PairAnswer, _: PolyhedraDistance) -> Option<Surfaces> {
+        None
     }
 }
 

@@ -1,7 +1,6 @@
 //! Approximate distances by look-ups of both bodies' support functions: an approximate query need not find the nearest features.
 
-use super::query::PairQuery;
-use super::sweep::{NoBalls, Sweep};
+use super::query::{NoBalls, PairQuery, Sweep};
 use crate::answer::{DecidedBy, Levels, Query, Start, Statistics, contact};
 use crate::base::error::Result;
 use crate::base::simd::{self, Kernel, Lanes};

@@ -1,86 +1,9 @@
 //! Balls that are swept over the bodies of a query. The rungs search among the polyhedra; those that mostly answer take the radii
 //! off as they fill the answer. What they leave open is put right once the ladder has ended ([`swept`](crate::pair::swept)).
 
-use super::query::PairQuery;
+use super::query::{NoBalls, PairQuery, PolyhedraDistance, Surfaces, Sweep};
 use crate::answer::{Outcome, PairAnswer, PairConfig, Query, Radii, Side};
 use crate::base::math::clamp;
-use crate::distance::certificate::Interval;
-
-/// What is swept over both bodies: [`NoBalls`] or [`Balls`].
-pub(in crate::pair) trait Sweep {
-    /// Beyond what distance of the polyhedra nothing more is asked.
-    fn max_distance(&self, config: &PairConfig) -> f64;
-
-    /// The sum of the radii, rounded down, if balls inside the bodies that overlap are an answer.
-    fn inner_radius(&self, query: Query) -> Option<f64>;
-
-    /// Asks of the polyhedra, as the rungs do that are rarely asked. What is swept over them is put right later.
-    fn of_polyhedra<R>(pair: &mut PairQuery<Self>, ask: impl FnOnce(&mut PairQuery<NoBalls>) -> R) -> R
-    where
-        Self: Sized;
-
-    /// Whether [`Sweep::settle`] has made the answer.
-    fn has_settled(&self) -> bool;
-
-    /// Outcome, interval and best estimate of the bodies, from those of their polyhedra, which are apart. The answer is left alone
-    /// if there are no balls, or where they leave something open.
-    fn settle(
-        &mut self,
-        query: Query,
-        config: &PairConfig,
-        answer: &mut PairAnswer,
-        found: PolyhedraDistance,
-    ) -> Option<Surfaces>;
-}
-
-/// The distance of two polyhedra.
-#[derive(Clone, Copy)]
-pub(in crate::pair) struct PolyhedraDistance {
-    pub interval: Interval,
-    /// The best estimate.
-    pub distance: f64,
-}
-
-/// The part of an answer beside its interval.
-#[derive(Clone, Copy)]
-pub(in crate::pair) enum Surfaces {
-    /// Neither points nor a normal.
-    Nothing,
-    /// The normal alone.
-    Normal,
-    /// Normal, features and witness points, which move by this much along the normal.
-    Points { outwards: Option<[f64; 2]> },
-}
-
-/// The polyhedra are the bodies.
-pub(in crate::pair) struct NoBalls;
-
-impl Sweep for NoBalls {
-    #[inline(always)]
-    fn max_distance(&self, config: &PairConfig) -> f64 {
-        config.max_distance
-    }
-
-    #[inline(always)]
-    fn inner_radius(&self, query: Query) -> Option<f64> {
-        (query == Query::Intersection).then_some(0.0)
-    }
-
-    #[inline(always)]
-    fn of_polyhedra<R>(pair: &mut PairQuery<NoBalls>, ask: impl FnOnce(&mut PairQuery<NoBalls>) -> R) -> R {
-        ask(pair)
-    }
-
-    #[inline(always)]
-    fn has_settled(&self) -> bool {
-        false
-    }
-
-    #[inline(always)]
-    fn settle(&mut self, _: Query, _: &PairConfig, _: &mut PairAnswer, _: PolyhedraDistance) -> Option<Surfaces> {
-        None
-    }
-}
 
 /// What is asked of bodies with balls.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
