@@ -61,8 +61,11 @@ impl<'a> Gaps<'a> {
         };
         let interval = [point.gap_lower, point.gap_upper];
         let [least, most] = &self.ends;
-        let none = RBig::ZERO;
-        if !(is_in(least, &none, [f64::NEG_INFINITY, interval[1]]) && is_in(most, &none, [interval[0], f64::INFINITY]))
+        // The normal is that of the gap but for rounding, an angle of less than 2^-50. Along it a length is shorter by half the square
+        // of that, which integers would tell from the gap.
+        let short = rational(2_f64.powi(-100)) * (size_of(least) + size_of(most));
+        if !(is_in(least, &short, [f64::NEG_INFINITY, interval[1]])
+            && is_in(most, &short, [interval[0], f64::INFINITY]))
         {
             return Err(format!("no two points have a gap in {interval:?}: {:?}", self.ends.each_ref().map(double)));
         }
@@ -113,6 +116,10 @@ fn compare(a: &RBig, b: &RBig, square: &RBig) -> Ordering {
         (false, true) => Ordering::Greater,
         (true, false) => Ordering::Less,
     }
+}
+
+fn size_of(x: &RBig) -> RBig {
+    if *x < RBig::ZERO { -x } else { x.clone() }
 }
 
 fn double(x: &RBig) -> f64 {
