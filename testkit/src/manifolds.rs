@@ -61,8 +61,8 @@ impl<'a> Gaps<'a> {
         };
         let interval = [point.gap_lower, point.gap_upper];
         let [least, most] = &self.ends;
-        // The normal is that of the gap but for rounding, an angle of less than 2^-50. Along it a length is shorter by half the square
-        // of that, which integers would tell from the gap.
+        // The normal is that of the gap but for rounding, an angle of less than 2^-50. Along it a length is shorter by half the
+        // square of that, which integers would tell from the gap.
         let short = rational(2_f64.powi(-100)) * (size_of(least) + size_of(most));
         if !(is_in(least, &short, [f64::NEG_INFINITY, interval[1]])
             && is_in(most, &short, [interval[0], f64::INFINITY]))
