@@ -25,7 +25,7 @@ pub(in crate::pair) struct Balls<'a> {
     /// Beyond what distance of the bodies nothing more is asked.
     tolerance: f64,
     /// The same of the polyhedra.
-    of_polyhedra: f64,
+    polyhedra_tolerance: f64,
     /// Whether the answer is about the bodies, no longer about their polyhedra.
     pub are_taken_off: bool,
 }
@@ -35,14 +35,14 @@ impl<'a> Balls<'a> {
     #[inline(always)]
     pub fn new(radii: &'a Radii, query: BallQuery, tolerance: f64) -> Balls<'a> {
         debug_assert!(query != BallQuery::Verdict || tolerance == 0.0);
-        Balls { radii, query, tolerance, of_polyhedra: radii.with(tolerance), are_taken_off: false }
+        Balls { radii, query, tolerance, polyhedra_tolerance: radii.with(tolerance), are_taken_off: false }
     }
 }
 
 impl Sweep for Balls<'_> {
     #[inline(always)]
     fn max_distance(&self, _: &PairConfig) -> f64 {
-        self.of_polyhedra
+        self.polyhedra_tolerance
     }
 
     #[inline(always)]
@@ -51,7 +51,7 @@ impl Sweep for Balls<'_> {
     }
 
     #[inline(always)]
-    fn of_polyhedra<R>(pair: &mut PairQuery<Self>, ask: impl FnOnce(&mut PairQuery<NoBalls>) -> R) -> R {
+    fn ask_polyhedra<R>(pair: &mut PairQuery<Self>, ask: impl FnOnce(&mut PairQuery<NoBalls>) -> R) -> R {
         let config = &PairConfig { max_distance: pair.max_distance(), ..*pair.config };
         let &mut PairQuery { query, bodies, ref mut cache, ref mut answer, .. } = pair;
         ask(&mut PairQuery { query, bodies, cache, config, answer, sweep: &mut NoBalls })
@@ -75,7 +75,7 @@ impl Sweep for Balls<'_> {
         if query == Query::Approximate && self.radii.is_too_wide(off, config) {
             return None;
         }
-        let is_beyond = interval.upper > self.of_polyhedra;
+        let is_beyond = interval.upper > self.polyhedra_tolerance;
         let (side, [lower, upper]) = self.radii.side(off, self.tolerance, is_beyond)?;
         let is_within = side == Side::Within;
         // The common point of a contact is made of the nearest points of the polyhedra.

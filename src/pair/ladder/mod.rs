@@ -94,14 +94,14 @@ fn answer<S: Sweep>(query: Query, pair: &mut PairQuery<S>, glances: Glances) -> 
         return Ok(());
     }
     if pair.may_ask_support_maps(query) {
-        return S::of_polyhedra(pair, |pair| answer_by_support_maps(pair, glances));
+        return S::ask_polyhedra(pair, |pair| answer_by_support_maps(pair, glances));
     }
     if pair.may_ask_levels(query) {
-        return S::of_polyhedra(pair, |pair| answer_by_levels(pair, glances));
+        return S::ask_polyhedra(pair, |pair| answer_by_levels(pair, glances));
     }
     match answer_at_once(query, pair, glances) {
         Attempt::Answered => Ok(()),
-        attempt => S::of_polyhedra(pair, |pair| answer_on(pair, attempt)),
+        attempt => S::ask_polyhedra(pair, |pair| answer_on(pair, attempt)),
     }
 }
 
@@ -157,7 +157,7 @@ fn answer_at_once<S: Sweep>(query: Query, pair: &mut PairQuery<S>, glances: Glan
         return Attempt::Answered;
     }
     if pair.cache.holds_enclosure() {
-        return S::of_polyhedra(pair, |pair| pair.look_at_last_proof());
+        return S::ask_polyhedra(pair, |pair| pair.look_at_last_proof());
     }
     pair.march_from_last_features()
 }

@@ -194,7 +194,7 @@ pub(in crate::pair) trait Sweep {
     fn inner_radius(&self, query: Query) -> Option<f64>;
 
     /// Asks of the polyhedra, as the rungs do that are rarely asked. What is swept over them is put right later.
-    fn of_polyhedra<R>(pair: &mut PairQuery<Self>, ask: impl FnOnce(&mut PairQuery<NoBalls>) -> R) -> R
+    fn ask_polyhedra<R>(pair: &mut PairQuery<Self>, ask: impl FnOnce(&mut PairQuery<NoBalls>) -> R) -> R
     where
         Self: Sized;
 
@@ -246,7 +246,7 @@ impl Sweep for NoBalls {
     }
 
     #[inline(always)]
-    fn of_polyhedra<R>(pair: &mut PairQuery<NoBalls>, ask: impl FnOnce(&mut PairQuery<NoBalls>) -> R) -> R {
+    fn ask_polyhedra<R>(pair: &mut PairQuery<NoBalls>, ask: impl FnOnce(&mut PairQuery<NoBalls>) -> R) -> R {
         ask(pair)
     }
 
