@@ -50,7 +50,7 @@ pub fn ground_cast(body: Moving, ground: PlacedGround, config: &CastConfig) -> R
             lower: config.time_end,
             clearance: f64::INFINITY,
             queries: 0,
-            bounds: None,
+            bounds: ground.ground.layout().bounds(),
             part_end: config.time_end,
             stretch: 1.0,
         };
@@ -62,14 +62,13 @@ pub fn ground_cast(body: Moving, ground: PlacedGround, config: &CastConfig) -> R
             let beyond = ((off + config.max_distance) / reach.stretch).next_up();
             let here = reach.bounds.grown(beyond);
             if let Some((from, there)) = before.replace((time, here)) {
-                let bounds = here.union(&there);
                 first.stretch = reach.stretch;
-                first.bounds = Some(bounds);
+                first.bounds = here.union(&there);
                 first.part_end = time;
                 // A contact where a part ends is proved a little later.
                 let end = (time + LONGER * config.time_tolerance).min(config.time_end);
                 (first.config.time_begin, first.config.time_end) = (from, end);
-                ground.ground.tree().walk(&bounds, &mut first)?;
+                ground.ground.layout().walk(&mut first)?;
                 if first.found.answer.outcome != CastOutcome::Free {
                     break;
                 }
@@ -96,13 +95,17 @@ struct FirstTouch<'a> {
     clearance: f64,
     queries: u32,
     /// What the body sweeps over in the part, grown by `max_distance`, in the frame of the ground.
-    bounds: Option<NodeBounds>,
+    bounds: NodeBounds,
     /// What begins after it is the next part's to find, unless it is the last.
     part_end: f64,
     stretch: f64,
 }
 
 impl Visit for FirstTouch<'_> {
+    fn key(&self, bounds: &NodeBounds) -> f64 {
+        bounds.gap(&self.bounds)
+    }
+
     fn goes_to(&mut self, _: &NodeBounds, gap: f64) -> bool {
         if gap > 0.0 {
             self.clearance = self.clearance.min(gap * self.stretch);
@@ -114,8 +117,7 @@ impl Visit for FirstTouch<'_> {
     fn triangle(&mut self, triangle: u32) -> Result<bool> {
         let own = self.ground.ground.triangle(triangle);
         let bounds = NodeBounds::of(&own.corners);
-        let gap = self.bounds.map_or(0.0, |swept| bounds.gap(&swept));
-        if !self.goes_to(&bounds, gap) {
+        if !self.goes_to(&bounds, self.key(&bounds)) {
             return Ok(true);
         }
         let mut answer = CastAnswer::default();

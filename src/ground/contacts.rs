@@ -94,7 +94,7 @@ pub(crate) fn add_contacts(
             missed: None,
         };
         let box_near = bounds.grown(enough);
-        ground.ground.tree().overlapping(&box_near, |triangle| meeting.visit(triangle))?;
+        ground.ground.layout().overlapping(&box_near, |triangle| meeting.visit(triangle))?;
         meeting.keep_missed()?;
         meeting.push_out()?;
         meeting.leave_out_needless();
@@ -141,7 +141,7 @@ impl Meeting<'_> {
             TriangleFinding::Beyond => return Ok(()),
             TriangleFinding::Nearest(nearest) => {
                 let normal = self.reach.local_normal(&nearest.normal.into());
-                if self.ground.ground.allows(triangle, &normal) {
+                if self.ground.ground.allows(&placed.own, &normal) {
                     self.touch(&placed, &nearest, true, None)?;
                     return Ok(());
                 }

@@ -172,7 +172,7 @@ mod tests {
                     for _ in 0..50 {
                         let way = random.direction() * random.uniform(0.0, 1.0);
                         let normal = (triangle.up + way).normalize();
-                        if !near.ground.allows(triangle.own.label, &near.reach.local_normal(&normal)) {
+                        if !near.ground.allows(&triangle.own, &near.reach.local_normal(&normal)) {
                             continue;
                         }
                         let vertex = near.vertices.lowest(&normal, 0);

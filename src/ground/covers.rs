@@ -1,8 +1,9 @@
 //! What lies on the rims of a ground: where triangles overlap, or a side meets the middle of another (a T-junction), or two grounds
 //! were made one along a seam, a side has no twin and still the surface does not end there.
 
-use super::tree::{GroundTree, NodeBounds, Visit};
-use super::triangles::{GroundTriangles, NONE, next, previous};
+use super::layout::GroundLayout;
+use super::tree::{NodeBounds, Visit};
+use super::triangles::{NONE, previous};
 use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::{copied, push};
@@ -20,28 +21,26 @@ pub(super) struct Covers {
 impl Covers {
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn new(triangles: &GroundTriangles, tree: &GroundTree) -> Result<Covers> {
+    pub fn new(layout: &GroundLayout) -> Result<Covers> {
         let (mut covers, mut around) = (Covers::default(), Vec::new());
-        for half_edge in 0..3 * triangles.records.len() as u32 {
-            if triangles.twin(half_edge) != NONE || triangles.normal(half_edge / 3) == Vector::zeros() {
+        for half_edge in 0..3 * layout.triangle_count() as u32 {
+            if layout.twin(half_edge) != NONE || layout.is_left_out(half_edge / 3) {
                 continue;
             }
-            let [tail, head] = [triangles.tail(half_edge), triangles.tail(next(half_edge))];
+            let [tail, head] = layout.ends(half_edge);
             let near = NEAR * (head - tail).norm();
             // Two places on the side, in no simple ratio.
             for part in [0.4142, 0.6180] {
                 let point = tail + (head - tail) * part;
-                Holding { triangles, key: half_edge, own: &[half_edge / 3], point, near, found: &mut covers.sides }
-                    .find(tree)?;
+                Holding { layout, half_edge, own: &[half_edge / 3], point, near, found: &mut covers.sides }.find()?;
             }
             around.clear();
             let mut at = half_edge;
             while at != NONE {
                 push(&mut around, at / 3)?;
-                at = triangles.twin(previous(at));
+                at = layout.twin(previous(at));
             }
-            Holding { triangles, key: half_edge, own: &around, point: tail, near, found: &mut covers.corners }
-                .find(tree)?;
+            Holding { layout, half_edge, own: &around, point: tail, near, found: &mut covers.corners }.find()?;
         }
         covers.sides.sort_unstable();
         covers.sides.dedup();
@@ -76,8 +75,8 @@ fn those_of(all: &[(u32, u32)], half_edge: u32) -> &[(u32, u32)] {
 
 /// A search for the triangles on which a point lies.
 struct Holding<'a> {
-    triangles: &'a GroundTriangles,
-    key: u32,
+    layout: &'a GroundLayout,
+    half_edge: u32,
     /// Those that do not count.
     own: &'a [u32],
     point: Vector,
@@ -86,14 +85,14 @@ struct Holding<'a> {
 }
 
 impl Holding<'_> {
-    fn find(mut self, tree: &GroundTree) -> Result<()> {
-        tree.walk(&NodeBounds { lower: self.point, upper: self.point }, &mut self)
+    fn find(mut self) -> Result<()> {
+        self.layout.walk(&mut self)
     }
 
     fn holds(&self, triangle: u32) -> bool {
-        let normal = self.triangles.normal(triangle);
+        let normal = self.layout.normal(triangle);
         (0..3).all(|k| {
-            let [tail, head] = [3 * triangle + k, next(3 * triangle + k)].map(|corner| self.triangles.tail(corner));
+            let [tail, head] = self.layout.ends(3 * triangle + k);
             let (to, inward) = (self.point - tail, normal.cross(&(head - tail)));
             normal.dot(&to).abs() <= self.near && inward.dot(&to) >= -self.near * inward.norm()
         })
@@ -101,13 +100,17 @@ impl Holding<'_> {
 }
 
 impl Visit for Holding<'_> {
+    fn key(&self, bounds: &NodeBounds) -> f64 {
+        bounds.gap(&NodeBounds { lower: self.point, upper: self.point })
+    }
+
     fn goes_to(&mut self, _: &NodeBounds, gap: f64) -> bool {
         gap <= self.near
     }
 
     fn triangle(&mut self, triangle: u32) -> Result<bool> {
         if !self.own.contains(&triangle) && self.holds(triangle) {
-            push(self.found, (self.key, triangle))?;
+            push(self.found, (self.half_edge, triangle))?;
         }
         Ok(true)
     }

@@ -45,7 +45,6 @@ pub fn ground_distance(
         let is_verdict = query == Query::Intersection && config.max_distance == f64::INFINITY;
         let count = ground.ground.triangle_count() as u32;
         let reach = GroundReach::new(body, ground)?;
-        let bounds = reach.bounds;
         let unsaid = PairAnswer { outcome: Outcome::Separated, upper: f64::INFINITY, ..PairAnswer::UNSAID };
         let mut least = LeastToGround {
             ask,
@@ -59,7 +58,7 @@ pub fn ground_distance(
             is_verdict,
             reach,
         };
-        ground.ground.tree().walk(&bounds, &mut least)?;
+        ground.ground.layout().walk(&mut least)?;
         Ok(least.answer())
     })
 }
@@ -83,6 +82,10 @@ struct LeastToGround<'a> {
 }
 
 impl Visit for LeastToGround<'_> {
+    fn key(&self, bounds: &NodeBounds) -> f64 {
+        bounds.gap(&self.reach.bounds)
+    }
+
     fn goes_to(&mut self, bounds: &NodeBounds, gap: f64) -> bool {
         let mut gap = gap * self.reach.stretch;
         // From far away, all triangles are about as far.
@@ -99,7 +102,7 @@ impl Visit for LeastToGround<'_> {
     fn triangle(&mut self, triangle: u32) -> Result<bool> {
         let own = self.ground.ground.triangle(triangle);
         let bounds = NodeBounds::of(&own.corners);
-        if !self.goes_to(&bounds, bounds.gap(&self.reach.bounds)) {
+        if !self.goes_to(&bounds, self.key(&bounds)) {
             return Ok(true);
         }
         let mut answer = PairAnswer::default();

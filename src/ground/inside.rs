@@ -19,14 +19,14 @@ pub(super) fn triangle_over(ground: &Ground, point: &Vector) -> Result<Option<u3
         triangle: NONE,
         is_behind: false,
     };
-    let bounds = ground.tree().bounds();
+    let bounds = ground.layout().bounds();
     // Inside of what is closed is inside of the box.
     if ground.thickness() == f64::INFINITY
         && (point.inf(&bounds.lower) != bounds.lower || point.sup(&bounds.upper) != bounds.upper)
     {
         return Ok(None);
     }
-    ground.tree().walk(&NodeBounds { lower: *point, upper: *point }, &mut nearest)?;
+    ground.layout().walk(&mut nearest)?;
     Ok(nearest.is_behind.then_some(nearest.triangle))
 }
 
@@ -40,6 +40,10 @@ struct NearestSurface<'a> {
 }
 
 impl Visit for NearestSurface<'_> {
+    fn key(&self, bounds: &NodeBounds) -> f64 {
+        bounds.gap(&NodeBounds { lower: *self.point, upper: *self.point })
+    }
+
     fn goes_to(&mut self, _: &NodeBounds, gap: f64) -> bool {
         gap * gap <= self.square * (1.0 + AS_NEAR)
     }

@@ -6,6 +6,8 @@
 
 mod tree;
 mod triangles;
+mod grid;
+mod layout;
 mod covers;
 mod marks;
 mod surface;

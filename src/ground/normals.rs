@@ -11,6 +11,7 @@ use super::triangles::{NONE, next, previous};
 use crate::base::error::Result;
 use crate::base::math::{Vector, is_unit};
 use crate::base::memory::filled;
+use crate::shape::Triangle;
 
 /// How far, as an angle, a normal may be out of the cone and count as in it, 2⁻²⁰: above what rounding to float does to the normals
 /// of a plane, and far below what a simulation feels.
@@ -19,15 +20,13 @@ pub(super) const TILT: f64 = 1.0 / (1 << 20) as f64;
 impl Ground {
     /// Whether a contact may have a normal, a unit vector in the frame of the ground. The caller knows that no point of the
     /// triangle is farther out along it than the point that is touched.
-    pub(super) fn allows(&self, triangle: u32, normal: &Vector) -> bool {
+    pub(super) fn allows(&self, triangle: &Triangle, normal: &Vector) -> bool {
         debug_assert!(is_unit(normal));
-        debug_assert!(is_unit(normal));
-        let own = self.normal(triangle);
+        let Triangle { corners, normal: own, label, .. } = triangle;
         if (normal - own).norm() <= TILT {
             return true;
         }
-        let first = 3 * triangle;
-        let corners = [0, 1, 2].map(|k| self.tail(first + k));
+        let first = 3 * label;
         let height = |k: usize| normal.dot(&(corners[k] - corners[0]));
         let farthest = (1..3).fold(0, |best, k| if height(k) > height(best) { k } else { best });
         let is_below = |k: &usize| {
@@ -100,6 +99,10 @@ impl Ground {
     /// None of the edges around the vertex at which a half-edge begins leads farther out.
     pub(super) fn is_normal_at_vertex(&self, half_edge: u32, normal: &Vector) -> bool {
         debug_assert!(is_unit(normal));
+        if let Some(ways) = self.layout().ways_around(half_edge) {
+            // Down from a peak; along a normal that is down, up from the bottom of a pit.
+            return normal.z > 0.0 && ways.iter().all(|way| normal.dot(way) <= TILT * way.norm());
+        }
         let vertex = self.tail(half_edge);
         // The edge nearest to leading out, as the sine of its angle and a half-edge on it.
         let mut nearest = (f64::NEG_INFINITY, half_edge);
@@ -152,7 +155,7 @@ impl Ground {
     /// [`Error::Memory`](crate::base::error::Error::Memory).
     pub(super) fn find_marks(&self) -> Result<Vec<Marks>> {
         let mut all = filled(Marks::NONE, self.triangle_count())?;
-        let is_there = |triangle: usize| self.normal(triangle as u32) != Vector::zeros();
+        let is_there = |triangle: usize| !self.layout().is_left_out(triangle as u32);
         for (triangle, marks) in all.iter_mut().enumerate().filter(|(triangle, _)| is_there(*triangle)) {
             let has_far = |side: &usize| self.far_normal((3 * triangle + side) as u32).is_some();
             (0..3).filter(has_far).for_each(|side| marks.set_far_normal(side));
@@ -214,7 +217,7 @@ mod tests {
                     assert!(!is_there || near.triangle.marks.may_be_peak(k as usize));
                     peaks += usize::from(is_there);
                 }
-                if near.ground.allows(own.label, &normal) {
+                if near.ground.allows(&own, &normal) {
                     let cosine = normal.dot(&own.normal);
                     let tan_half = ((1.0 - cosine) / (1.0 + cosine)).sqrt();
                     assert!(near.triangle.marks.tan_half().is_none_or(|most| tan_half <= most));

@@ -31,7 +31,6 @@ impl PlacedGround<'_> {
             ray.check()?;
             self.pose.check()?;
             let slabs = BoxSlabs::new(self, ray)?;
-            let start = NodeBounds { lower: slabs.point, upper: slabs.point };
             let miss = RayAnswer { outcome: RayOutcome::Miss, ..RayAnswer::default() };
             let found = GroundRayAnswer { answer: miss, triangle: self.ground.triangle_count() as u32 };
             let mut first = FirstRayHit {
@@ -43,7 +42,7 @@ impl PlacedGround<'_> {
                 entry: f64::INFINITY,
                 enough: f64::INFINITY,
             };
-            self.ground.tree().walk(&start, &mut first)?;
+            self.ground.layout().walk(&mut first)?;
             if first.found.answer.outcome == RayOutcome::Hit {
                 first.found.answer.entry[0] = first.entry;
             }
@@ -67,14 +66,18 @@ struct FirstRayHit<'a> {
 }
 
 impl Visit for FirstRayHit<'_> {
-    fn goes_to(&mut self, bounds: &NodeBounds, _: f64) -> bool {
-        let entry = self.slabs.entry(bounds);
-        entry <= self.enough && entry < f64::INFINITY
+    fn key(&self, bounds: &NodeBounds) -> f64 {
+        self.slabs.entry(bounds)
+    }
+
+    fn goes_to(&mut self, _: &NodeBounds, entry: f64) -> bool {
+        entry <= self.enough
     }
 
     fn triangle(&mut self, triangle: u32) -> Result<bool> {
         let own = self.ground.ground.triangle(triangle);
-        if !self.goes_to(&NodeBounds::of(&own.corners), 0.0) {
+        let entry = self.slabs.entry(&NodeBounds::of(&own.corners));
+        if entry > self.enough || entry == f64::INFINITY {
             return Ok(true);
         }
         let answer = match self.rounded(&own) {
@@ -194,7 +197,7 @@ impl BoxSlabs {
             return Err(Error::Bug("a rotation that was accepted has no inverse".into()));
         };
         let (origin, translation) = (ray.origin(), ground.pose.translation());
-        let NodeBounds { lower, upper } = ground.ground.tree().bounds();
+        let NodeBounds { lower, upper } = ground.ground.layout().bounds();
         let size = origin.lp_norm(1) + translation.lp_norm(1) + lower.lp_norm(1) + upper.lp_norm(1);
         let slack = 8.0 * ROUNDING * size + f64::MIN_POSITIVE;
         let is_plain = PLAIN.contains(&ray.direction().amax()) && slack.is_finite();

@@ -23,7 +23,7 @@ const RIGID: f64 = 16.0 * UNIT_ROUNDOFF;
 impl PlacedGround<'_> {
     /// A box in the world around all that the ground acts on, a little larger than it need be: its least and its greatest corner.
     pub(crate) fn world_box(&self) -> [Vector; 2] {
-        let NodeBounds { lower, upper } = *self.ground.tree().bounds();
+        let NodeBounds { lower, upper } = self.ground.layout().bounds();
         let (middle, half) = (0.5 * lower + 0.5 * upper, 0.5 * upper - 0.5 * lower);
         let at = self.pose.transform(&middle);
         let size = self.pose.translation().lp_norm(1) + 2.0 * (middle.lp_norm(1) + half.lp_norm(1));
@@ -94,7 +94,7 @@ impl GroundReach {
             + 2.0 * (polyhedron.centre.lp_norm(1) + middle.lp_norm(1) + half.lp_norm(1));
         let stretch = least_stretch(ground.pose);
         let beyond = body.shape.swept_radius() / stretch + ROUNDING * size;
-        let (axes, ends) = (inverse * pose.rotation(), ground.ground.tree().bounds());
+        let (axes, ends) = (inverse * pose.rotation(), ground.ground.layout().bounds());
         let own = OwnReach {
             middle: at,
             axes,

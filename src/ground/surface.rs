@@ -4,14 +4,14 @@ use std::sync::Arc;
 
 use super::PlacedGround;
 use super::covers::Covers;
+use super::grid::Grid;
+use super::layout::GroundLayout;
 use super::marks::Marks;
-use super::tree::{GroundTree, NodeBounds};
-use super::triangles::{GroundTriangles, NONE, TriangleRecord, find_twins};
+use super::triangles::Soup;
 use crate::base::error::{Error, Result, check_range};
 use crate::base::mark::Mark;
 use crate::base::math::Vector;
 use crate::base::memory::{collected, copied, in_integers, with_capacity};
-use crate::base::normal::{area_vector, normal_of};
 use crate::base::simd::environment::with_default;
 use crate::body::polyhedron::{LARGEST, SMALLEST};
 use crate::shape::{Triangle, TriangleShape};
@@ -23,8 +23,7 @@ const MOST_TRIANGLES: usize = 1 << 30;
 /// counter-clockwise.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Ground {
-    triangles: GroundTriangles,
-    tree: GroundTree,
+    layout: GroundLayout,
     covers: Covers,
     marks: Vec<Marks>,
     thickness: f64,
@@ -40,7 +39,7 @@ pub struct HeightGrid<'a> {
     pub rows: usize,
     /// Along x, at least 2.
     pub columns: usize,
-    /// From column to column and from row to row, more than 0.
+    /// From column to column and from row to row, at least 2⁻¹⁹⁹.
     pub spacing: [f64; 2],
     /// Row by row, `rows · columns` of them; a NaN is a hole.
     pub heights: &'a [f64],
@@ -73,7 +72,10 @@ impl Ground {
             )));
         }
         // The sum with +0 turns −0 into 0.
-        let build = || Ground::new(collected(vertices.iter().map(|vertex| vertex.add_scalar(0.0)))?, triangles);
+        let build = || {
+            let vertices = collected(vertices.iter().map(|vertex| vertex.add_scalar(0.0)))?;
+            Ground::new(GroundLayout::Soup(Soup::new(vertices, triangles)?))
+        };
         in_integers(|| with_default(build))?
     }
 
@@ -82,7 +84,7 @@ impl Ground {
     /// 1, with c = i·(columns − 1) + j of the cell's least corner. A cell with a hole at a corner is a hole.
     ///
     /// # Errors
-    /// [`Error::Argument`]: fewer than two rows or columns, a spacing that is not positive and finite, not as many heights as
+    /// [`Error::Argument`]: fewer than two rows or columns, a spacing that is not finite or less than 2⁻¹⁹⁹, not as many heights as
     /// vertices. Else as [`Ground::from_triangles`].
     pub fn from_heights(grid: &HeightGrid) -> Result<Ground> {
         in_integers(|| with_default(|| Ground::of_heights(grid)))?
@@ -100,47 +102,37 @@ impl Ground {
         if heights.len() > MOST_TRIANGLES / 2 {
             return Err(Error::Limit(format!("a grid of {} heights: there may be 2^29", heights.len())));
         }
-        check_range("spacing[0]", spacing[0], f64::MIN_POSITIVE..=LARGEST)?;
-        check_range("spacing[1]", spacing[1], f64::MIN_POSITIVE..=LARGEST)?;
-        let mut vertices = with_capacity(heights.len())?;
-        for (at, &height) in heights.iter().enumerate() {
-            let [x, y] = [(at % columns) as f64 * spacing[0], (at / columns) as f64 * spacing[1]];
-            vertices.push(Vector::new(x, y, if height.is_nan() { 0.0 } else { height }));
+        check_range("spacing[0]", spacing[0], 2.0 * SMALLEST..=LARGEST)?;
+        check_range("spacing[1]", spacing[1], 2.0 * SMALLEST..=LARGEST)?;
+        for (name, count, step) in [("column", columns, spacing[0]), ("row", rows, spacing[1])] {
+            let last = (count - 1) as f64 * step;
+            if !(last <= LARGEST) {
+                return Err(Error::Mesh(format!(
+                    "{name} {} of the ground is at {last}: coordinates must be at most 2^200",
+                    count - 1
+                )));
+            }
         }
-        let mut triangles = with_capacity(2 * (rows - 1) * (columns - 1))?;
-        for least in (0..rows - 1).flat_map(|i| (0..columns - 1).map(move |j| i * columns + j)) {
-            let [a, b, c, d] = [least, least + 1, least + columns + 1, least + columns];
-            let is_hole = [a, b, c, d].iter().any(|v| heights[*v].is_nan());
-            // Left out, as a triangle without area.
-            let cell = if is_hole { [[a; 3]; 2] } else { [[a, b, c], [a, c, d]] };
-            triangles.extend(cell.map(|corners| corners.map(|v| v as u32)));
+        if let Some(at) = heights.iter().position(|height| !height.is_nan() && height.abs() > LARGEST) {
+            return Err(Error::Mesh(format!(
+                "height {at} of the ground is {}: heights must be at most 2^200, and NaN for a hole",
+                heights[at]
+            )));
         }
-        Ground::from_triangles(&vertices, &triangles)
+        let grid = Grid::new(columns, spacing, collected(heights.iter().map(|height| height + 0.0))?)?;
+        if grid.is_empty() {
+            return Err(Error::Mesh(format!(
+                "none of the {} cells of the ground has four heights",
+                grid.triangle_count() / 2
+            )));
+        }
+        Ground::new(GroundLayout::Grid(grid))
     }
 
-    fn new(vertices: Vec<Vector>, triangles: &[[u32; 3]]) -> Result<Ground> {
-        debug_assert!(triangles.as_flattened().iter().all(|v| (*v as usize) < vertices.len()));
-        let mut records = with_capacity(triangles.len())?;
-        for &corners in triangles {
-            let [a, b, c] = corners.map(|v| vertices[v as usize]);
-            let extent = (b - a).amax().max((c - a).amax());
-            let is_left_out = extent < 2.0 * SMALLEST;
-            let normal = if is_left_out { Vector::zeros() } else { normal_of(&area_vector(&a, &b, &c), &a, &b, &c) };
-            records.push(TriangleRecord { corners, twins: [NONE; 3], normal });
-        }
-        find_twins(&vertices, &mut records)?;
-        let boxes = records.iter().map(|record| {
-            let [a, b, c] = record.corners.map(|v| vertices[v as usize]);
-            (record.normal != Vector::zeros()).then(|| NodeBounds::of(&[a, b, c]))
-        });
-        let Some(tree) = GroundTree::new(boxes)? else {
-            return Err(Error::Mesh(format!("none of the {} triangles of the ground has an area", records.len())));
-        };
-        let triangles = GroundTriangles { vertices, records };
-        let covers = Covers::new(&triangles, &tree)?;
+    fn new(layout: GroundLayout) -> Result<Ground> {
+        let covers = Covers::new(&layout)?;
         let shape = Arc::new(TriangleShape::new()?);
-        let mut ground =
-            Ground { triangles, tree, covers, marks: Vec::new(), thickness: 0.0, shape, mark: Mark::new() };
+        let mut ground = Ground { layout, covers, marks: Vec::new(), thickness: 0.0, shape, mark: Mark::new() };
         ground.marks = ground.find_marks()?;
         Ok(ground)
     }
@@ -165,9 +157,9 @@ impl Ground {
             for PlacedGround { ground, pose } in grounds {
                 pose.check()?;
                 let first = vertices.len() as u32;
-                vertices.extend(ground.triangles.vertices.iter().map(|vertex| pose.transform(vertex)));
-                triangles
-                    .extend(ground.triangles.records.iter().map(|record| record.corners.map(|corner| first + corner)));
+                let layout = &ground.layout;
+                vertices.extend((0..ground.vertex_count() as u32).map(|v| pose.transform(&layout.vertex(v))));
+                triangles.extend((0..ground.triangle_count() as u32).map(|t| layout.corners(t).map(|v| first + v)));
             }
             Ok(())
         })?;
@@ -190,9 +182,9 @@ impl Ground {
     /// # Errors
     /// [`Error::Memory`].
     pub fn try_clone(&self) -> Result<Ground> {
-        let (triangles, tree, covers) = (self.triangles.try_clone()?, self.tree.try_clone()?, self.covers.try_clone()?);
+        let (layout, covers) = (self.layout.try_clone()?, self.covers.try_clone()?);
         let (marks, shape) = (copied(&self.marks)?, self.shape.clone());
-        Ok(Ground { triangles, tree, covers, marks, thickness: self.thickness, shape, mark: Mark::new() })
+        Ok(Ground { layout, covers, marks, thickness: self.thickness, shape, mark: Mark::new() })
     }
 
     /// How far it pushes out what is behind its triangles.
@@ -202,39 +194,35 @@ impl Ground {
 
     /// How many triangles it has, those included that are left out.
     pub fn triangle_count(&self) -> usize {
-        self.triangles.records.len()
+        self.layout.triangle_count()
     }
 
     /// How many vertices it has.
     pub fn vertex_count(&self) -> usize {
-        self.triangles.vertices.len()
+        self.layout.vertex_count()
     }
 
-    /// Memory held, in bytes: less than 8,192, and 200 for each triangle where there are no more vertices than triangles.
+    /// Memory held, in bytes: less than 8,192, and 64 for each triangle where there are half as many vertices, 12 for each of a grid.
     pub fn bytes(&self) -> usize {
-        let Ground { triangles, tree, covers, marks, shape, .. } = self;
-        let lists = triangles.heap_bytes() + tree.heap_bytes() + covers.heap_bytes() + size_of_val(&marks[..]);
+        let Ground { layout, covers, marks, shape, .. } = self;
+        let lists = layout.heap_bytes() + covers.heap_bytes() + size_of_val(&marks[..]);
         size_of::<Ground>() + shape.shown().bytes() + lists
     }
 
-    pub(super) fn tree(&self) -> &GroundTree {
-        &self.tree
+    /// The triangles.
+    pub(super) fn layout(&self) -> &GroundLayout {
+        &self.layout
     }
 
     /// A triangle, as the pair layer takes it.
     pub(super) fn triangle(&self, triangle: u32) -> Triangle {
-        let TriangleRecord { corners, normal, .. } = self.triangles.records[triangle as usize];
-        Triangle {
-            corners: corners.map(|v| self.triangles.vertices[v as usize]),
-            normal,
-            labels: corners,
-            label: triangle,
-        }
+        let (corners, labels) = (self.layout.points(triangle), self.layout.corners(triangle));
+        Triangle { corners, normal: self.layout.normal(triangle), labels, label: triangle }
     }
 
     /// The unit normal of a triangle, out of its front.
     pub(super) fn normal(&self, triangle: u32) -> Vector {
-        self.triangles.normal(triangle)
+        self.layout.normal(triangle)
     }
 
     pub(super) fn marks(&self, triangle: u32) -> Marks {
@@ -248,7 +236,7 @@ impl Ground {
 
     /// Start of a half-edge.
     pub(super) fn tail(&self, half_edge: u32) -> Vector {
-        self.triangles.tail(half_edge)
+        self.layout.tail(half_edge)
     }
 
     /// The triangles that a side without a twin lies on.
@@ -263,6 +251,6 @@ impl Ground {
 
     /// The half-edge on the other side, or [`NONE`].
     pub(super) fn twin(&self, half_edge: u32) -> u32 {
-        self.triangles.twin(half_edge)
+        self.layout.twin(half_edge)
     }
 }
