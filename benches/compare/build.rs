@@ -33,7 +33,7 @@ fn main() {
     Shim { peer: "coal", sources: &["src/peers/coal.cpp"], flags: coal }.link(cc::Build::new().cpp(true).std("c++17"));
     let mujoco = packages.as_deref().and_then(mujoco);
     Shim { peer: "mujoco", sources: &["src/peers/mujoco.c"], flags: mujoco }.link(cc::Build::new().std("c99"));
-    Shim { peer: "jolt", sources: &["src/peers/jolt.cpp"], flags: jolt() }
+    Shim { peer: "jolt", sources: &["src/peers/jolt.cpp", "src/ground/jolt.cpp"], flags: jolt() }
         .link(cc::Build::new().cpp(true).std("c++17"));
     for header in ["src/peers/bullet.h", "src/peers/hull.h", "src/peers/peer.h", "src/cast/peer.h"] {
         println!("cargo:rerun-if-changed={header}");

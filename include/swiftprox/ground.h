@@ -102,7 +102,7 @@ swiftprox_status swiftprox_ground_create_from_triangles(const double *vertices,
  * x, triangle 2 * c + 1 the other.
  *
  * On failure `*ground` is null. SWIFTPROX_ERROR_INVALID_ARGUMENT: fewer than two rows or columns, or a spacing that is not
- * positive and finite. SWIFTPROX_ERROR_MESH: a coordinate is infinite or beyond 2^200, or all cells are holes.
+ * finite and at least 2^-199. SWIFTPROX_ERROR_MESH: a coordinate is infinite or beyond 2^200, or all cells are holes.
  * SWIFTPROX_ERROR_LIMIT: more than 2^29 heights.
  *
  * Experimental.

@@ -2,7 +2,7 @@
 
 use super::PlacedGround;
 use super::reach::GroundReach;
-use super::tree::{NodeBounds, Visit};
+use super::tree::{FOUR, FourBoxes, NodeBounds, Visit};
 use crate::base::error::{Error, Result};
 use crate::base::simd::environment::with_default;
 use crate::motion::{CastAnswer, CastConfig, CastOutcome, Motion, Moving, PartEnd, Swept, cast};
@@ -102,8 +102,8 @@ struct FirstTouch<'a> {
 }
 
 impl Visit for FirstTouch<'_> {
-    fn key(&self, bounds: &NodeBounds) -> f64 {
-        bounds.gap(&self.bounds)
+    fn keys(&self, boxes: &FourBoxes) -> [f64; FOUR] {
+        self.bounds.gaps(boxes)
     }
 
     fn goes_to(&mut self, _: &NodeBounds, gap: f64) -> bool {
@@ -117,7 +117,7 @@ impl Visit for FirstTouch<'_> {
     fn triangle(&mut self, triangle: u32) -> Result<bool> {
         let own = self.ground.ground.triangle(triangle);
         let bounds = NodeBounds::of(&own.corners);
-        if !self.goes_to(&bounds, self.key(&bounds)) {
+        if !self.goes_to(&bounds, bounds.gap(&self.bounds)) {
             return Ok(true);
         }
         let mut answer = CastAnswer::default();

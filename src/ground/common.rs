@@ -30,6 +30,8 @@ pub(super) struct Meet<'a> {
     pub contact: &'a SignedDistance,
     /// Whether the contact's own points are on both.
     pub is_over: bool,
+    /// Whether corners and sides of the triangle make points, too.
+    pub keeps_inner: bool,
     pub max_distance: f64,
 }
 
@@ -59,7 +61,8 @@ pub(super) fn add_common(meet: &Meet, points: &mut Vec<ManifoldPoint>) -> Result
         projected.add_points(meet, &normal, &down, cosines, points)?;
         // The patches most parallel to the normal need not hold the contact's own points.
         let deep = meet.contact.upper + meet.triangle.error;
-        if meet.is_over && points.len() > first && points[first..].iter().all(|point| point.gap_lower > deep) {
+        let is_missed = points.len() > first && points[first..].iter().all(|point| point.gap_lower > deep);
+        if meet.is_over && meet.keeps_inner && is_missed {
             push(points, witness(meet.contact))?;
         }
     }
@@ -179,6 +182,9 @@ impl<'a> Projected<'a> {
                 push(points, point([local, meet.reach.point(&on)], [world, on], [gap, off], [feature, on_triangle]))?;
             }
         }
+        if !meet.keeps_inner {
+            return Ok(());
+        }
         let from = meet.body.point(self.vertices[0]);
         let gap_at = |on: &Vector| {
             let height = down.dot(&(on - from));
@@ -278,6 +284,7 @@ mod tests {
                 triangle,
                 contact: &contact,
                 is_over: true,
+                keeps_inner: true,
                 max_distance,
             };
             let mut points = Vec::new();

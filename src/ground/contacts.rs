@@ -5,6 +5,7 @@ use super::allowed::NormalSearch;
 use super::answer::GroundContacts;
 use super::common::{Meet, add_common};
 use super::corner::{FaceVerdict, behind_face};
+use super::footing::{Footing, Stand};
 use super::grouping::{group, least_gap};
 use super::inside::triangle_over;
 use super::lowest::{Limit, Lowest, PlacedTriangle, inside_by};
@@ -18,7 +19,9 @@ use crate::base::math::Vector;
 use crate::base::memory::push;
 use crate::base::simd::environment::with_default;
 use crate::manifold::{Manifold, ManifoldConfig, ManifoldPoint, add_points, manifold_along, witness};
-use crate::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed, SignedDistance, SignedDistanceCache};
+use crate::pair::{
+    self, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Placed, SignedDistance, SignedDistanceCache,
+};
 use crate::shape::{Triangle, TriangleShape};
 
 /// Finds the contacts of a body, which is object 1, with a ground that it meets or is up to `config.max_distance` apart from.
@@ -28,7 +31,8 @@ use crate::shape::{Triangle, TriangleShape};
 /// not by more than the [thickness](crate::ground::Ground::with_thickness) of the ground.
 /// The normal of a contact is the one along which the body and the triangle are nearest, or overlap least, of those in the normal
 /// cone of the surface at the touched point. So no contact holds up a body that slides over a flat or concave edge, and none is
-/// much deeper than the body is in. Contacts with one normal are one, however many triangles they are on.
+/// much deeper than the body is in. Contacts with one normal are one, however many triangles they are on; where each neighbour of a
+/// triangle is in its plane, points are corners of the body.
 ///
 /// A gap is that of the body's point over the point on the triangle, along the normal, and holds for them. Whether a body touches a
 /// triangle is as certain as [`pair::signed_distance`] says. There is no cache, so that four points of a reduced contact are chosen
@@ -69,10 +73,11 @@ pub(crate) fn add_contacts(
         let reach = GroundReach::new(body, ground)?;
         let (bounds, enough) = (reach.bounds, config.max_distance / reach.stretch);
         let within = PairConfig { max_distance: config.max_distance, ..PairConfig::default() };
-        let Room { triangle, touches, points, vertices, .. } = &mut found.room;
+        let Room { triangle, touches, points, vertices, passed, .. } = &mut found.room;
         let vertices = Vertices::place(body, vertices)?;
         touches.clear();
         points.clear();
+        passed.clear();
         let shape = match triangle {
             Some(shape) => shape,
             None => triangle.insert(ground.ground.triangle_shape().copy()?),
@@ -91,10 +96,15 @@ pub(crate) fn add_contacts(
             points,
             enough,
             lowest: 0,
+            footing: Footing::new(reach.size),
+            passed,
+            passed_through: false,
+            looks_again: false,
             missed: None,
         };
         let box_near = bounds.grown(enough);
         ground.ground.layout().overlapping(&box_near, |triangle| meeting.visit(triangle))?;
+        meeting.look_again()?;
         meeting.keep_missed()?;
         meeting.push_out()?;
         meeting.leave_out_needless();
@@ -118,6 +128,11 @@ struct Meeting<'a> {
     enough: f64,
     /// The vertex that was lowest over the last triangle.
     lowest: u32,
+    footing: Footing,
+    /// Triangles inside a plane that no corner of the body is over, and whether the body may reach through one.
+    passed: &'a mut Vec<u32>,
+    passed_through: bool,
+    looks_again: bool,
     /// The contact that overlaps least, among those with triangles that have no points over them.
     missed: Option<(u32, SignedDistance)>,
 }
@@ -126,23 +141,51 @@ impl Meeting<'_> {
     /// Comes to a triangle.
     fn visit(&mut self, triangle: u32) -> Result<()> {
         let ground = self.ground.ground;
-        let (normal, corner) = (ground.normal(triangle), ground.tail(3 * triangle));
-        let is_behind = normal.dot(&(self.reach.centre - corner)) < -ground.thickness();
-        if is_behind || self.reach.is_over(&normal, &corner, self.enough) {
-            return Ok(());
-        }
         let own = ground.triangle(triangle);
-        if self.reach.is_beside(&own.corners, self.enough) {
+        let is_behind = own.normal.dot(&(self.reach.centre - own.corners[0])) < -ground.thickness();
+        if is_behind
+            || self.reach.is_over(&own.normal, &own.corners[0], self.enough)
+            || self.reach.is_beside(&own.corners, self.enough)
+        {
             return Ok(());
         }
         let placed = PlacedTriangle::new(own, self.ground, self.reach);
-        let search = NormalSearch::new(self.vertices, self.ground, self.reach, &placed);
-        let (nearest, best) = match self.nearest(&placed)? {
+        if placed.marks.is_inner() {
+            match self.footing.stand(&self.vertices, &placed, self.limit()) {
+                Stand::Over => {}
+                Stand::Beyond => return Ok(()),
+                stand => {
+                    self.passed_through |= stand == Stand::Through;
+                    return push(self.passed, triangle);
+                }
+            }
+        }
+        self.meet(&placed)
+    }
+
+    /// Looks at triangles that were passed by, where what is around them tells nothing of the body: a contact is to be found, or
+    /// whether it meets the ground.
+    fn look_again(&mut self) -> Result<()> {
+        if self.touches.is_empty() || self.passed_through && !self.is_met() {
+            self.looks_again = true;
+            for at in 0..self.passed.len() {
+                let own = self.ground.ground.triangle(self.passed[at]);
+                self.meet(&PlacedTriangle::new(own, self.ground, self.reach))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Finds the contact with a triangle.
+    fn meet(&mut self, placed: &PlacedTriangle) -> Result<()> {
+        let triangle = placed.own.label;
+        let search = NormalSearch::new(self.vertices, self.ground, self.reach, placed);
+        let (nearest, best) = match self.nearest(placed)? {
             TriangleFinding::Beyond => return Ok(()),
             TriangleFinding::Nearest(nearest) => {
                 let normal = self.reach.local_normal(&nearest.normal.into());
                 if self.ground.ground.allows(&placed.own, &normal) {
-                    self.touch(&placed, &nearest, true, None)?;
+                    self.touch(placed, &nearest, true, None)?;
                     return Ok(());
                 }
                 (Some(nearest), search.best(self.lowest))
@@ -160,14 +203,14 @@ impl Meeting<'_> {
         }
         let (contact, is_over) = search.contact(&best, &found);
         let beside = (is_met && !is_over).then(|| witness(&contact));
-        if self.touch(&placed, &contact, is_over, beside)? {
+        if self.touch(placed, &contact, is_over, beside)? {
             return Ok(());
         }
         // The lowest vertex is beside the triangle, and no faces meet over it: another point of the body may be below it.
-        if best.is_along_own_normal() {
+        if best.is_along_own_normal() && self.keeps_inner(placed) {
             let nearest = if nearest.is_some() { found } else { self.signed_distance(&placed.own)? };
             if let Some(inner) = search.inner(&best, &nearest) {
-                self.touch(&placed, &inner, true, beside)?;
+                self.touch(placed, &inner, true, beside)?;
                 return Ok(());
             }
         }
@@ -191,11 +234,15 @@ enum TriangleFinding {
 }
 
 impl Meeting<'_> {
+    fn limit(&self) -> Limit {
+        Limit { radius: self.body.shape.swept_radius(), max_distance: self.all.max_distance }
+    }
+
     /// How near the body is to a triangle. Sets the lowest vertex.
     fn nearest(&mut self, triangle: &PlacedTriangle) -> Result<TriangleFinding> {
         let lowest = Lowest::new(&self.vertices, triangle, &triangle.up, self.lowest);
         self.lowest = lowest.vertex;
-        let limit = Limit { radius: self.body.shape.swept_radius(), max_distance: self.all.max_distance };
+        let limit = self.limit();
         if limit.is_beyond(lowest.lower) {
             return Ok(TriangleFinding::Beyond);
         }
@@ -260,7 +307,8 @@ impl Meeting<'_> {
     ) -> Result<bool> {
         let first_point = self.points.len();
         let (body, reach, max_distance) = (&self.vertices, self.reach, self.all.max_distance);
-        let meet = Meet { body, reach, triangle, contact, is_over, max_distance };
+        let keeps_inner = self.keeps_inner(triangle);
+        let meet = Meet { body, reach, triangle, contact, is_over, keeps_inner, max_distance };
         let reference = match add_common(&meet, self.points)? {
             Some(reference) => reference,
             None => {
@@ -269,7 +317,12 @@ impl Meeting<'_> {
                 // A point that is not over the triangle is none of the points that faces have in common, however deep it is.
                 let far = SignedDistance { lower: f64::INFINITY, upper: f64::INFINITY, ..*contact };
                 let along = if is_over { contact } else { &far };
-                add_points(self.points, |sink| manifold_along(bodies, along, &self.all, sink))?.reference
+                let found = add_points(self.points, |sink| manifold_along(bodies, along, &self.all, sink))?;
+                if keeps_inner || found.reference == 0 {
+                    found.reference
+                } else {
+                    self.leave_corners(first_point, contact, is_over)?
+                }
             }
         };
         // Without a reference it is the contact's own pair of points.
@@ -283,6 +336,30 @@ impl Meeting<'_> {
         let manifold = Manifold { outcome, reference, lower, upper, normal, point_count: count, found_count: count };
         push(self.touches, TriangleTouch { triangle: triangle.own.label, manifold, first_point, beside })?;
         Ok(true)
+    }
+
+    /// Leaves out points that are no corners of the body, unless all are. The reference of those left.
+    fn leave_corners(&mut self, first: usize, contact: &SignedDistance, is_over: bool) -> Result<u32> {
+        let mut count = first;
+        for at in first..self.points.len() {
+            if self.points[at].feature1.kind == FeatureKind::Vertex {
+                self.points[count] = self.points[at];
+                count += 1;
+            }
+        }
+        self.points.truncate(count);
+        if count > first {
+            return Ok(2);
+        }
+        if is_over {
+            push(self.points, witness(contact))?;
+        }
+        Ok(0)
+    }
+
+    /// Whether what is on the inside of a triangle or on its sides makes points, beside the body's corners.
+    fn keeps_inner(&self, triangle: &PlacedTriangle) -> bool {
+        self.looks_again || !triangle.marks.is_inner()
     }
 
     fn is_met(&self) -> bool {

@@ -2,7 +2,7 @@
 //! were made one along a seam, a side has no twin and still the surface does not end there.
 
 use super::layout::GroundLayout;
-use super::tree::{NodeBounds, Visit};
+use super::tree::{FOUR, FourBoxes, NodeBounds, Visit};
 use super::triangles::{NONE, previous};
 use crate::base::error::Result;
 use crate::base::math::Vector;
@@ -100,8 +100,8 @@ impl Holding<'_> {
 }
 
 impl Visit for Holding<'_> {
-    fn key(&self, bounds: &NodeBounds) -> f64 {
-        bounds.gap(&NodeBounds { lower: self.point, upper: self.point })
+    fn keys(&self, boxes: &FourBoxes) -> [f64; FOUR] {
+        NodeBounds { lower: self.point, upper: self.point }.gaps(boxes)
     }
 
     fn goes_to(&mut self, _: &NodeBounds, gap: f64) -> bool {

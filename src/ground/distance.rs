@@ -2,7 +2,7 @@
 
 use super::PlacedGround;
 use super::reach::GroundReach;
-use super::tree::{NodeBounds, Visit};
+use super::tree::{FOUR, FourBoxes, NodeBounds, Visit};
 use crate::base::error::{Error, Result};
 use crate::base::simd::environment::with_default;
 use crate::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed, Query};
@@ -82,8 +82,8 @@ struct LeastToGround<'a> {
 }
 
 impl Visit for LeastToGround<'_> {
-    fn key(&self, bounds: &NodeBounds) -> f64 {
-        bounds.gap(&self.reach.bounds)
+    fn keys(&self, boxes: &FourBoxes) -> [f64; FOUR] {
+        self.reach.bounds.gaps(boxes)
     }
 
     fn goes_to(&mut self, bounds: &NodeBounds, gap: f64) -> bool {
@@ -102,7 +102,7 @@ impl Visit for LeastToGround<'_> {
     fn triangle(&mut self, triangle: u32) -> Result<bool> {
         let own = self.ground.ground.triangle(triangle);
         let bounds = NodeBounds::of(&own.corners);
-        if !self.goes_to(&bounds, self.key(&bounds)) {
+        if !self.goes_to(&bounds, bounds.gap(&self.reach.bounds)) {
             return Ok(true);
         }
         let mut answer = PairAnswer::default();

@@ -1,34 +1,34 @@
-//! Triangles over a grid of heights: nothing is stored of them, and the boxes of their tree are those of heights, 14 bytes a cell of
-//! two triangles in all.
+//! Triangles over a grid of heights: nothing is stored of them, and the boxes of their tree are ranges of heights, some 14 bytes a
+//! cell of two triangles in all.
 
-use super::tree::{NodeBounds, Pending, Visit};
+use super::tree::{FOUR, FourBoxes, NodeBounds, Pending, Visit};
 use super::triangles::NONE;
 use crate::base::error::Result;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::memory::{copied, push, with_capacity};
 use crate::base::normal::over_length;
 
-/// So many cells along each side has a block, the box of the last level.
-const BLOCK: usize = 4;
+/// A box of a level holds so many of the level below along each side, of the first level cells.
+const SIDE: usize = 2;
 
-/// Of a grid of 2²⁹ heights there are less than 28 levels, and a walk keeps three boxes for each.
+/// Of a grid of 2²⁹ heights there are less than 30 levels, and a walk keeps three boxes for each.
 const DEEPEST: usize = 96;
 
 /// Heights over a grid, and their least and greatest by blocks.
 #[derive(Debug, Clone, PartialEq)]
-pub(super) struct Grid {
+pub(super) struct GroundGrid {
     columns: usize,
     rows: usize,
     spacing: [f64; 2],
     /// A NaN is a hole.
     heights: Vec<f64>,
-    /// Blocks of cells, four of these, four of those, up to one.
-    levels: Vec<Level>,
+    /// Four cells, four of these, four of those, up to all.
+    levels: Vec<GridLevel>,
 }
 
 /// The least and the greatest heights of boxes, row by row.
 #[derive(Debug, Clone, PartialEq)]
-struct Level {
+struct GridLevel {
     columns: usize,
     rows: usize,
     /// In a box without triangles the least is more than the greatest.
@@ -41,74 +41,74 @@ fn widened(range: [f64; 2], by: [f64; 2]) -> [f64; 2] {
     [range[0].min(by[0]), range[1].max(by[1])]
 }
 
-impl Level {
+impl GridLevel {
     /// The level above one.
-    fn above(below: &Level) -> Result<Level> {
-        let [columns, rows] = [below.columns, below.rows].map(|count| count.div_ceil(2));
+    fn above(below: &GridLevel) -> Result<GridLevel> {
+        let [columns, rows] = [below.columns, below.rows].map(|count| count.div_ceil(SIDE));
         let mut ranges = with_capacity(columns * rows)?;
         for at in 0..columns * rows {
             let (i, j) = (at / columns, at % columns);
-            let parts = (2 * i..(2 * i + 2).min(below.rows))
-                .flat_map(|i| (2 * j..(2 * j + 2).min(below.columns)).map(move |j| i * below.columns + j));
+            let parts = (SIDE * i..(SIDE * i + SIDE).min(below.rows))
+                .flat_map(|i| (SIDE * j..(SIDE * j + SIDE).min(below.columns)).map(move |j| i * below.columns + j));
             ranges.push(parts.map(|part| below.ranges[part]).fold(EMPTY, widened));
         }
-        Ok(Level { columns, rows, ranges })
+        Ok(GridLevel { columns, rows, ranges })
     }
 }
 
-/// The place of a box in the levels.
+/// The place of a box.
 #[derive(Debug, Clone, Copy)]
 struct BoxPlace {
+    /// 0 of a cell, one more than the number of the level else.
     level: u32,
     row: u32,
     column: u32,
 }
 
-impl Grid {
+impl GroundGrid {
     /// For at least two rows and columns of heights within 2²⁰⁰, with steps from 2⁻¹⁹⁹ up to where the
     /// last vertices are at 2²⁰⁰.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn new(columns: usize, spacing: [f64; 2], heights: Vec<f64>) -> Result<Grid> {
+    pub fn new(columns: usize, spacing: [f64; 2], heights: Vec<f64>) -> Result<GroundGrid> {
         debug_assert!(columns >= 2 && heights.len().is_multiple_of(columns) && heights.len() >= 2 * columns);
         let rows = heights.len() / columns;
-        let mut grid = Grid { columns, rows, spacing, heights, levels: Vec::new() };
-        let mut level = grid.blocks()?;
+        let mut grid = GroundGrid { columns, rows, spacing, heights, levels: Vec::new() };
+        let mut level = grid.first_level()?;
         while level.ranges.len() > 1 {
-            let above = Level::above(&level)?;
+            let above = GridLevel::above(&level)?;
             push(&mut grid.levels, std::mem::replace(&mut level, above))?;
         }
         push(&mut grid.levels, level)?;
         Ok(grid)
     }
 
-    /// The level of blocks.
-    fn blocks(&self) -> Result<Level> {
-        let [columns, rows] = [self.columns, self.rows].map(|count| (count - 1).div_ceil(BLOCK));
+    fn first_level(&self) -> Result<GridLevel> {
+        let [columns, rows] = [self.columns, self.rows].map(|count| (count - 1).div_ceil(SIDE));
         let mut ranges = with_capacity(columns * rows)?;
         for at in 0..columns * rows {
-            let (i, j) = (BLOCK * (at / columns), BLOCK * (at % columns));
-            let cells = (i..(i + BLOCK).min(self.rows - 1))
-                .flat_map(|i| (j..(j + BLOCK).min(self.columns - 1)).map(move |j| (i, j)));
-            ranges.push(cells.filter_map(|(i, j)| self.range_of_cell(i, j)).fold(EMPTY, widened));
+            let (i, j) = (SIDE * (at / columns), SIDE * (at % columns));
+            let cells = (i..(i + SIDE).min(self.rows - 1))
+                .flat_map(|i| (j..(j + SIDE).min(self.columns - 1)).map(move |j| (i, j)));
+            ranges.push(cells.map(|(i, j)| self.range_of_cell(i, j)).fold(EMPTY, widened));
         }
-        Ok(Level { columns, rows, ranges })
+        Ok(GridLevel { columns, rows, ranges })
     }
 
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn try_clone(&self) -> Result<Grid> {
+    pub fn try_clone(&self) -> Result<GroundGrid> {
         let mut levels = with_capacity(self.levels.len())?;
         for level in &self.levels {
-            levels.push(Level { ranges: copied(&level.ranges)?, ..*level });
+            levels.push(GridLevel { ranges: copied(&level.ranges)?, ..*level });
         }
-        Ok(Grid { heights: copied(&self.heights)?, levels, ..*self })
+        Ok(GroundGrid { heights: copied(&self.heights)?, levels, ..*self })
     }
 
     /// Memory held beside the struct, in bytes.
     pub fn heap_bytes(&self) -> usize {
-        let levels = self.levels.iter().map(|level| size_of::<Level>() + size_of_val(&level.ranges[..]));
+        let levels = self.levels.iter().map(|level| size_of::<GridLevel>() + size_of_val(&level.ranges[..]));
         size_of_val(&self.heights[..]) + levels.sum::<usize>()
     }
 
@@ -134,14 +134,14 @@ impl Grid {
     /// Start of a half-edge of a triangle that is there.
     pub fn tail(&self, half_edge: u32) -> Vector {
         let [row, column] = self.cell(half_edge / 3);
-        let [ahead, right] = Grid::CORNERS[(half_edge / 3 % 2) as usize][half_edge as usize % 3];
+        let [ahead, right] = GroundGrid::CORNERS[(half_edge / 3 % 2) as usize][half_edge as usize % 3];
         self.point(row + ahead, column + right)
     }
 
     /// The corners of a triangle that is there.
     pub fn points(&self, triangle: u32) -> [Vector; 3] {
         let [row, column] = self.cell(triangle);
-        Grid::CORNERS[triangle as usize % 2].map(|[ahead, right]| self.point(row + ahead, column + right))
+        GroundGrid::CORNERS[triangle as usize % 2].map(|[ahead, right]| self.point(row + ahead, column + right))
     }
 
     /// Rows and columns of the corners of both triangles from their cell's.
@@ -154,7 +154,7 @@ impl Grid {
     /// The ways along the six edges at the start of a half-edge; `None` at a rim.
     pub fn ways_around(&self, half_edge: u32) -> Option<[Vector; 6]> {
         let [row, column] = self.cell(half_edge / 3);
-        let [ahead, right] = Grid::CORNERS[(half_edge / 3 % 2) as usize][half_edge as usize % 3];
+        let [ahead, right] = GroundGrid::CORNERS[(half_edge / 3 % 2) as usize][half_edge as usize % 3];
         let (row, column) = (row + ahead, column + right);
         if row == 0 || column == 0 || row + 1 == self.rows || column + 1 == self.columns {
             return None;
@@ -201,11 +201,10 @@ impl Grid {
         self.cell_heights(row, column).iter().any(|height| height.is_nan())
     }
 
-    /// The least and the greatest height; `None` of a hole.
-    fn range_of_cell(&self, row: usize, column: usize) -> Option<[f64; 2]> {
-        let heights = self.cell_heights(row, column);
-        let is_hole = heights.iter().any(|height| height.is_nan());
-        (!is_hole).then(|| heights.into_iter().map(|height| [height; 2]).fold(EMPTY, widened))
+    /// The least and the greatest height; [`EMPTY`] of a hole.
+    fn range_of_cell(&self, row: usize, column: usize) -> [f64; 2] {
+        let [a, b, c, d] = self.cell_heights(row, column);
+        if (a + b + c + d).is_nan() { EMPTY } else { [a.min(b).min(c.min(d)), a.max(b).max(c.max(d))] }
     }
 
     /// The vertices of a triangle, all one of a hole.
@@ -260,18 +259,24 @@ impl Grid {
 
     /// The box of all triangles.
     pub fn bounds(&self) -> NodeBounds {
-        let top = self.levels.len() as u32 - 1;
-        self.bounds_of(BoxPlace { level: top, row: 0, column: 0 })
+        self.bounds_of(self.root())
+    }
+
+    fn root(&self) -> BoxPlace {
+        BoxPlace { level: self.levels.len() as u32, row: 0, column: 0 }
     }
 
     fn range(&self, place: BoxPlace) -> [f64; 2] {
-        let level = &self.levels[place.level as usize];
-        level.ranges[place.row as usize * level.columns + place.column as usize]
+        let (row, column) = (place.row as usize, place.column as usize);
+        match (place.level as usize).checked_sub(1) {
+            Some(level) => self.levels[level].ranges[row * self.levels[level].columns + column],
+            None => self.range_of_cell(row, column),
+        }
     }
 
     /// Rows and columns of the cells of a box, up to those behind the last.
     fn cells(&self, place: BoxPlace) -> [[usize; 2]; 2] {
-        let size = BLOCK << place.level;
+        let size = 1_usize << place.level;
         let along = |at: u32, count: usize| [at as usize * size, ((at as usize + 1) * size).min(count - 1)];
         [along(place.row, self.rows), along(place.column, self.columns)]
     }
@@ -295,10 +300,10 @@ impl Grid {
             return Ok(());
         };
         let [lower, upper] = [body.lower.z, body.upper.z];
-        for (block_row, block_column) in (row / BLOCK..=last_row / BLOCK)
-            .flat_map(|row| (column / BLOCK..=last_column / BLOCK).map(move |column| (row, column)))
+        for (box_row, box_column) in (row / SIDE..=last_row / SIDE)
+            .flat_map(|row| (column / SIDE..=last_column / SIDE).map(move |column| (row, column)))
         {
-            let place = BoxPlace { level: 0, row: block_row as u32, column: block_column as u32 };
+            let place = BoxPlace { level: 1, row: box_row as u32, column: box_column as u32 };
             let [least, most] = self.range(place);
             if !(least <= upper && lower <= most) {
                 continue;
@@ -332,33 +337,52 @@ impl Grid {
     /// # Errors
     /// Those of `visit`.
     pub fn walk(&self, visit: &mut impl Visit) -> Result<()> {
-        let root = BoxPlace { level: self.levels.len() as u32 - 1, row: 0, column: 0 };
-        let mut pending = Pending::<_, DEEPEST>::new(root, visit.key(&self.bounds_of(root)));
+        let root = self.root();
+        let mut pending = Pending::<_, DEEPEST>::new(root, 0.0);
         while let Some((place, key)) = pending.pop() {
-            if !visit.goes_to(&self.bounds_of(place), key) {
+            if place.level < root.level && !visit.goes_to(&self.bounds_of(place), key) {
                 continue;
             }
             if place.level == 0 {
-                let [rows, columns] = self.cells(place);
-                for (i, j) in (rows[0]..rows[1]).flat_map(|i| (columns[0]..columns[1]).map(move |j| (i, j))) {
-                    let first = 2 * (i * (self.columns - 1) + j) as u32;
-                    if !self.is_hole(i, j) && !(visit.triangle(first)? && visit.triangle(first + 1)?) {
-                        return Ok(());
-                    }
+                let first = 2 * (place.row * (self.columns as u32 - 1) + place.column);
+                if !(visit.triangle(first)? && visit.triangle(first + 1)?) {
+                    return Ok(());
                 }
                 continue;
             }
-            let (below, mark) = (&self.levels[place.level as usize - 1], pending.mark());
-            for at in 0..4 {
-                let (row, column) = (2 * place.row + at / 2, 2 * place.column + at % 2);
-                let child = BoxPlace { level: place.level - 1, row, column };
-                let is_there = (row as usize) < below.rows && (column as usize) < below.columns;
-                if is_there && self.range(child) != EMPTY {
-                    pending.add(mark, child, visit.key(&self.bounds_of(child)));
+            let mark = pending.mark();
+            let (children, boxes) = self.children(place);
+            for (child, key) in children.into_iter().zip(visit.keys(&boxes)) {
+                if let Some(child) = child {
+                    pending.add(mark, child, key);
                 }
             }
         }
         Ok(())
+    }
+
+    /// The boxes in one that is no cell, those with triangles.
+    fn children(&self, place: BoxPlace) -> ([Option<BoxPlace>; FOUR], FourBoxes) {
+        let (level, [rows, columns]) = match place.level as usize - 1 {
+            0 => (0, [self.rows - 1, self.columns - 1]),
+            below => (below as u32, [self.levels[below - 1].rows, self.levels[below - 1].columns]),
+        };
+        let mut children = [None; FOUR];
+        let mut boxes = FourBoxes { lower: [[0.0; FOUR]; 3], upper: [[0.0; FOUR]; 3] };
+        for (at, child) in children.iter_mut().enumerate() {
+            let (row, column) = (2 * place.row + at as u32 / 2, 2 * place.column + at as u32 % 2);
+            if row as usize >= rows || column as usize >= columns {
+                continue;
+            }
+            let part = BoxPlace { level, row, column };
+            let NodeBounds { lower, upper } = self.bounds_of(part);
+            for k in 0..3 {
+                (boxes.lower[k][at], boxes.upper[k][at]) = (lower[k], upper[k]);
+            }
+            // False in a box without triangles.
+            *child = (lower.z <= upper.z).then_some(part);
+        }
+        (children, boxes)
     }
 }
 
@@ -407,7 +431,7 @@ mod tests {
             let triangles: Vec<[u32; 3]> = (0..ground.triangle_count() as u32).map(|t| grid.corners(t)).collect();
             let twin = Ground::from_triangles(&vertices, &triangles).unwrap();
             let soup = twin.layout();
-            // Blocks count holes in.
+            // Boxes count holes in.
             let (bounds, least) = (grid.bounds(), soup.bounds());
             assert!(
                 bounds == bounds.union(&least) && bounds.lower.z == least.lower.z && bounds.upper.z == least.upper.z
@@ -435,7 +459,7 @@ mod tests {
         let mut random = Random::new(0x941e);
         for round in 0..if cfg!(miri) { 3 } else { 120 } {
             let (columns, spacing, heights) = hills(&mut random, round);
-            let grid = Grid::new(columns, spacing, heights).unwrap();
+            let grid = GroundGrid::new(columns, spacing, heights).unwrap();
             for place in 0..30 {
                 let at = random.vector() * 20.0 * spacing[0].max(spacing[1]);
                 // Some boxes end on vertices.

@@ -1,7 +1,7 @@
 //! Whether a point is inside a solid ground, and which triangle is nearest to it.
 
 use super::surface::Ground;
-use super::tree::{NodeBounds, Visit};
+use super::tree::{FOUR, FourBoxes, NodeBounds, Visit};
 use super::triangles::NONE;
 use crate::base::error::Result;
 use crate::base::math::Vector;
@@ -40,8 +40,8 @@ struct NearestSurface<'a> {
 }
 
 impl Visit for NearestSurface<'_> {
-    fn key(&self, bounds: &NodeBounds) -> f64 {
-        bounds.gap(&NodeBounds { lower: *self.point, upper: *self.point })
+    fn keys(&self, boxes: &FourBoxes) -> [f64; FOUR] {
+        NodeBounds { lower: *self.point, upper: *self.point }.gaps(boxes)
     }
 
     fn goes_to(&mut self, _: &NodeBounds, gap: f64) -> bool {

@@ -1,6 +1,6 @@
 //! How the triangles of a ground are kept: as a soup, or as heights.
 
-use super::grid::Grid;
+use super::grid::GroundGrid;
 use super::tree::{NodeBounds, Visit};
 use super::triangles::{Soup, next};
 use crate::base::error::Result;
@@ -10,7 +10,7 @@ use crate::base::math::Vector;
 #[derive(Debug, Clone, PartialEq)]
 pub(super) enum GroundLayout {
     Soup(Soup),
-    Grid(Grid),
+    Grid(GroundGrid),
 }
 
 impl GroundLayout {

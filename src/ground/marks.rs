@@ -9,7 +9,8 @@ const PARTS: f64 = 254.0;
 /// The marks of a triangle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Marks {
-    /// Bits 0 to 2: a side has a far normal. Bits 3 to 5: a corner may have normals that none of its sides has.
+    /// Bits 0 to 2: a side has a far normal. Bits 3 to 5: a corner may have normals that none of its sides has. Bit 6: there is a
+    /// neighbour in its plane at each side.
     bits: u8,
     tan_half: u8,
 }
@@ -26,6 +27,15 @@ impl Marks {
     pub fn set_peak(&mut self, corner: usize) {
         debug_assert!(corner < 3);
         self.bits |= 8 << corner;
+    }
+
+    pub fn set_inner(&mut self) {
+        self.bits |= 1 << 6;
+    }
+
+    /// Whether at each side there is a neighbour in its plane.
+    pub fn is_inner(self) -> bool {
+        self.bits >> 6 & 1 == 1
     }
 
     /// Sets the widest angle between the triangle's own normal and another that its contacts may have.

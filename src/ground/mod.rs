@@ -21,6 +21,7 @@ mod answer;
 mod grouping;
 mod vertices;
 mod lowest;
+mod footing;
 mod corner;
 mod simplex;
 mod common;

@@ -89,6 +89,15 @@ impl Ground {
         }
     }
 
+    /// Whether the neighbour at a side is in the same plane and faces the same way.
+    fn is_flat(&self, half_edge: u32) -> bool {
+        let (own, twin) = (self.normal(half_edge / 3), self.twin(half_edge));
+        twin != NONE && {
+            let to_third = self.tail(previous(twin)) - self.tail(half_edge);
+            own.dot(&to_third).abs() <= TILT * to_third.norm() && own.dot(&self.normal(twin / 3)) > 0.0
+        }
+    }
+
     /// No corner of these triangles is farther out than a point.
     fn do_not_lead_out(&self, covers: &[(u32, u32)], point: &Vector, normal: &Vector) -> bool {
         debug_assert!(is_unit(normal));
@@ -159,6 +168,9 @@ impl Ground {
         for (triangle, marks) in all.iter_mut().enumerate().filter(|(triangle, _)| is_there(*triangle)) {
             let has_far = |side: &usize| self.far_normal((3 * triangle + side) as u32).is_some();
             (0..3).filter(has_far).for_each(|side| marks.set_far_normal(side));
+            if (3 * triangle..3 * triangle + 3).all(|half_edge| self.is_flat(half_edge as u32)) {
+                marks.set_inner();
+            }
         }
         for triangle in (0..all.len()).filter(|triangle| is_there(*triangle)) {
             all[triangle] = self.marks_around(triangle as u32, &all);

@@ -11,6 +11,8 @@ pub(super) struct Room {
     pub triangle: Option<TriangleShape>,
     /// The body's vertices.
     pub vertices: Vec<PointBlock>,
+    /// Triangles inside a plane that no corner of the body is over.
+    pub passed: Vec<u32>,
     /// The touches that a walk has found, triangle by triangle …
     pub touches: Vec<TriangleTouch>,
     /// … and the points of it.

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use super::PlacedGround;
 use super::covers::Covers;
-use super::grid::Grid;
+use super::grid::GroundGrid;
 use super::layout::GroundLayout;
 use super::marks::Marks;
 use super::triangles::Soup;
@@ -119,7 +119,7 @@ impl Ground {
                 heights[at]
             )));
         }
-        let grid = Grid::new(columns, spacing, collected(heights.iter().map(|height| height + 0.0))?)?;
+        let grid = GroundGrid::new(columns, spacing, collected(heights.iter().map(|height| height + 0.0))?)?;
         if grid.is_empty() {
             return Err(Error::Mesh(format!(
                 "none of the {} cells of the ground has four heights",
@@ -202,7 +202,7 @@ impl Ground {
         self.layout.vertex_count()
     }
 
-    /// Memory held, in bytes: less than 8,192, and 64 for each triangle where there are half as many vertices, 12 for each of a grid.
+    /// Memory held, in bytes: less than 8,192, and 64 a triangle where there are half as many vertices, 12 a triangle of a grid.
     pub fn bytes(&self) -> usize {
         let Ground { layout, covers, marks, shape, .. } = self;
         let lists = layout.heap_bytes() + covers.heap_bytes() + size_of_val(&marks[..]);

@@ -1,5 +1,5 @@
-//! A static tree of boxes over the triangles of a soup, in some 14 bytes a triangle: each node has up to four children, with boxes in
-//! single precision. Boxes of triangles are exact: least and greatest coordinates of vertices.
+//! A static tree of boxes over the triangles of a soup, in some 14 bytes a triangle: each node has up to four children, with boxes
+//! in single precision. Boxes of triangles are exact: least and greatest coordinates of vertices.
 
 use crate::base::error::Result;
 use crate::base::math::{Vector, length};
@@ -46,6 +46,11 @@ impl NodeBounds {
         (length(&self.way_to(other)) * (1.0 - 8.0 * f64::EPSILON)).min(f64::MAX)
     }
 
+    /// How far four boxes are from this one, each as by [`gap`](NodeBounds::gap).
+    pub fn gaps(&self, boxes: &FourBoxes) -> [f64; FOUR] {
+        std::array::from_fn(|lane| boxes.bounds(lane).gap(self))
+    }
+
     /// The shortest way to another box.
     pub fn way_to(&self, other: &NodeBounds) -> Vector {
         let between = |lower: f64, upper: f64| (lower - upper).max(0.0);
@@ -53,10 +58,24 @@ impl NodeBounds {
     }
 }
 
+/// Four boxes, coordinate by coordinate.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub(super) struct FourBoxes {
+    pub lower: [[f64; FOUR]; 3],
+    pub upper: [[f64; FOUR]; 3],
+}
+
+impl FourBoxes {
+    pub fn bounds(&self, lane: usize) -> NodeBounds {
+        let ends = |ends: &[[f64; FOUR]; 3]| Vector::new(ends[0][lane], ends[1][lane], ends[2][lane]);
+        NodeBounds { lower: ends(&self.lower), upper: ends(&self.upper) }
+    }
+}
+
 /// The actions of a walk at what it comes to.
 pub(super) trait Visit {
     /// Of the boxes in one node, those with lesser keys come first. Those with an infinite one are passed by.
-    fn key(&self, bounds: &NodeBounds) -> f64;
+    fn keys(&self, boxes: &FourBoxes) -> [f64; FOUR];
     /// Whether to go to the triangles in a box.
     fn goes_to(&mut self, bounds: &NodeBounds, key: f64) -> bool;
     /// Comes to a triangle; `false` ends the walk.
@@ -113,10 +132,16 @@ struct GroundNode {
 }
 
 impl GroundNode {
-    /// A child and its box.
-    fn child(&self, lane: usize, units: &TreeUnits) -> (u32, NodeBounds) {
-        let ends = |ends: &[[f32; FOUR]; 3]| Vector::from_fn(|k, _| units.place(k, ends[k][lane]));
-        (self.children[lane], NodeBounds { lower: ends(&self.lower), upper: ends(&self.upper) })
+    /// The boxes of its children.
+    fn boxes(&self, units: &TreeUnits) -> FourBoxes {
+        let mut boxes = FourBoxes { lower: [[0.0; FOUR]; 3], upper: [[0.0; FOUR]; 3] };
+        for k in 0..3 {
+            for lane in 0..FOUR {
+                boxes.lower[k][lane] = units.place(k, self.lower[k][lane]);
+                boxes.upper[k][lane] = units.place(k, self.upper[k][lane]);
+            }
+        }
+        boxes
     }
 }
 
@@ -170,7 +195,7 @@ impl GroundTree {
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn new(items: &mut [(u32, NodeBounds)]) -> Result<GroundTree> {
+    pub fn new(items: &mut [TreeItem]) -> Result<GroundTree> {
         debug_assert!(!items.is_empty());
         let bounds = items.iter().fold(items[0].1, |all, (_, one)| all.union(one));
         let leaf_count = items.len().div_ceil(FOUR);
@@ -244,13 +269,15 @@ impl GroundTree {
     pub fn walk(&self, visit: &mut impl Visit) -> Result<()> {
         // A child by its node and its lane; the root is no child.
         const ROOT: (u32, usize) = (0, FOUR);
-        let mut pending = Pending::<_, DEEPEST>::new(ROOT, visit.key(&self.bounds));
+        let mut pending = Pending::<_, DEEPEST>::new(ROOT, 0.0);
         while let Some(((parent, lane), key)) = pending.pop() {
-            let is_root = lane == FOUR;
-            let (number, bounds) =
-                if is_root { (parent, self.bounds) } else { self.nodes[parent as usize].child(lane, &self.units) };
-            if !visit.goes_to(&bounds, key) {
-                continue;
+            let mut number = 0;
+            if lane < FOUR {
+                let node = &self.nodes[parent as usize];
+                if !visit.goes_to(&node.boxes(&self.units).bounds(lane), key) {
+                    continue;
+                }
+                number = node.children[lane];
             }
             if number & LEAF != 0 {
                 for triangle in self.leaf(number) {
@@ -261,8 +288,9 @@ impl GroundTree {
                 continue;
             }
             let (node, mark) = (&self.nodes[number as usize], pending.mark());
-            for lane in (0..FOUR).filter(|lane| node.children[*lane] != NONE) {
-                pending.add(mark, (number, lane), visit.key(&node.child(lane, &self.units).1));
+            let keys = visit.keys(&node.boxes(&self.units));
+            for (lane, key) in keys.into_iter().enumerate().filter(|(lane, _)| node.children[*lane] != NONE) {
+                pending.add(mark, (number, lane), key);
             }
         }
         Ok(())
@@ -273,7 +301,7 @@ impl GroundTree {
     }
 
     /// Adds a node over some triangles, and those below it.
-    fn grow_node(&mut self, items: &mut [(u32, NodeBounds)]) -> Result<u32> {
+    fn grow_node(&mut self, items: &mut [TreeItem]) -> Result<u32> {
         let number = self.nodes.len();
         let empty = [[f32::INFINITY; FOUR]; 3];
         push(
@@ -295,7 +323,7 @@ impl GroundTree {
         Ok(number as u32)
     }
 
-    fn grow_leaf(&mut self, items: &[(u32, NodeBounds)]) -> Result<u32> {
+    fn grow_leaf(&mut self, items: &[TreeItem]) -> Result<u32> {
         debug_assert!((1..=FOUR).contains(&items.len()));
         let mut leaf = [NONE; FOUR];
         leaf.iter_mut().zip(items).for_each(|(to, (triangle, _))| *to = *triangle);
@@ -304,8 +332,11 @@ impl GroundTree {
     }
 }
 
+/// A triangle and its box.
+type TreeItem = (u32, NodeBounds);
+
 /// Both halves along the longest side of the box of all, the first of whole leaves; the second is empty for one leaf.
-fn split(items: &mut [(u32, NodeBounds)]) -> (&mut [(u32, NodeBounds)], &mut [(u32, NodeBounds)]) {
+fn split(items: &mut [TreeItem]) -> (&mut [TreeItem], &mut [TreeItem]) {
     if items.len() <= FOUR {
         return items.split_at_mut(items.len());
     }

@@ -45,6 +45,11 @@ impl<'a> Vertices<'a> {
         self.body.pose
     }
 
+    /// Whether all are placed: the body has not many.
+    pub fn are_placed(&self) -> bool {
+        !self.blocks.is_empty()
+    }
+
     /// The place of a vertex.
     pub fn point(&self, vertex: u32) -> Vector {
         let Some(block) = self.blocks.get(vertex as usize / 4) else { return point(self.body, vertex) };

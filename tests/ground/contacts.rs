@@ -4,7 +4,7 @@ use super::{hills, level};
 use swiftprox::ground::{Ground, GroundContacts, ground_contacts};
 use swiftprox::manifold::ManifoldConfig;
 use swiftprox::math::{Pose, Vector};
-use swiftprox::pair::Outcome;
+use swiftprox::pair::{HalfSpace, Outcome, half_space_distance};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use testkit::oracle::{rational, transform};
 use testkit::random::Random;
@@ -66,6 +66,82 @@ fn no_normal_on_gentle_hills_is_steep() {
     }
     println!("{normals} normals, {deep} of them deep, {points} points: none steeper than the ground");
     assert!(normals > 1000 && deep > 500 && points > 2000, "{normals} {deep} {points}");
+}
+
+/// A table of many triangles says of a body what one of two triangles does: whether they meet, and how deep. On its inside the
+/// body's own corners alone make points. Half of the bodies stand over its rim, and tables are turned.
+#[test]
+fn fine_tables_are_as_coarse_ones() {
+    let mut random = Random::new(0xf1e);
+    let (mut met, mut apart, mut over_rim, mut points) = (0, 0, 0, 0);
+    let (coarse, fine) = (level(2, 2, 4.0), level(33, 33, 0.125));
+    let at_rest = |body: &Shape, pose: &Pose, ground: &Ground, place: &Pose| {
+        let mut found = GroundContacts::default();
+        let config = ManifoldConfig { max_distance: 0.01, reduces: false };
+        ground_contacts(body.at(pose), ground.at(place), &config, &mut found).unwrap();
+        found
+    };
+    for round in 0..300 {
+        let bodies = bodies(&mut random);
+        let body = &bodies[round % 3];
+        // Turned by eighths, level ground has coordinates that are rounded.
+        let place = if round % 4 < 2 { Pose::IDENTITY } else { Pose::new(&random.rotation(), &random.vector()) };
+        let lean = random.uniform(0.0, [1e-9, 1e-3, 0.3][round % 5 % 3]);
+        let turn = testkit::random::rotation(&Vector::z(), random.uniform(0.0, 6.0));
+        let turn = testkit::random::rotation(&Vector::x(), lean) * turn;
+        let is_over_rim = round % 2 == 0;
+        let aside = if is_over_rim { random.uniform(-0.3, 0.3) } else { random.uniform(1.0, 3.0) };
+        // Its lowest point is so high.
+        let low = Pose::new(&turn, &Vector::zeros());
+        let mut height = 0.01 - random.uniform(0.0, 0.02);
+        let plane = HalfSpace { normal: [0.0, 0.0, 1.0], offset: -10.0 };
+        height += 10.0 - half_space_distance(body.at(&low), &plane).unwrap().distance;
+        let over = Pose::new(&turn, &Vector::new(aside, random.uniform(1.0, 3.0), height));
+        let pose = Pose::new(&(place.rotation() * over.rotation()), &place.transform(&over.translation()));
+        let [one, many] = [&coarse, &fine].map(|ground| at_rest(body, &pose, ground, &place));
+        let least = |found: &GroundContacts| {
+            let gaps = found.contacts.iter().map(|contact| (contact.manifold.lower, contact.manifold.outcome));
+            gaps.fold((f64::INFINITY, Outcome::Beyond), |least, one| if one.0 < least.0 { one } else { least })
+        };
+        let ((gap, outcome), (fine_gap, fine_outcome)) = (least(&one), least(&many));
+        assert_eq!(outcome, fine_outcome, "{round}: {gap} {fine_gap}");
+        // A rim has normals that lean, where a triangle inside has not.
+        if !is_over_rim {
+            assert!(gap == fine_gap || (gap - fine_gap).abs() < 1e-9, "{round}: {gap} {fine_gap}");
+            let of_body = |found: &GroundContacts| found.points.iter().map(|point| point.feature1).collect::<Vec<_>>();
+            let [coarse_points, fine_points] = [of_body(&one), of_body(&many)];
+            assert!(many.contacts.len() <= 1, "{round}: {:?}", many.contacts);
+            assert!(fine_points.len() <= coarse_points.len(), "{round}: {fine_points:?} {coarse_points:?}");
+        }
+        for (outcome, count) in [(Outcome::Intersecting, &mut met), (Outcome::Separated, &mut apart)] {
+            *count += usize::from(fine_outcome == outcome);
+        }
+        over_rim += usize::from(is_over_rim && fine_outcome == Outcome::Intersecting);
+        points += many.points.len();
+    }
+    assert!(met > 60 && apart > 30 && over_rim > 20, "{met} {apart} {over_rim} {points}");
+}
+
+/// Where no corner of a body is over the inside of a table, the table's rim holds it, and a dome its middle.
+#[test]
+fn what_no_corner_is_over_holds_a_body() {
+    let (plate, fine) = (cuboid([9.0, 9.0, 0.5]), level(33, 33, 0.125));
+    let found = contacts(&plate, &at(2.0, 2.0, 0.499), &fine, 0.0, true);
+    let [contact] = found.contacts[..] else { panic!("{:?}", found.contacts) };
+    assert_eq!((contact.manifold.outcome, contact.manifold.point_count), (Outcome::Intersecting, 4));
+    // It bends by less from cell to cell than what counts as a plane.
+    let side = 201;
+    let bow = |at: usize| (at as f64 - 100.0) * (at as f64 - 100.0);
+    let heights: Vec<f64> = (0..side * side).map(|v| -1e-7 * (bow(v % side) + bow(v / side))).collect();
+    let grid = swiftprox::ground::HeightGrid { rows: side, columns: side, spacing: [1.0; 2], heights: &heights };
+    let dome = Ground::from_heights(&grid).unwrap();
+    for (sunk, is_met) in [(2e-4, true), (-1e-5, false)] {
+        // Its corners are 4e-4 above the dome, those of the dome in its middle below.
+        let found = contacts(&cuboid([45.0, 45.0, 1.0]), &at(100.3, 100.4, 1.0 - sunk), &dome, 1e-4, false);
+        assert!(!found.contacts.is_empty());
+        let is_deep = found.contacts.iter().any(|contact| contact.manifold.outcome == Outcome::Intersecting);
+        assert_eq!(is_deep, is_met);
+    }
 }
 
 /// A box on a level ground stands on its four corners, however many triangles are below it.

@@ -8,8 +8,7 @@ use swiftprox::pair::{Outcome, PairConfig, Query};
 use testkit::random::Random;
 use testkit::shapes::{at, cuboid};
 
-/// Memory of the bytes that the page names, a triangle: of a grid, of a soup over shared vertices, and of one in which each triangle
-/// has its own.
+/// Memory is what the page says: of a grid, of a soup over shared vertices, and of one in which each triangle has its own.
 #[test]
 fn triangles_take_few_bytes() {
     let grid = level(101, 101, 1.0);

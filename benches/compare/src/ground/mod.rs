@@ -1,7 +1,10 @@
-//! Contacts of bodies with a ground of 20,000 triangles: this library's beside parry3d-f64's contact manifolds, body by body.
+//! Contacts of bodies with a ground of 20,000 triangles: this library's beside parry3d-f64's contact manifolds and Jolt's, body by
+//! body. Then rays at grounds of more triangles, beside parry's.
 
+mod jolt;
 mod ours;
 mod parry;
+mod rays;
 mod scenes;
 
 use std::fmt::Write;
@@ -88,8 +91,9 @@ pub fn run(options: &Options) -> Result<(), String> {
         }
     }
     print(&rows);
+    let rays = rays::measure(options)?;
     if let Some(path) = &options.csv {
-        report::write(path, options.passes, &csv(&rows))?;
+        report::write(path, options.passes, &(csv(&rows) + &rays))?;
     }
     Ok(())
 }
@@ -116,6 +120,11 @@ impl Scene<'_> {
             Box::new(parry::Parry::new(self.hills, self.kind, &poses, parry::Edges::Bare)?),
             Box::new(parry::Parry::new(self.hills, self.kind, &poses, parry::Edges::Fixed)?),
         ];
+        for removes_edges in [false, true] {
+            if let Some(method) = jolt::Jolt::new(self.hills, self.kind, &poses, removes_edges)? {
+                methods.push(Box::new(method));
+            }
+        }
         methods.retain(|method| options.methods.is_empty() || options.methods.iter().any(|name| name == method.name()));
         let all: Vec<Counted> = methods.iter_mut().map(|method| counted(method.as_mut(), poses.len())).collect();
         let times = time_methods(&mut methods, poses.len(), options.passes);
