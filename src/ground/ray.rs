@@ -127,7 +127,7 @@ struct LocalRay {
 
 impl LocalRay {
     /// Products with R⁻¹ are off by [`ROUNDING`] of the lengths that go in, those with 1 not at all. Where the ray is in the box of
-    /// all triangles, t·d is no longer than the way there and the box: the slack holds the error of both. Half of `ROUNDING` would do.
+    /// all triangles, t·d is no longer than the way there and the box: the slack holds the error of both. Half of it would do.
     fn new(ground: &PlacedGround, ray: &Ray) -> Result<LocalRay> {
         const PLAIN: std::ops::RangeInclusive<f64> = 1e-60..=1e60;
         let Some(inverse) = ground.pose.rotation().try_inverse() else {

@@ -1,5 +1,5 @@
-// Jolt Physics' contacts of a body with its mesh of triangles, in single precision: CollideShape with faces, as its system calls it,
-// and the points of both faces. What the system keeps of bodies that hardly moved is not called.
+// Jolt Physics' contacts of a body with its mesh of triangles, in single precision: CollideShape with faces, as its system calls
+// it, and the points of both faces. What the system keeps of bodies that hardly moved is not called.
 
 #include <Jolt/Jolt.h>
 
