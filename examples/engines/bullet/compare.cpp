@@ -7,9 +7,10 @@
 #include <vector>
 
 #include <btBulletDynamicsCommon.h>
+#include <swiftprox.hpp>
+#include <swiftprox/adapters/bullet.hpp>
 
 #include "../report.h"
-#include "collider.h"
 
 namespace
 {
@@ -33,11 +34,11 @@ struct World {
     explicit World(Collider collider)
     {
         btDefaultCollisionConstructionInfo info;
-        info.m_customCollisionAlgorithmMaxElementSize = collider_size();
+        info.m_customCollisionAlgorithmMaxElementSize = swiftprox::adapters::bullet::algorithm_size();
         configuration = std::make_unique<btDefaultCollisionConfiguration>(info);
         dispatcher = std::make_unique<btCollisionDispatcher>(configuration.get());
         if (collider == Collider::SWIFTPROX) {
-            collider_install(*dispatcher);
+            swiftprox::adapters::bullet::install(*dispatcher);
         }
         world = std::make_unique<btDiscreteDynamicsWorld>(dispatcher.get(), &broad_phase, &solver, configuration.get());
         world->setGravity(btVector3(0, 0, btScalar(-9.81)));
@@ -64,7 +65,7 @@ struct World {
         hull->recalcLocalAabb();
         hull->setMargin(btScalar(0.001));
         hull->initializePolyhedralFeatures();
-        collider_attach(*hull, *ours.back());
+        swiftprox::adapters::bullet::attach(*hull, *ours.back());
         const btScalar mass = fixed ? 0 : btScalar(1000 * ours.back()->info().volume);
         btVector3 inertia(0, 0, 0);
         if (!fixed) {

@@ -20,9 +20,9 @@
 #include <dart/dynamics/WeldJoint.hpp>
 #include <dart/simulation/World.hpp>
 #include <swiftprox.hpp>
+#include <swiftprox/adapters/dart.hpp>
 
 #include "../report.h"
-#include "collider.h"
 
 namespace
 {
@@ -93,7 +93,7 @@ void play(const scene &scene, Collider collider, int steps, run &run)
     world->setGravity(Eigen::Vector3d(0, 0, -9.81));
     world->setTimeStep(STEP);
     if (collider == Collider::SWIFTPROX) {
-        world->getConstraintSolver()->setCollisionDetector(collider_create(MARGIN));
+        world->getConstraintSolver()->setCollisionDetector(swiftprox::adapters::dart::create_detector(MARGIN));
     }
     const auto floor = std::make_shared<BoxShape>(Eigen::Vector3d(10, 10, 1));
     world->addSkeleton(skeleton_of("floor", floor, Eigen::Isometry3d(Eigen::Translation3d(0, 0, -0.5)), true));

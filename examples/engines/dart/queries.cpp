@@ -13,8 +13,7 @@
 #include <dart/dynamics/CapsuleShape.hpp>
 #include <dart/dynamics/SimpleFrame.hpp>
 #include <dart/dynamics/SphereShape.hpp>
-
-#include "collider.h"
+#include <swiftprox/adapters/dart.hpp>
 
 namespace
 {
@@ -64,7 +63,7 @@ struct Without final : CollisionFilter, DistanceFilter {
 
 int main()
 {
-    const auto detector = collider_create();
+    const auto detector = swiftprox::adapters::dart::create_detector();
     const auto cube = std::make_shared<BoxShape>(Eigen::Vector3d(2, 2, 2));
     // Two cubes 0.25 in each other, a sphere 0.5 beyond, a capsule 1 beyond that.
     const auto left = frame_of(cube, 0), right = frame_of(cube, 1.75), ball = frame_of(std::make_shared<SphereShape>(1), 4.25),
@@ -114,7 +113,7 @@ int main()
     CHECK(group->distance(DistanceOption(), &result) == 0 && !result.found() && !group->collide());
 
     // With a margin cubes that are nearly together have contacts, and collide only where contacts are asked for.
-    const auto wary = collider_create(0.01);
+    const auto wary = swiftprox::adapters::dart::create_detector(0.01);
     const auto below = wary->createCollisionGroup(left.get()), above = wary->createCollisionGroup(right.get());
     const auto both = wary->createCollisionGroup(left.get(), right.get());
     right->setTranslation(Eigen::Vector3d(2 + 0x1p-8, 0, 0));

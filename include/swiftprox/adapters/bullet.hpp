@@ -1,28 +1,48 @@
-#include "collider.h"
+/*
+ * swiftprox as a collision algorithm of Bullet, for pairs of convex hulls: contacts of up to four points that keep their impulses while
+ * their features stay. Nothing throws.
+ *
+ *   btDefaultCollisionConstructionInfo info;
+ *   info.m_customCollisionAlgorithmMaxElementSize = swiftprox::adapters::bullet::algorithm_size();
+ *   ...
+ *   swiftprox::adapters::bullet::install(dispatcher);
+ *   swiftprox::adapters::bullet::attach(hull, shape);   // of each btConvexHullShape; without a shape Bullet's own collider answers
+ */
+#ifndef SWIFTPROX_ADAPTERS_BULLET_HPP
+#define SWIFTPROX_ADAPTERS_BULLET_HPP
+
+#include "../pair.hpp"
 
 #include <cstdint>
+#include <new>
+
+#include <btBulletCollisionCommon.h>
 
 #include <BulletCollision/CollisionDispatch/btCollisionCreateFunc.h>
 #include <BulletCollision/CollisionDispatch/btManifoldResult.h>
 #include <BulletCollision/NarrowPhaseCollision/btPersistentManifold.h>
 
-namespace
+namespace swiftprox::adapters::bullet
 {
 
-swiftprox::Pose pose_of(const btTransform &transform)
+namespace detail
+{
+
+inline Pose pose_of(const btTransform &transform)
 {
     const btMatrix3x3 &r = transform.getBasis();
     const btVector3 &t = transform.getOrigin();
-    return swiftprox::Pose({r[0][0], r[0][1], r[0][2], r[1][0], r[1][1], r[1][2], r[2][0], r[2][1], r[2][2]},
-                           {t[0], t[1], t[2]});
+    return Pose({r[0][0], r[0][1], r[0][2], r[1][0], r[1][1], r[1][2], r[2][0], r[2][1], r[2][2]},
+                {t[0], t[1], t[2]});
 }
 
-const swiftprox::Shape &shape_of(const btCollisionObjectWrapper *object)
+/** Null where none is attached. */
+inline const Shape *shape_of(const btCollisionObjectWrapper *object)
 {
-    return *static_cast<const swiftprox::Shape *>(object->getCollisionShape()->getUserPointer());
+    return static_cast<const Shape *>(object->getCollisionShape()->getUserPointer());
 }
 
-// One pair, as long as Bullet's broad phase holds it: what the pair remembers lives here.
+/** One pair, as long as Bullet's broad phase holds it: what the pair remembers lives here. */
 class Algorithm final : public btCollisionAlgorithm
 {
   public:
@@ -37,11 +57,11 @@ class Algorithm final : public btCollisionAlgorithm
     {
         result->setPersistentManifold(manifold_);
         const btTransform &a_from = a->getWorldTransform(), &b_from = b->getWorldTransform();
-        swiftprox::ManifoldConfig config;
+        ManifoldConfig config;
         config.reduces = true;
         config.max_distance = manifold_->getContactBreakingThreshold();
         swiftprox_manifold_point points[MANIFOLD_CACHE_SIZE];
-        const auto found = swiftprox::try_manifold({shape_of(a), pose_of(a_from)}, {shape_of(b), pose_of(b_from)}, cache_,
+        const auto found = try_manifold({*shape_of(a), pose_of(a_from)}, {*shape_of(b), pose_of(b_from)}, cache_,
                                                    {points, MANIFOLD_CACHE_SIZE}, config);
         // A pose is refused where the simulation has gone to infinity: no contact then, as with Bullet's own.
         const std::uint32_t count = found ? found.value.point_count : 0;
@@ -89,7 +109,7 @@ class Algorithm final : public btCollisionAlgorithm
 
   private:
     btPersistentManifold *manifold_;
-    swiftprox::ManifoldCache cache_;
+    ManifoldCache cache_;
 };
 
 class CreateFunction final : public btCollisionAlgorithmCreateFunc
@@ -98,25 +118,46 @@ class CreateFunction final : public btCollisionAlgorithmCreateFunc
     btCollisionAlgorithm *CreateCollisionAlgorithm(btCollisionAlgorithmConstructionInfo &info, const btCollisionObjectWrapper *a,
                                                    const btCollisionObjectWrapper *b) override
     {
-        void *const memory = info.m_dispatcher1->allocateCollisionAlgorithm(sizeof(Algorithm));
+        auto &dispatcher = *static_cast<btCollisionDispatcher *>(info.m_dispatcher1);
+        if (!shape_of(a) || !shape_of(b)) {
+            return dispatcher.getCollisionConfiguration()
+                ->getCollisionAlgorithmCreateFunc(CONVEX_HULL_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE)
+                ->CreateCollisionAlgorithm(info, a, b);
+        }
+        void *const memory = dispatcher.allocateCollisionAlgorithm(sizeof(Algorithm));
         return new (memory) Algorithm(info, a->getCollisionObject(), b->getCollisionObject());
     }
 };
 
-} // namespace
+} // namespace detail
 
-void collider_attach(btCollisionShape &bullet_shape, const swiftprox::Shape &shape)
+/**
+ * Gives a hull of Bullet's its shape of ours, made from the same points: Bullet's margin is no part of it. It takes the hull's user
+ * pointer, of all hulls that a dispatcher with `install` meets; `shape` lives as long as the hull, and stays where it is.
+ */
+inline void attach(btConvexHullShape &hull, const Shape &shape)
 {
-    bullet_shape.setUserPointer(const_cast<swiftprox::Shape *>(&shape));
+    hull.setUserPointer(const_cast<Shape *>(&shape));
+}
+/** A temporary shape would be gone before the hull. */
+void attach(btConvexHullShape &hull, const Shape &&shape) = delete;
+
+/**
+ * How large an algorithm is: Bullet takes them from a pool whose elements are to be as large
+ * (btDefaultCollisionConstructionInfo::m_customCollisionAlgorithmMaxElementSize).
+ */
+inline int algorithm_size()
+{
+    return sizeof(detail::Algorithm);
 }
 
-int collider_size()
+/** From now on a dispatcher asks swiftprox about pairs of convex hulls that have shapes. */
+inline void install(btCollisionDispatcher &dispatcher)
 {
-    return sizeof(Algorithm);
-}
-
-void collider_install(btCollisionDispatcher &dispatcher)
-{
-    static CreateFunction function;
+    static detail::CreateFunction function;
     dispatcher.registerCollisionCreateFunc(CONVEX_HULL_SHAPE_PROXYTYPE, CONVEX_HULL_SHAPE_PROXYTYPE, &function);
 }
+
+} // namespace swiftprox::adapters::bullet
+
+#endif

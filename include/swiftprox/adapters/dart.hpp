@@ -1,12 +1,29 @@
-#include "collider.h"
+/*
+ * swiftprox as a collision detector of DART, for boxes, spheres, capsules and meshes; a mesh counts as its convex hull.
+ *
+ *   world->getConstraintSolver()->setCollisionDetector(swiftprox::adapters::dart::create_detector(1e-4));
+ *
+ * What swiftprox refuses, and shapes of other types, are not tested; DART's console says so. Nothing of ours throws, but where memory
+ * is lacking.
+ */
+#ifndef SWIFTPROX_ADAPTERS_DART_HPP
+#define SWIFTPROX_ADAPTERS_DART_HPP
+
+#include "../pair.hpp"
+#include "../scene.hpp"
 
 #include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <iterator>
 #include <limits>
+#include <memory>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <assimp/scene.h>
+#include <dart/collision/CollisionDetector.hpp>
 #include <dart/collision/CollisionFilter.hpp>
 #include <dart/collision/CollisionGroup.hpp>
 #include <dart/collision/CollisionObject.hpp>
@@ -16,66 +33,72 @@
 #include <dart/dynamics/CapsuleShape.hpp>
 #include <dart/dynamics/MeshShape.hpp>
 #include <dart/dynamics/SphereShape.hpp>
-#include <swiftprox.hpp>
 
-namespace
+namespace swiftprox::adapters::dart
 {
 
-using namespace dart::collision;
+namespace detail
+{
 
-Eigen::Vector3d vector_of(const double *v)
+using namespace ::dart::collision;
+
+inline Eigen::Vector3d vector_of(const double *v)
 {
     return Eigen::Vector3d(v[0], v[1], v[2]);
 }
 
-// No shape for what is neither box nor sphere, capsule or mesh.
-swiftprox::Shape shape_of(const dart::dynamics::Shape &shape)
+/** Says what is wrong; whether nothing is. */
+inline bool is_good(const Status &status)
 {
-    swiftprox::ShapeOptions options;
-    options.input = SWIFTPROX_INPUT_HULL;
-    std::vector<double> points;
-    if (const auto *box = dynamic_cast<const dart::dynamics::BoxShape *>(&shape)) {
+    if (!status) {
+        dtwarn << "[swiftprox] " << status.message() << "\n";
+    }
+    return static_cast<bool>(status);
+}
+
+/** No shape for what is neither box nor sphere, capsule or mesh, and for what is refused. */
+inline Shape shape_of(const ::dart::dynamics::Shape &shape)
+{
+    Result<Shape> made;
+    if (const auto *box = dynamic_cast<const ::dart::dynamics::BoxShape *>(&shape)) {
         const Eigen::Vector3d half = 0.5 * box->getSize();
-        for (int corner = 0; corner < 8; ++corner) {
-            for (int k = 0; k < 3; ++k) {
-                points.push_back(corner >> k & 1 ? half[k] : -half[k]);
-            }
-        }
-    } else if (const auto *sphere = dynamic_cast<const dart::dynamics::SphereShape *>(&shape)) {
-        points = {0, 0, 0};
-        options.swept_radius = sphere->getRadius();
-    } else if (const auto *capsule = dynamic_cast<const dart::dynamics::CapsuleShape *>(&shape)) {
-        const double half = 0.5 * capsule->getHeight();
-        points = {0, 0, -half, 0, 0, half};
-        options.swept_radius = capsule->getRadius();
-    } else if (const auto *mesh = dynamic_cast<const dart::dynamics::MeshShape *>(&shape)) {
+        made = Shape::try_box(half[0], half[1], half[2]);
+    } else if (const auto *sphere = dynamic_cast<const ::dart::dynamics::SphereShape *>(&shape)) {
+        made = Shape::try_sphere(sphere->getRadius());
+    } else if (const auto *capsule = dynamic_cast<const ::dart::dynamics::CapsuleShape *>(&shape)) {
+        made = Shape::try_capsule(0.5 * capsule->getHeight(), capsule->getRadius());
+    } else if (const auto *mesh = dynamic_cast<const ::dart::dynamics::MeshShape *>(&shape)) {
+        std::vector<double> points;
         const aiScene &from = *mesh->getMesh();
         for (unsigned part = 0; part < from.mNumMeshes; ++part) {
             for (unsigned i = 0; i < from.mMeshes[part]->mNumVertices; ++i) {
                 const aiVector3D &vertex = from.mMeshes[part]->mVertices[i];
                 for (unsigned k = 0; k < 3; ++k) {
-                    points.push_back(mesh->getScale()[k] * double(vertex[k]));
+                    points.push_back(mesh->getScale()[k] * static_cast<double>(vertex[k]));
                 }
             }
         }
+        ShapeOptions options;
+        options.input = SWIFTPROX_INPUT_HULL;
+        made = Shape::try_from_points(points, options);
     } else {
         dtwarn << "[swiftprox] a shape of type " << shape.getType() << " is not tested.\n";
         return {};
     }
-    return swiftprox::Shape::from_points(points, options);
+    return is_good(made) ? made.value : Shape();
 }
 
 struct Object final : CollisionObject {
-    Object(CollisionDetector *detector, const dart::dynamics::ShapeFrame *frame)
+    Object(CollisionDetector *detector, const ::dart::dynamics::ShapeFrame *frame)
         : CollisionObject(detector, frame), shape(shape_of(*getShape()))
     {
     }
     void updateEngineData() override {}
 
-    swiftprox::Shape shape;
+    Shape shape;
 };
 
-// Objects, and a scene with one for each that has a shape.
+/** Objects, and a scene with one for each that has a shape. */
 class Group final : public CollisionGroup
 {
   public:
@@ -83,7 +106,7 @@ class Group final : public CollisionGroup
     using CollisionGroup::updateEngineData;
 
     const std::vector<Object *> &objects() const { return objects_; }
-    swiftprox::Scene &scene() { return scene_; }
+    Scene &scene() { return scene_; }
 
   protected:
     void initializeEngineData() override {}
@@ -91,11 +114,15 @@ class Group final : public CollisionGroup
     void addCollisionObjectToEngine(CollisionObject *added) override
     {
         const auto object = static_cast<Object *>(added);
-        if (object->shape) {
-            swiftprox::ObjectOptions options;
-            options.user_data = reinterpret_cast<std::uintptr_t>(object);
-            options.pose = swiftprox::Pose(object->getTransform());
-            ids_.push_back(scene_.add(object->shape, options));
+        if (!object->shape) {
+            return;
+        }
+        ObjectOptions options;
+        options.user_data = reinterpret_cast<std::uintptr_t>(object);
+        options.pose = Pose(object->getTransform());
+        const Result<swiftprox_object_id> id = scene_.try_add(object->shape, options);
+        if (is_good(id)) {
+            ids_.push_back(id.value);
             objects_.push_back(object);
         }
     }
@@ -112,7 +139,7 @@ class Group final : public CollisionGroup
         const auto at = std::find(objects_.begin(), objects_.end(), removed);
         if (at != objects_.end()) {
             const auto id = ids_.begin() + (at - objects_.begin());
-            scene_.remove_object(*id);
+            is_good(scene_.try_remove_object(*id));
             ids_.erase(id);
             objects_.erase(at);
         }
@@ -120,7 +147,7 @@ class Group final : public CollisionGroup
 
     void removeAllCollisionObjectsFromEngine() override
     {
-        scene_.remove_objects(ids_);
+        is_good(scene_.try_remove_objects(ids_));
         ids_.clear();
         objects_.clear();
     }
@@ -132,19 +159,17 @@ class Group final : public CollisionGroup
             poses_.emplace_back(object->getTransform());
         }
         // A pose is refused where the simulation has gone to infinity: then all stay where they were.
-        if (!scene_.try_set_poses(ids_, poses_)) {
-            dtwarn << "[swiftprox] " << swiftprox_library_last_error_message() << "\n";
-        }
+        is_good(scene_.try_set_poses(ids_, poses_));
     }
 
   private:
-    swiftprox::Scene scene_;
+    Scene scene_;
     std::vector<Object *> objects_;
     std::vector<swiftprox_object_id> ids_; // of the objects, in their order
-    std::vector<swiftprox::Pose> poses_;
+    std::vector<Pose> poses_;
 };
 
-// What a check of collisions has found so far, as far as it was asked for.
+/** What a check of collisions has found so far, as far as it was asked for. */
 struct Collisions {
     const CollisionOption &option;
     CollisionResult *result;
@@ -157,7 +182,7 @@ struct Collisions {
         return option.collisionFilter && option.collisionFilter->ignoresCollision(a, b);
     }
 
-    void add(Object *a, Object *b, const double *normal, swiftprox::Range<const swiftprox_manifold_point> points)
+    void add(Object *a, Object *b, const double *normal, Range<const swiftprox_manifold_point> points)
     {
         Contact contact;
         contact.collisionObject1 = a;
@@ -170,7 +195,7 @@ struct Collisions {
             // Both normals go from 2 to 1.
             contact.normal = vector_of(normal);
             contact.point = 0.5 * (vector_of(point.world1) + vector_of(point.world2));
-            contact.penetrationDepth = -swiftprox::gap(point);
+            contact.penetrationDepth = -gap(point);
             add(contact);
         }
     }
@@ -188,7 +213,7 @@ struct Collisions {
 
 using Pairs = std::vector<std::pair<Object *, Object *>>;
 
-Pairs pairs_of(const Group &group)
+inline Pairs pairs_of(const Group &group)
 {
     Pairs pairs;
     for (auto b = group.objects().begin(); b != group.objects().end(); ++b) {
@@ -199,7 +224,7 @@ Pairs pairs_of(const Group &group)
     return pairs;
 }
 
-Pairs pairs_between(const Group &first, const Group &second)
+inline Pairs pairs_between(const Group &first, const Group &second)
 {
     Pairs pairs;
     for (Object *a : first.objects()) {
@@ -212,8 +237,8 @@ Pairs pairs_between(const Group &first, const Group &second)
     return pairs;
 }
 
-// The least signed distance: from 0 down it is minus the depth.
-double least_distance(const Pairs &pairs, const DistanceOption &option, DistanceResult *result)
+/** The least signed distance: from 0 down it is minus the depth. */
+inline double least_distance(const Pairs &pairs, const DistanceOption &option, DistanceResult *result)
 {
     if (result) {
         result->clear();
@@ -223,12 +248,13 @@ double least_distance(const Pairs &pairs, const DistanceOption &option, Distance
         if (option.distanceFilter && !option.distanceFilter->needDistance(a, b)) {
             continue;
         }
-        swiftprox::PairConfig config;
+        PairConfig config;
         config.max_distance = std::max(least, 0.0);
-        swiftprox::ManifoldCache cache;
-        const swiftprox::Pose at[2] = {swiftprox::Pose(a->getTransform()), swiftprox::Pose(b->getTransform())};
-        const auto found = swiftprox::signed_distance({a->shape, at[0]}, {b->shape, at[1]}, cache, config);
-        if (found.outcome == SWIFTPROX_OUTCOME_BEYOND || !(found.distance < least)) {
+        ManifoldCache cache;
+        const Pose at[2] = {Pose(a->getTransform()), Pose(b->getTransform())};
+        const auto asked = try_signed_distance({a->shape, at[0]}, {b->shape, at[1]}, cache, config);
+        const swiftprox_signed_distance &found = asked.value;
+        if (!is_good(asked) || found.outcome == SWIFTPROX_OUTCOME_BEYOND || !(found.distance < least)) {
             continue;
         }
         least = found.distance;
@@ -263,7 +289,7 @@ class Detector final : public CollisionDetector
         mCollisionObjectManager.reset(new ManagerForSharableCollisionObjects(this));
     }
 
-    std::shared_ptr<CollisionDetector> cloneWithoutCollisionObjects() const override { return collider_create(margin_); }
+    std::shared_ptr<CollisionDetector> cloneWithoutCollisionObjects() const override { return std::make_shared<Detector>(margin_); }
 
     const std::string &getType() const override
     {
@@ -277,10 +303,12 @@ class Detector final : public CollisionDetector
     {
         Group &group = updated(of);
         Collisions found = begin(option, result);
-        swiftprox::SceneQuery query;
+        SceneQuery query;
         query.max_distance = margin_for(option, result);
         query.detail = option.enableContact ? SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD : SWIFTPROX_CONTACT_DETAIL_NONE;
-        const swiftprox_scene_answer answer = group.scene().query_contact(query);
+        const auto asked = group.scene().try_query_contact(query);
+        const swiftprox_scene_answer &answer = asked.value;
+        is_good(asked);
         for (std::size_t i = 0; i < answer.count && !found.is_enough(); ++i) {
             const auto a = reinterpret_cast<Object *>(static_cast<std::uintptr_t>(answer.pairs[i].user_data1));
             const auto b = reinterpret_cast<Object *>(static_cast<std::uintptr_t>(answer.pairs[i].user_data2));
@@ -288,7 +316,7 @@ class Detector final : public CollisionDetector
                 continue;
             }
             if (option.enableContact) {
-                found.add(a, b, answer.contacts[i].manifold.normal, swiftprox::points(answer, answer.contacts[i]));
+                found.add(a, b, answer.contacts[i].manifold.normal, points(answer, answer.contacts[i]));
             } else {
                 found.add(a, b, nullptr, {});
             }
@@ -300,7 +328,7 @@ class Detector final : public CollisionDetector
     {
         enum { MOST_POINTS = 4 };
         Collisions found = begin(option, result);
-        swiftprox::ManifoldConfig config;
+        ManifoldConfig config;
         config.reduces = true;
         config.max_distance = margin_for(option, result);
         for (const auto &[a, b] : pairs_between(updated(first), updated(second))) {
@@ -310,12 +338,12 @@ class Detector final : public CollisionDetector
             if (found.ignores(a, b)) {
                 continue;
             }
-            swiftprox::ManifoldCache cache;
+            ManifoldCache cache;
             swiftprox_manifold_point points[MOST_POINTS];
-            const swiftprox::Pose at[2] = {swiftprox::Pose(a->getTransform()), swiftprox::Pose(b->getTransform())};
-            const auto manifold = swiftprox::manifold({a->shape, at[0]}, {b->shape, at[1]}, cache, {points, MOST_POINTS}, config);
-            if (manifold.point_count > 0) {
-                found.add(a, b, manifold.normal, {points, manifold.point_count});
+            const Pose at[2] = {Pose(a->getTransform()), Pose(b->getTransform())};
+            const auto met = try_manifold({a->shape, at[0]}, {b->shape, at[1]}, cache, {points, MOST_POINTS}, config);
+            if (is_good(met) && met.value.point_count > 0) {
+                found.add(a, b, met.value.normal, {points, met.value.point_count});
             }
         }
         return found.count > 0;
@@ -332,7 +360,7 @@ class Detector final : public CollisionDetector
     }
 
   protected:
-    std::unique_ptr<CollisionObject> createCollisionObject(const dart::dynamics::ShapeFrame *frame) override
+    std::unique_ptr<CollisionObject> createCollisionObject(const ::dart::dynamics::ShapeFrame *frame) override
     {
         return std::make_unique<Object>(this, frame);
     }
@@ -366,9 +394,21 @@ class Detector final : public CollisionDetector
     double margin_;
 };
 
-} // namespace
+} // namespace detail
 
-std::shared_ptr<dart::collision::CollisionDetector> collider_create(double margin)
+/**
+ * A detector for worlds (World::getConstraintSolver()->setCollisionDetector) and for groups of a program's own. A group's contacts
+ * are those of a scene that goes with it; of two groups, and for distances, all pairs are asked. It does not cast rays.
+ *
+ * Bodies that are up to `margin` apart have contacts, whose depth is then below 0. DART keeps nothing of a contact from one step to
+ * the next: without a margin those at rest come and go by rounding, and a card house falls. Where no contacts are asked for, the
+ * verdict is exact.
+ */
+inline std::shared_ptr<::dart::collision::CollisionDetector> create_detector(double margin = 0)
 {
-    return std::make_shared<Detector>(margin);
+    return std::make_shared<detail::Detector>(margin);
 }
+
+} // namespace swiftprox::adapters::dart
+
+#endif
