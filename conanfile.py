@@ -60,6 +60,11 @@ class Swiftprox(ConanFile):
             # As SWIFTPROX_STATIC_NEEDS in CMakeLists.txt.
             core.exelinkflags = ["-Wl,--gc-sections"]
             core.system_libs = ["util", "rt", "pthread", "m", "dl"]
+        # Headers over those of engines and planners, which a program brings.
+        adapters = self.cpp_info.components["adapters"]
+        adapters.libdirs = []
+        adapters.requires = ["swiftprox"]
+        adapters.set_property("cmake_target_name", "swiftprox::adapters")
         # SWIFT.h.
         legacy = self.cpp_info.components["legacy"]
         legacy.libdirs = []

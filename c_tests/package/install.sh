@@ -20,7 +20,7 @@ soname=$(readelf -d "$real" | sed -n 's/.*(SONAME).*\[\(.*\)\]/\1/p')
 [ "$(readlink "$shared")" = "$soname" ] || complain "$shared is no link to $soname"
 [ "$(readlink "$(dirname "$shared")/$soname")" = "$(basename "$real")" ] || complain "$soname is no link to $real"
 for file in include/swiftprox.h include/swiftprox/tuning.h include/swiftprox.hpp include/swiftprox/pair.hpp \
-    include/swiftprox/legacy/SWIFT.h \
+    include/swiftprox/legacy/SWIFT.h include/swiftprox/adapters/fcl.hpp \
     share/doc/swiftprox/LICENSE-MIT share/doc/swiftprox/conventions.md; do
     [ -s "$moved$prefix/$file" ] || complain "$file is missing"
 done

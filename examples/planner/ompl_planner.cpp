@@ -2,9 +2,10 @@
 // and PRM*, and proves each edge of each path anew. Then the same piece with OMPL's own sampled validator at a resolution of 1 %:
 // it shows a path that passes there and collides. The status is 1 where a path is missing, not proved, or where no sampled path
 // collides.
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
+#include <utility>
 
 #include <ompl/base/DiscreteMotionValidator.h>
 #include <ompl/base/objectives/PathLengthOptimizationObjective.h>
@@ -15,10 +16,11 @@
 #include <ompl/util/Console.h>
 #include <ompl/util/RandomNumbers.h>
 
-#include "certified.hpp"
+#include "problems.hpp"
 
 namespace ob = ompl::base;
 namespace og = ompl::geometric;
+namespace certified = swiftprox::adapters::ompl;
 
 namespace {
 
@@ -34,26 +36,25 @@ const double RESOLUTION = 0.01;
 const unsigned FIRST_SEED = 1, MOST_SEEDS = 40;
 
 struct Setting {
-    Setting(std::unique_ptr<Problem> made, Validator validator)
-        : problem(std::move(made)), shared{*problem, {}}, information(std::make_shared<ob::SpaceInformation>(problem->space)),
+    Setting(Problem made, Validator validator)
+        : problem(std::move(made)), information(std::make_shared<ob::SpaceInformation>(problem.space)),
           definition(std::make_shared<ob::ProblemDefinition>(information))
     {
-        information->setStateValidityChecker(std::make_shared<CertifiedStates>(information, shared));
+        information->setStateValidityChecker(std::make_shared<certified::StateChecker>(information, problem.cell));
         if (validator == Validator::certified) {
-            information->setMotionValidator(std::make_shared<CertifiedMotions>(information, shared));
+            information->setMotionValidator(std::make_shared<certified::MotionChecker>(information, problem.cell));
         } else {
             information->setStateValidityCheckingResolution(RESOLUTION);
             information->setMotionValidator(std::make_shared<ob::DiscreteMotionValidator>(information));
         }
         information->setup();
-        definition->setStartAndGoalStates(*problem->start, *problem->goal);
+        definition->setStartAndGoalStates(*problem.start, *problem.goal);
         auto shortest = std::make_shared<ob::PathLengthOptimizationObjective>(information);
         shortest->setCostThreshold(shortest->infiniteCost()); // any path will do
         definition->setOptimizationObjective(shortest);
     }
 
-    std::unique_ptr<Problem> problem;
-    Shared shared;
+    Problem problem;
     ob::SpaceInformationPtr information;
     ob::ProblemDefinitionPtr definition;
 };
@@ -71,15 +72,15 @@ struct Recheck {
 };
 
 // From the motions alone, edge by edge and pair by pair.
-Recheck recheck(Setting &setting, const og::PathGeometric &path)
+Recheck recheck(const Setting &setting, const og::PathGeometric &path)
 {
     Recheck found = {path.getStateCount() - 1, 0, 0, 0};
     for (size_t i = 0; i < found.edges; ++i) {
-        const swiftprox_motion *const motions = setting.problem->motions(path.getState(i), path.getState(i + 1));
-        if (cell_prove_free(&setting.problem->cell, motions)) {
+        const ob::State *const from = path.getState(i), *const to = path.getState(i + 1);
+        if (setting.problem.cell->is_proved_free(from, to)) {
             continue;
         }
-        const cell_edge edge = cell_cast(&setting.problem->cell, motions);
+        const certified::Edge edge = setting.problem.cell->cast(from, to);
         if (found.refuted++ == 0) {
             found.time_lower = edge.time_lower;
             found.time_upper = edge.time_upper;
@@ -97,7 +98,7 @@ double least_clearance(const Setting &setting, og::PathGeometric &path)
     return least;
 }
 
-bool report(Setting &setting, const char *problem, const char *planner)
+bool report(const Setting &setting, const char *problem, const char *planner)
 {
     og::PathGeometric *const path = solution(setting);
     if (!path) {
@@ -110,7 +111,7 @@ bool report(Setting &setting, const char *problem, const char *planner)
     return proved.refuted == 0;
 }
 
-bool plan_by_rrt_connect(std::unique_ptr<Problem> problem, const char *name)
+bool plan_by_rrt_connect(Problem problem, const char *name)
 {
     Setting setting(std::move(problem), Validator::certified);
     og::RRTConnect planner(setting.information);
@@ -122,7 +123,7 @@ bool plan_by_rrt_connect(std::unique_ptr<Problem> problem, const char *name)
 }
 
 // The roadmap grows for so many iterations, in this thread; the search of it is OMPL's, in another.
-bool plan_by_prm_star(std::unique_ptr<Problem> problem, const char *name, unsigned iterations)
+bool plan_by_prm_star(Problem problem, const char *name, unsigned iterations)
 {
     Setting setting(std::move(problem), Validator::certified);
     og::PRMstar planner(setting.information);
