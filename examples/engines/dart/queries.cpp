@@ -11,6 +11,7 @@
 #include <dart/collision/DistanceFilter.hpp>
 #include <dart/dynamics/BoxShape.hpp>
 #include <dart/dynamics/CapsuleShape.hpp>
+#include <dart/dynamics/CylinderShape.hpp>
 #include <dart/dynamics/SimpleFrame.hpp>
 #include <dart/dynamics/SphereShape.hpp>
 #include <swiftprox/adapters/dart.hpp>
@@ -124,5 +125,12 @@ int main()
     CHECK(!both->collide() && !both->collide(CollisionOption(false, 100), &contacts) && !below->collide(above.get()));
     right->setTranslation(Eigen::Vector3d(2 + 0x1p-6, 0, 0));
     CHECK(!both->collide(CollisionOption(true, 100), &contacts) && !below->collide(above.get(), CollisionOption(true, 100), &contacts));
+
+    // What is refused is not tested, and nothing throws: a shape of another type, a capsule beyond the doubles, a pose that is none.
+    const auto odd = frame_of(std::make_shared<CylinderShape>(5, 5), 0), huge = frame_of(std::make_shared<CapsuleShape>(1e305, 1), 0);
+    const auto untested = detector->createCollisionGroup(left.get(), odd.get(), huge.get());
+    CHECK(untested->getNumShapeFrames() == 3 && !untested->collide() && untested->distance() == 0);
+    right->setTranslation(Eigen::Vector3d(std::numeric_limits<double>::infinity(), 0, 0));
+    CHECK(!both->collide() && !below->collide(above.get()) && below->distance(above.get()) == 0);
     return failures == 0 ? EXIT_SUCCESS : EXIT_FAILURE;
 }

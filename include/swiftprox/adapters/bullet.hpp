@@ -1,5 +1,5 @@
 /*
- * swiftprox as a collision algorithm of Bullet, for pairs of convex hulls: contacts of up to four points that keep their impulses while
+ * swiftprox as a collision algorithm of Bullet, for pairs of convex hulls: up to four contacts, which keep their impulses while
  * their features stay. Nothing throws.
  *
  *   btDefaultCollisionConstructionInfo info;
@@ -82,7 +82,8 @@ class Algorithm final : public btCollisionAlgorithm
                                   static_cast<btScalar>(0.5 * (from.gap_lower + from.gap_upper)));
             point.m_positionWorldOnA = vector(from.world1);
             point.m_positionWorldOnB = vector(from.world2);
-            point.m_combinedFriction = btManifoldResult::calculateCombinedFriction(a->getCollisionObject(), b->getCollisionObject());
+            point.m_combinedFriction =
+                btManifoldResult::calculateCombinedFriction(a->getCollisionObject(), b->getCollisionObject());
             point.m_combinedRestitution =
                 btManifoldResult::calculateCombinedRestitution(a->getCollisionObject(), b->getCollisionObject());
             btPlaneSpace1(point.m_normalWorldOnB, point.m_lateralFrictionDir1, point.m_lateralFrictionDir2);

@@ -3,7 +3,7 @@
  *
  *   world->getConstraintSolver()->setCollisionDetector(swiftprox::adapters::dart::create_detector(1e-4));
  *
- * What swiftprox refuses, and shapes of other types, are not tested; DART's console says so. Nothing of ours throws, but where memory
+ * What swiftprox refuses, and shapes of other types, are not tested; DART's console says so. Nothing of ours throws, unless memory
  * is lacking.
  */
 #ifndef SWIFTPROX_ADAPTERS_DART_HPP

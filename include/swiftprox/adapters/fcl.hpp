@@ -13,8 +13,8 @@
  *   tolerances     not needed: neither those of the requests nor the choice of the solver count
  *
  * A shape is made when a geometry is first seen, or is not what it was: what stands at an address is compared, so that a geometry
- * may change, or die and be followed by another. Shapes of objects' geometries stay while these live. Of geometries that are given by
- * pointers 1,024 are kept, then all of them are forgotten. Any number of threads may ask.
+ * may change, or die and be followed by another. Shapes of objects' geometries stay while these live. Of geometries given by
+ * pointer 1,024 are kept, then all of them are forgotten. Any number of threads may ask.
  */
 #ifndef SWIFTPROX_ADAPTERS_FCL_HPP
 #define SWIFTPROX_ADAPTERS_FCL_HPP
@@ -220,7 +220,8 @@ template <class S> bool find_contacts(const Placed &a, const Placed &b, std::siz
     config.reduces = true;
     std::array<swiftprox_manifold_point, 4> points;
     const auto found = try_manifold(a, b, cache, points, config);
-    const auto end = points.begin() + found.value.point_count, enough = points.begin() + std::min<std::size_t>(most, found.value.point_count);
+    const auto end = points.begin() + found.value.point_count;
+    const auto enough = points.begin() + static_cast<std::ptrdiff_t>(std::min<std::size_t>(most, found.value.point_count));
     std::partial_sort(points.begin(), enough, end, [](const auto &one, const auto &other) { return gap(one) < gap(other); });
     for (auto point = points.begin(); point != enough; ++point) {
         contacts.add(point->world1, point->world2, found.value.normal, gap(*point));
