@@ -2,6 +2,7 @@
  * Processor times of 2,000 poses each, the least of seven passes. No test. */
 #include <swiftprox/adapters/fcl.hpp>
 
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -72,19 +73,22 @@ template <class Call> double nanoseconds(std::vector<fcl::CollisionObjectd> &at,
     return double(std::clock() - before) / CLOCKS_PER_SEC / POSES * 1e9;
 }
 
-template <class Theirs, class Ours> void row(const char *what, std::vector<fcl::CollisionObjectd> &at,
-                                             const fcl::CollisionObjectd &still, Theirs theirs, Ours ours)
+/* By FCL and by swiftprox. */
+using Times = std::array<double, 2>;
+
+template <class Theirs, class Ours>
+Times least_times(std::vector<fcl::CollisionObjectd> &at, const fcl::CollisionObjectd &still, Theirs theirs, Ours ours)
 {
-    double least[2] = {INFINITY, INFINITY};
+    Times least{INFINITY, INFINITY};
     for (int pass = 0; pass < PASSES; ++pass) {
         least[0] = std::fmin(least[0], nanoseconds(at, still, theirs));
         least[1] = std::fmin(least[1], nanoseconds(at, still, ours));
     }
-    std::printf("| %s | %.0f | %.0f |\n", what, least[0], least[1]);
+    return least;
 }
 
-/* Poses whose centres are so far apart. */
-void rows(const char *where, double low, double high)
+/* Of each call, at poses whose centres are so far apart. */
+std::array<Times, 4> column(double low, double high)
 {
     const fcl::CollisionObjectd still(hull());
     const auto other = hull();
@@ -94,26 +98,28 @@ void rows(const char *where, double low, double high)
         const fcl::AngleAxisd turn(std::uniform_real_distribution<double>(0, 3)(numbers), direction());
         at.emplace_back(other, turn.toRotationMatrix(), far * direction());
     }
-    char what[100];
-    const auto name = [&](const char *call) {
-        std::snprintf(what, sizeof what, "%s, %s", call, where);
-        return what;
-    };
     const auto with = [](auto call, bool option) { return [=](const auto &a, const auto &b) { return call(a, b, option); }; };
-    row(name("`distance`"), at, still, with(distance<false>, false), with(distance<true>, false));
-    row(name("`distance`, signed"), at, still, with(distance<false>, true), with(distance<true>, true));
-    row(name("`collide`"), at, still, with(collide<false>, false), with(collide<true>, false));
-    row(name("`collide`, a contact"), at, still, with(collide<false>, true), with(collide<true>, true));
+    return {least_times(at, still, with(distance<false>, false), with(distance<true>, false)),
+            least_times(at, still, with(distance<false>, true), with(distance<true>, true)),
+            least_times(at, still, with(collide<false>, false), with(collide<true>, false)),
+            least_times(at, still, with(collide<false>, true), with(collide<true>, true))};
 }
 
 } // namespace
 
 int main()
 {
-    std::printf("| call, bodies | FCL | swiftprox |\n|---|--:|--:|\n");
-    rows("1 apart", 2.5, 3.5);
-    rows("near", 1.9, 2.1);
-    rows("overlapping", 1, 1.8);
+    const char *const calls[4] = {"`distance`", "`distance`, signed", "`collide`", "`collide` with a contact"};
+    const std::array<Times, 4> columns[3] = {column(2.5, 3.5), column(1.9, 2.1), column(1, 1.8)};
+    std::printf("| call | about 1 apart: FCL | swiftprox | near: FCL | swiftprox | overlapping: FCL | swiftprox |\n"
+                "| --- | --: | --: | --: | --: | --: | --: |\n");
+    for (std::size_t call = 0; call < 4; ++call) {
+        std::printf("| %s |", calls[call]);
+        for (const auto &of : columns) {
+            std::printf(" %.0f | %.0f |", of[call][0], of[call][1]);
+        }
+        std::printf("\n");
+    }
     std::fprintf(stderr, "%g\n", sum);
     return 0;
 }
