@@ -251,6 +251,7 @@ void test_lifetimes()
     const fcl::Sphered ball(1);
     alignas(fcl::Boxd) unsigned char memory[sizeof(fcl::Boxd)];
     static_assert(sizeof(fcl::Sphered) <= sizeof memory && alignof(fcl::Sphered) <= alignof(fcl::Boxd));
+    static_assert(sizeof(fcl::Capsuled) <= sizeof memory && alignof(fcl::Capsuled) <= alignof(fcl::Boxd));
     fcl::Boxd *box = new (memory) fcl::Boxd(2, 2, 2);
     CHECK(distance_of(*box, ball, 8) == 6);
     box->~Box();
@@ -262,6 +263,13 @@ void test_lifetimes()
     fcl::Sphered *const sphere = new (memory) fcl::Sphered(4);
     CHECK(distance_of(*sphere, ball, 8) == 3);
     sphere->~Sphere();
+    // The same numbers, of another kind: FCL answers boxes without thickness.
+    fcl::Capsuled *const capsule = new (memory) fcl::Capsuled(1, 2);
+    CHECK(distance_of(*capsule, ball, 8) == 6);
+    capsule->~Capsule();
+    box = new (memory) fcl::Boxd(1, 2, 0);
+    CHECK(std::fabs(distance_of(*box, ball, 8) - 6.5) < 1e-6);
+    box->~Box();
 
     // The allocator gives the next the memory of the last, and the program may edit the vertices that it shares with FCL.
     const Shape cube = Shape::box(1, 1, 1);
