@@ -22,6 +22,7 @@
 
 #include "swiftprox/batch.hpp"
 #include "swiftprox/compound.hpp"
+#include "swiftprox/draw.hpp"
 #include "swiftprox/gradient.hpp"
 #include "swiftprox/ground.hpp"
 #include "swiftprox/library.hpp"

@@ -44,6 +44,7 @@ pub mod ray;
 pub mod point;
 pub mod compound;
 pub mod ground;
+pub mod draw;
 pub mod scene;
 #[doc(hidden)]
 pub mod ffi;

@@ -8,7 +8,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Output};
 
 /// The files that declare what C sees; cbindgen finds those of `ffi` by itself.
-const SOURCES: [&str; 33] = [
+const SOURCES: [&str; 34] = [
     "src/body/tables/options.rs",
     "src/shape/levels/hierarchy/mod.rs",
     "src/shape/mod.rs",
@@ -29,6 +29,7 @@ const SOURCES: [&str; 33] = [
     "src/ray/query.rs",
     "src/ray/answer.rs",
     "src/point/answer.rs",
+    "src/draw/target.rs",
     "src/compound/answer.rs",
     "src/compound/body.rs",
     "src/scene/world/object.rs",

@@ -2,6 +2,7 @@
 
 #include "swiftprox/batch.h"
 #include "swiftprox/compound.h"
+#include "swiftprox/draw.h"
 #include "swiftprox/geometry.h"
 #include "swiftprox/ground.h"
 #include "swiftprox/process.h"

@@ -53,6 +53,10 @@ static void defaults()
     CHECK_DEFAULTS(SceneQuery{}.to_c(), swiftprox_scene_query, SWIFTPROX_SCENE_QUERY_DEFAULT);
     CHECK_DEFAULTS(CastConfig{}.to_c(), swiftprox_cast_config, SWIFTPROX_CAST_CONFIG_DEFAULT);
     CHECK_DEFAULTS(ClearanceConfig{}.to_c(), swiftprox_clearance_config, SWIFTPROX_CLEARANCE_CONFIG_DEFAULT);
+    const Draw draw; // which the C struct points at
+    swiftprox_draw drawing = draw.to_c();
+    drawing.user = nullptr;
+    CHECK_DEFAULTS(drawing, swiftprox_draw, SWIFTPROX_DRAW_DEFAULT);
     CHECK_DEFAULTS(ShapeTuning{}.to_c(), swiftprox_shape_tuning, SWIFTPROX_SHAPE_TUNING_DEFAULT);
     CHECK_DEFAULTS(PairTuning{}.to_c(), swiftprox_pair_tuning, SWIFTPROX_PAIR_TUNING_DEFAULT);
     swiftprox_shape_tuning tuning;
@@ -342,6 +346,39 @@ static void gradients()
     CHECK(swiftprox::gradient(into, there, depth.value).object1[0] == 1);
 #endif
     CHECK(!swiftprox::try_gradient(here, there, swiftprox_signed_distance{}));
+}
+
+/* Lines, points and texts go to functions that keep what they need. */
+static void drawings()
+{
+    const auto made = cube();
+    const Shape &box = made.value;
+    int edges = 0, steps = 0, words = 0;
+    swiftprox::Draw draw;
+    draw.line = [&](swiftprox_draw_kind kind, const double *start, const double *end) {
+        edges += kind == SWIFTPROX_DRAW_KIND_EDGE && start[0] >= -0.5 && end[0] <= 3.5;
+        steps += kind == SWIFTPROX_DRAW_KIND_MARCH;
+    };
+    draw.text = [&](swiftprox_draw_kind kind, const double *, const char *text) {
+        words += kind == SWIFTPROX_DRAW_KIND_WITNESS && std::strcmp(text, "2") == 0;
+    };
+    const swiftprox::Placed here{box, Pose()}, there{box, Pose::at(3, 0, 0)};
+    CHECK_OK(swiftprox::try_draw(here, draw).status);
+    CHECK(edges == 12 && steps == 0);
+    CHECK_OK(swiftprox::try_draw(here, there, draw).status);
+    CHECK(edges == 36 && steps > 0 && words == 1);
+    auto scene = swiftprox::Scene::try_create();
+    CHECK_OK(scene.value.try_add(box).status);
+    draw.kinds = swiftprox::draw_kinds(SWIFTPROX_DRAW_KIND_EDGE, SWIFTPROX_DRAW_KIND_BOX);
+    CHECK(draw.kinds == 3);
+    CHECK_OK(swiftprox::try_draw(scene.value, draw).status);
+    CHECK(edges == 48);
+#if SWIFTPROX_HAS_EXCEPTIONS
+    swiftprox::draw(here, draw);
+    swiftprox::draw(here, there, draw, {});
+    swiftprox::draw(scene.value, draw);
+    CHECK(edges == 96);
+#endif
 }
 
 /* Questions about sets, and many pairs at once. */
@@ -675,6 +712,7 @@ int main(int argc, char **argv)
     rays();
     points();
     gradients();
+    drawings();
     scenes(folder);
     sets();
     mesh_readers(folder);

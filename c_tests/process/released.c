@@ -4,6 +4,7 @@
 
 #include <swiftprox.h>
 #include <swiftprox/compound.h>
+#include <swiftprox/draw.h>
 #include <swiftprox/ground.h>
 #include <swiftprox/scene.h>
 
@@ -32,6 +33,7 @@ static void released_shapes(void)
     swiftprox_pair_answer answer;
     swiftprox_scene *scene = NULL;
     swiftprox_object_id id;
+    const swiftprox_draw draw = SWIFTPROX_DRAW_DEFAULT;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     /* A share is enough. */
     CHECK(swiftprox_shape_retain(shape) == shape);
@@ -42,6 +44,10 @@ static void released_shapes(void)
                 swiftprox_pair_distance((swiftprox_placed){shape, HERE}, (swiftprox_placed){other, THERE}, &cache, NULL, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_HANDLE, "`object2.shape` is no living shape",
                 swiftprox_pair_distance((swiftprox_placed){other, HERE}, (swiftprox_placed){shape, THERE}, &cache, NULL, &answer));
+    CHECK_FAILS(SWIFTPROX_ERROR_HANDLE, "`object.shape` is no living shape",
+                swiftprox_shape_draw((swiftprox_placed){shape, HERE}, &draw));
+    CHECK_FAILS(SWIFTPROX_ERROR_HANDLE, "`object2.shape` is no living shape",
+                swiftprox_pair_draw((swiftprox_placed){other, HERE}, (swiftprox_placed){shape, THERE}, NULL, &draw));
     CHECK_FAILS(SWIFTPROX_ERROR_HANDLE, "is no living shape", swiftprox_scene_add_object(scene, &shape, 1, NULL, &id));
     CHECK(swiftprox_shape_retain(shape) == NULL && is_told("is no living shape"));
     swiftprox_shape_release(shape);
@@ -76,8 +82,10 @@ static void destroyed_scenes(void)
 {
     swiftprox_scene *scene = NULL;
     swiftprox_scene_answer answer;
+    const swiftprox_draw draw = SWIFTPROX_DRAW_DEFAULT;
     CHECK_OK(swiftprox_scene_create(NULL, &scene));
     CHECK_OK(swiftprox_scene_destroy(scene));
+    CHECK_FAILS(SWIFTPROX_ERROR_HANDLE, "`scene` is no living scene", swiftprox_scene_draw(scene, &draw));
     CHECK_FAILS(SWIFTPROX_ERROR_HANDLE, "`scene` is no living scene", swiftprox_scene_query_distance(scene, NULL, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_HANDLE, "`scene` is no living scene", swiftprox_scene_destroy(scene));
 }

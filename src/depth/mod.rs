@@ -17,10 +17,11 @@ mod filling;
 mod proof;
 
 use crate::base::error::Result;
+use crate::base::math::Vector;
 use crate::base::simd;
 use crate::base::simd::environment::with_default;
 use crate::depth::facets::Overlap;
-use crate::depth::polytope::{Expansion, PolytopeWitness, Pyramid};
+use crate::depth::polytope::{Expansion, Polytope, PolytopeWitness, Pyramid};
 use crate::placed::Pair;
 use crate::shape::Placed;
 pub use answer::{DepthAnswer, DepthConfig, DepthEnding, DepthStatistics};
@@ -31,7 +32,7 @@ pub(crate) use proof::{ProofFrom, proof};
 pub(crate) use resting::{DepthPlaces, prove_at_rest};
 use scaling::Rescaled;
 pub(crate) use search::Pyramids;
-use search::{DepthQuery, DepthSearch, FoundPolytope};
+use search::{ClosedSurface, DepthQuery, DepthSearch, FoundPolytope};
 
 /// How deep two polyhedra are in each other.
 ///
@@ -92,6 +93,16 @@ pub(crate) fn deepest(pair: &Pair, pyramids: Pyramids) -> Result<(DepthAnswer, O
     }
     fill(&mut answer, pair, found.as_ref(), &overlap)?;
     Ok((answer, raised))
+}
+
+/// The triangles of the closed polytope with which a search from nothing ends: corners as differences of points of both bodies, in
+/// the world's axes. One that is too large to be kept is replaced by that of a less narrow search; none of bodies that need
+/// another unit of length, or whose overlap is rounding.
+pub(crate) fn for_each_triangle(pair: &Pair, mut visit: impl FnMut([Vector; 3])) {
+    let mut surface = ClosedSurface { pair, polytope: Polytope::EMPTY };
+    if simd::dispatch_to_avx2(&mut surface) {
+        (0..surface.polytope.triangle_count).for_each(|triangle| visit(surface.polytope.positions_of(triangle)));
+    }
 }
 
 /// The search among copies of the bodies in another unit of length, for poses that are accepted. `None` of a pair that floating

@@ -313,6 +313,40 @@ impl<'a> DepthQuery<'a> {
     }
 }
 
+/// The closed polytope with which a search from nothing ends; what the cache keeps of it, so that no search is compiled anew.
+pub struct ClosedSurface<'a> {
+    pub pair: &'a Pair<'a>,
+    pub polytope: Polytope<MOST_VERTICES, { MOST_TRIANGLES + 4 }>,
+}
+
+impl Kernel for ClosedSurface<'_> {
+    /// Whether there is one around the origin.
+    type Output = bool;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> bool {
+        let frame = Frame::<L>::new(self.pair);
+        let is_searched = frame.in_range && is_in_scale(self.pair.polyhedra);
+        is_searched && WIDER.into_iter().any(|relative_error| self.is_kept(&frame, relative_error))
+    }
+}
+
+/// Relative errors of searches, of which the first is drawn whose polytope is kept.
+const WIDER: [f64; 3] = [0.0, 0.01, 0.1];
+
+impl ClosedSurface<'_> {
+    #[inline(always)]
+    fn is_kept<L: Lanes>(&mut self, frame: &Frame<L>, relative_error: f64) -> bool {
+        let config = &DepthConfig { relative_error, ..DepthConfig::default() };
+        let (mut cache, mut overlap, answer) = (DepthCache::default(), Overlap::NONE, &mut DepthAnswer::default());
+        let (pair, pyramids) = (*self.pair, Pyramids::Unused);
+        let query = &mut DepthQuery { pair, config, cache: &mut cache, answer, pyramids, overlap: &mut overlap };
+        let found = L::out_of_line(&mut ByPolytope { query, frame });
+        let is_proved = matches!(found, Some(DepthSearch::Polytope(found)) if found.expansion.lower > 0.0);
+        is_proved && cache.unpack(frame, &mut self.polytope).triangle.is_some()
+    }
+}
+
 /// The search from the beginning, with more room: for bodies that are nearly as deep in each other everywhere.
 struct InLarge<'a, 'b, L> {
     search: &'a mut DepthQuery<'b>,

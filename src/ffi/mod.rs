@@ -44,6 +44,7 @@ pub mod object_set;
 pub mod scene_ground;
 pub mod pair_batch;
 pub mod compound;
+pub mod draw;
 pub mod record;
 
 pub use failure::StatusCode;

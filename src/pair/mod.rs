@@ -25,7 +25,7 @@ pub use cache::PairCache;
 pub use gradient::{Gradient, gradient};
 pub use half_space::{HalfSpace, half_space_distance};
 pub(crate) use half_space::{above_plane, middle, of_lowest};
-pub(crate) use ladder::least_error;
+pub(crate) use ladder::{for_each_state, least_error};
 #[doc(hidden)]
 pub use ladder::{shrunk, square_between, square_of_rigid, together};
 pub use queries::{approximate, contact, depth, distance, intersection, intersection_by_marching, signed_distance};

@@ -21,6 +21,7 @@ mod door;
 mod interface;
 mod bulk;
 mod set_interface;
+mod drawing;
 mod replay;
 
 pub use crate::base::workers::Workers;

@@ -15,6 +15,7 @@ use swiftprox::ffi::arrays::CMesh;
 use swiftprox::ffi::compound::{CCompoundCache, CCompoundContacts, CMovingCompound, CPlacedCompound, CompoundInfo};
 use swiftprox::ffi::decomposition::CDecomposition;
 use swiftprox::ffi::depth::{CDepthCache, CDepthConfig, CManifoldCache, CManifoldConfig, CManifoldRoom};
+use swiftprox::ffi::draw::CDraw;
 use swiftprox::ffi::ground::{CGroundRoom, CPlacedGround, GroundCount, GroundInfo};
 use swiftprox::ffi::level::LevelInfo;
 use swiftprox::ffi::listener::CListenerEvents;
@@ -215,6 +216,7 @@ fn layouts() -> Vec<Layout> {
         swiftprox_compound_cast_answer = CompoundCastAnswer { answer, piece1, piece2 },
         swiftprox_compound_ray_answer = CompoundRayAnswer { answer, piece },
         swiftprox_compound_point_answer = CompoundPointAnswer { answer, piece },
+        swiftprox_draw = CDraw { struct_size, kinds, normal_length, user, line, point, text },
         swiftprox_replay_step_info = CReplayStep {
             struct_size, has_step, has_query, kind, cut_off, fraction
         },
@@ -316,6 +318,7 @@ fn constants_of_c_are_the_defaults_of_rust() {
         bytes_of("swiftprox_cast_config", CCastConfig::defaults()),
         bytes_of("swiftprox_clearance_config", CClearanceConfig::defaults()),
         bytes_of("swiftprox_scene_ground_config", CSceneGroundConfig::DEFAULT),
+        bytes_of("swiftprox_draw", CDraw::DEFAULT),
         bytes_of("swiftprox_shape_tuning", CShapeTuning::DEFAULT),
         bytes_of("swiftprox_pair_tuning", CPairTuning::DEFAULT),
     ];
@@ -337,7 +340,7 @@ fn constants_of_c_are_the_defaults_of_rust() {
 /// What a C program prints of its constants, a line for each.
 fn constants_of_c(names: &[&str]) -> String {
     let mut source = "#include <stdio.h>\n#include <string.h>\n".to_string();
-    for header in ["ground", "motion", "tuning"] {
+    for header in ["draw", "ground", "motion", "tuning"] {
         writeln!(source, "#include \"swiftprox/{header}.h\"").unwrap();
     }
     source += "int main(void)\n{\n    unsigned char bytes[4096];\n    size_t i;\n";

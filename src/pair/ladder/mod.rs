@@ -12,6 +12,7 @@ mod support_glance;
 mod level_choice;
 mod level_search;
 mod level_glance;
+mod steps;
 
 use crate::answer::{PairAnswer, PairConfig, Query};
 use crate::base::error::Result;
@@ -29,6 +30,7 @@ pub(crate) use level_choice::least_error;
 use level_search::LevelSearched;
 use query::{Attempt, Glances};
 pub(super) use query::{NoBalls, PairQuery, Sweep};
+pub(crate) use steps::for_each_state;
 
 /// A query of two bodies.
 ///
