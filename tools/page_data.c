@@ -1,4 +1,5 @@
 #include "page_data.h"
+#include <swiftprox/draw.h>
 #include <swiftprox/scene.h>
 
 #include <math.h>
@@ -8,16 +9,18 @@
 
 #include "program.h"
 
-/* How large a page may get for its pairs to be kept, and how many pairs a step may keep however large it gets. */
+/* How large a page may get for its pairs to be kept, and how many pairs a step may keep however large it gets: their marches are
+ * drawn. */
 static const size_t LIMIT = 56 * 1000 * 1000;
 static const size_t LEAST_PAIRS = 16;
 
 /* What tools/page_file.c writes of each. */
 enum {
     MOVE_BYTES = 4 + 3 * 4 + 4 * 2,
-    PAIR_BYTES = 2 * 4 + 9 + 3 * 8,
+    PAIR_BYTES = 2 * 4 + 11 + 3 * 8,
     POINTS_BYTES = 9 * 8 + 4 * 4,
     CONTACT_BYTES = 6 * 4 + 2 * 8,
+    LINE_BYTES = 6 * 4 + 1,
     BODY_BYTES = 4 * 4,
     STEP_BYTES = (5 + PAGE_DECISIONS + PAGE_LEVELS) * 4,
     VERTEX_BYTES = 3 * 4,
@@ -57,6 +60,7 @@ void page_data_free(struct page_data *data)
     for (size_t i = 0; i < data->step_count; i++) {
         free(data->steps[i].pairs);
         free(data->steps[i].contacts);
+        free(data->steps[i].lines);
     }
     free(data->shapes);
     free(data->bodies);
@@ -282,7 +286,8 @@ static int add_moves(struct page_data *data, const struct player *player)
 
 static size_t bytes_of_pair(const struct page_pair *pair)
 {
-    return PAIR_BYTES + (pair->has_points ? POINTS_BYTES : 0) + (size_t)pair->contact_count * CONTACT_BYTES;
+    return PAIR_BYTES + (pair->has_points ? POINTS_BYTES : 0) + (size_t)pair->contact_count * CONTACT_BYTES +
+           (size_t)pair->line_count * LINE_BYTES;
 }
 
 static uint32_t find_body(const struct page_data *data, const struct player *player, swiftprox_object_id id, uint32_t piece)
@@ -385,6 +390,58 @@ static bool add_contacts(struct page_step *step, size_t *capacity, const struct 
     return true;
 }
 
+/* Where the lines of a pair's march go. */
+struct march {
+    const struct page_data *data;
+    struct page_step *step;
+    struct page_pair *pair;
+    size_t *capacity; /* of the step's lines */
+    bool has_memory;
+};
+
+static void add_line(void *user, swiftprox_draw_kind kind, const double *start, const double *end)
+{
+    struct march *const march = user;
+    struct page_step *const step = march->step;
+    if (!march->has_memory || march->pair->line_count == UINT16_MAX) {
+        return;
+    }
+    struct page_line *const lines = with_room(step->lines, march->capacity, step->line_count + 1, sizeof *lines);
+    march->has_memory = lines != NULL;
+    if (lines) {
+        step->lines = lines;
+        struct page_line *const line = &lines[step->line_count++];
+        march->pair->line_count++;
+        line->kind = (uint8_t)kind;
+        for (int k = 0; k < 3; k++) {
+            line->ends[0][k] = (float)(start[k] - march->data->origin[k]);
+            line->ends[1][k] = (float)(end[k] - march->data->origin[k]);
+        }
+    }
+}
+
+/* The march of a pair, asked anew; none of a shape that is in no scene, nor of bodies that have gone. */
+static bool add_march(struct march *march, const struct player *player, const swiftprox_pair_result *result)
+{
+    const swiftprox_object_id ids[2] = {result->object1, result->object2};
+    const uint32_t pieces[2] = {result->piece1, result->piece2};
+    double poses[2][12];
+    swiftprox_placed placed[2];
+    swiftprox_draw draw = SWIFTPROX_DRAW_DEFAULT;
+    draw.kinds = 1u << SWIFTPROX_DRAW_KIND_FEATURE | 1u << SWIFTPROX_DRAW_KIND_MARCH;
+    draw.user = march;
+    draw.line = add_line;
+    for (int i = 0; i < 2; i++) {
+        placed[i].pose = poses[i];
+        if (march->pair->bodies[i] == PAGE_NO_BODY ||
+            swiftprox_scene_get_piece(player->scene, ids[i], pieces[i], &placed[i].shape) != SWIFTPROX_OK ||
+            swiftprox_scene_get_piece_pose(player->scene, ids[i], pieces[i], poses[i]) != SWIFTPROX_OK) {
+            return true;
+        }
+    }
+    return swiftprox_pair_draw(placed[0], placed[1], NULL, &draw) == SWIFTPROX_OK && march->has_memory;
+}
+
 static void count_pair(struct page_step *step, const swiftprox_pair_answer *answer)
 {
     const uint16_t *const levels = answer->statistics.levels;
@@ -406,7 +463,7 @@ static int add_pairs(struct page_data *data, const struct player *player, const 
     }
     const size_t most = data->most_pairs < LIMIT / PAIR_BYTES ? data->most_pairs : LIMIT / PAIR_BYTES;
     const size_t count = step->listed < most ? step->listed : most;
-    size_t capacity = 0;
+    size_t capacity = 0, line_capacity = 0;
     struct nearness *const order = order_pairs(pairs, step->listed, answer);
     step->pairs = calloc(count + 1, sizeof *step->pairs);
     bool has_memory = order && step->pairs;
@@ -416,6 +473,10 @@ static int add_pairs(struct page_data *data, const struct player *player, const 
         struct page_pair *const pair = &step->pairs[step->pair_count++];
         *pair = make_pair(data, player, &pairs[at], contact);
         has_memory = !contact || add_contacts(step, &capacity, data, pair, contact, answer->points);
+        if (has_memory && step->pair_count <= LEAST_PAIRS) {
+            struct march march = {data, step, pair, &line_capacity, true};
+            has_memory = add_march(&march, player, &pairs[at]);
+        }
         data->pair_bytes += bytes_of_pair(pair);
     }
     free(order);
@@ -452,6 +513,7 @@ static void keep_pairs(struct page_step *step, size_t most)
 {
     while (step->pair_count > most) {
         step->contact_count -= step->pairs[--step->pair_count].contact_count;
+        step->line_count -= step->pairs[step->pair_count].line_count;
     }
     /* What does not get smaller stays as it is. */
     struct page_pair *const pairs = realloc(step->pairs, (step->pair_count + 1) * sizeof *pairs);

@@ -55,6 +55,7 @@ struct page_pair {
     uint8_t outcome, decided_by, levels[2], features[2];
     bool has_points;
     uint16_t contact_count;
+    uint16_t line_count; /* of its march */
     double interval[3]; /* distance, lower, upper; of an intersecting pair depth, lower, upper, or NaN */
     double points[9];   /* witness points in the world frame and the normal */
     uint32_t feature_ids[2][2];
@@ -64,6 +65,12 @@ struct page_pair {
 struct page_contact {
     float points[2][3]; /* in the world frame, seen from the page's origin: they are drawn */
     double gap[2];      /* its lower and upper end */
+};
+
+/* A line of a march, as swiftprox_pair_draw draws it. */
+struct page_line {
+    uint8_t kind;
+    float ends[2][3]; /* in the world frame, seen from the page's origin */
 };
 
 struct page_step {
@@ -77,6 +84,8 @@ struct page_step {
     struct page_pair *pairs;
     size_t contact_count;
     struct page_contact *contacts; /* of all kept pairs */
+    size_t line_count;
+    struct page_line *lines; /* of the first kept pairs */
 };
 
 struct page_data {

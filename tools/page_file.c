@@ -183,6 +183,7 @@ static void add_codes(struct base64 *block, const struct page_pair *pair)
     base64_add_8(block, pair->features[1]);
     base64_add_8(block, pair->has_points);
     base64_add_16(block, pair->contact_count);
+    base64_add_16(block, pair->line_count);
 }
 
 static void add_interval(struct base64 *block, const struct page_pair *pair)
@@ -239,6 +240,26 @@ static void write_contacts(FILE *file, const struct page_data *data)
     end_block(&block);
 }
 
+static void write_marches(FILE *file, const struct page_data *data)
+{
+    struct base64 block = start_block(file, "march.kinds");
+    for (size_t i = 0; i < data->step_count; i++) {
+        for (size_t l = 0; l < data->steps[i].line_count; l++) {
+            base64_add_8(&block, data->steps[i].lines[l].kind);
+        }
+    }
+    end_block(&block);
+    block = start_block(file, "march.lines");
+    for (size_t i = 0; i < data->step_count; i++) {
+        for (size_t l = 0; l < data->steps[i].line_count; l++) {
+            for (int k = 0; k < 6; k++) {
+                base64_add_float(&block, data->steps[i].lines[l].ends[k / 3][k % 3]);
+            }
+        }
+    }
+    end_block(&block);
+}
+
 int page_file_write(FILE *file, const struct page_data *data, const struct page_title *title)
 {
     fwrite(PAGE_HEAD, 1, sizeof PAGE_HEAD, file);
@@ -253,6 +274,7 @@ int page_file_write(FILE *file, const struct page_data *data, const struct page_
     write_pairs(file, data, "pair.points", add_points);
     write_pairs(file, data, "pair.features", add_features);
     write_contacts(file, data);
+    write_marches(file, data);
     fwrite(PAGE_TAIL, 1, sizeof PAGE_TAIL, file);
     return result;
 }

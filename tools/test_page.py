@@ -24,7 +24,7 @@ MODELS = os.path.join(os.path.dirname(os.path.abspath(__file__)), "..", "example
 HEAD = "# swiftprox scene 1\n"
 BOXES = HEAD + f"shape box {MODELS}/box.off\nobject box fixed\nobject box\nobject box\n"  # half sides 0.8, 0.5, 0.3
 INTERSECTING = 3
-STEP_WORDS, PAIR_CODES = 22, 9  # as tools/page/recording.js has them
+STEP_WORDS, PAIR_CODES, MARCH = 22, 11, 7  # as tools/page/recording.js has them
 
 
 def at(number, x, y=0, z=0):
@@ -132,6 +132,26 @@ class Data(Page):
                              f"{printed(lower, decimal.ROUND_FLOOR)} {printed(upper, decimal.ROUND_CEILING)} nan")
         self.assertGreater(len(lines), 10)
         self.assertEqual(sorted(lines), sorted(self.lines(self.path("scene.txt"), *options)))
+
+    def test_marches_end_at_the_witness_points(self):
+        draw = random.Random(6)
+        scene = BOXES + "".join("step\n" + at(1, draw.uniform(1.7, 3), 0.3, 0.2) + at(2, draw.uniform(3.5, 5), 0.1, 1) for _ in range(6))
+        head, data = blocks(self.make(self.file(scene), "--query", "distance"))
+        kinds, lines = iter(data["march.kinds"]), iter(groups(numbers(data["march.lines"], "f"), 6))
+        points, count = iter(groups(numbers(data["pair.points"], "d"), 9)), 0
+        for codes in groups(data["pair.codes"], PAIR_CODES):
+            drawn = [(next(kinds), next(lines)) for _ in range(codes[9] + 256 * codes[10])]
+            steps = [line for kind, line in drawn if kind == MARCH]
+            self.assertGreater(len(steps), 0)
+            if codes[6]:
+                point = next(points)
+                self.assertEqual(drawn[-1][0], MARCH)
+                for k in range(3):  # from object 2 to object 1
+                    self.assertAlmostEqual(drawn[-1][1][k] + head["origin"][k], point[3 + k], delta=1e-6)
+                    self.assertAlmostEqual(drawn[-1][1][3 + k] + head["origin"][k], point[k], delta=1e-6)
+                count += 1
+        self.assertGreater(count, 10)
+        self.assertEqual((next(kinds, None), next(lines, None), next(points, None)), (None, None, None))
 
     def test_poses_are_those_of_the_scene_up_to_the_precision_that_is_said(self):
         draw = random.Random(3)
@@ -341,6 +361,15 @@ class Browser(Page):
             tab.click(*tab.run(f"page.spotOfBody({body})"))
         self.assertEqual(tab.run("page.state.picked"), [1, 2])
         self.assertEqual(tab.run("document.getElementById('line').textContent").split()[:3], ["0", "1", "2"])
+        tab.key("ArrowRight")  # where the third is over the second
+        tab.frame()
+        seen = tab.run("pairOf(page.recording, findPair(page.recording, 1, 1, 2)).march.filter(line => line.isFeature)"
+                       ".map(({ drawn: [a, b] }) => projector(page.camera)(add(a, add(b, a, -1), 0.3)))")
+        march = tuple(tab.run("partsOf(readColours().march).slice(0, 3)"))
+        self.assertGreater(len(seen), 0)
+        for spot in seen:
+            self.assertIn(march, self.around(tab, [round(x) for x in spot]))
+        tab.key("ArrowLeft")
         tab.key("Escape")
         self.assertIsNone(tab.run("page.state.picked"))
         tab.frame()

@@ -121,8 +121,20 @@ function drawManifold(context, answer, project, colours) {
   spots.forEach(spot => disc(context, spot, 3));
 }
 
-/* The picked pair: its manifold, the normal, and the witness points with what lies between. */
+/* The way to the nearest features: those of each step, and dashed what lies between. */
+function drawMarch(context, answer, project, colours) {
+  context.strokeStyle = colours.march;
+  for (const { isFeature, drawn } of answer.march) {
+    context.lineWidth = isFeature ? 2 : 1;
+    context.setLineDash(isFeature ? [] : [4, 3]);
+    line(context, ...drawn.map(project));
+  }
+  context.setLineDash([]);
+}
+
+/* The picked pair: the march, its manifold, the normal, and the witness points with what lies between. */
 function drawPicked(context, recording, answer, size, project, colours) {
+  drawMarch(context, answer, project, colours);
   drawManifold(context, answer, project, colours);
   const spot = spotOf(answer, project);
   if (spot && !Number.isNaN(answer.normal[0])) {

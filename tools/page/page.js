@@ -5,7 +5,7 @@ const element = id => document.getElementById(id);
 
 function readColours() {
   const style = getComputedStyle(document.documentElement);
-  const names = ["paper", "ink", "quiet", "alone", "fixed", "near", "touching", "undecided", "one", "two", "normal", "manifold"];
+  const names = ["paper", "ink", "quiet", "alone", "fixed", "near", "touching", "undecided", "one", "two", "normal", "manifold", "march"];
   return Object.fromEntries(names.map(name => [name, style.getPropertyValue("--" + name).trim()]));
 }
 

@@ -10,7 +10,8 @@ const FEATURES = ["none", "vertex", "edge", "face"];
 const KINDS = ["intersection", "distance", "contact", "approximate distance"];
 const LEVELS = 8;
 const STEP_WORDS = 5 + DECISIONS.length + LEVELS;
-const PAIR_CODES = 9;
+const PAIR_CODES = 11;
+const DRAWN_MARCH = 7; /* of swiftprox_draw_kind: other lines of a march are features */
 
 /* Places where the runs of `counts` begin, and where the last ends. */
 function firstOf(length, countOf) {
@@ -104,8 +105,11 @@ function readRecording() {
     features: takeArray("pair.features", Uint32Array),
     contacts: takeArray("contact.points", Float32Array),
     gaps: takeArray("contact.gaps", Float64Array),
+    kinds: takeBytes("march.kinds"),
+    lines: takeArray("march.lines", Float32Array),
     firstPoint: firstOf(pairCount, pair => code(pair, 6)),
     firstContact: firstOf(pairCount, pair => code(pair, 7) + 256 * code(pair, 8)),
+    firstLine: firstOf(pairCount, pair => code(pair, 9) + 256 * code(pair, 10)),
   };
 }
 
@@ -186,7 +190,7 @@ function pairOf(recording, pair) {
     isIntersecting,
     distance: isIntersecting ? 0 : value, lower: isIntersecting ? 0 : lower, upper: isIntersecting ? 0 : upper,
     depth: isIntersecting ? { value, lower, upper } : null,
-    manifold: [],
+    manifold: [], march: [],
   };
   const here = point => point.map((x, k) => x - head.origin[k]);
   if (code(pair, 6)) {
@@ -201,6 +205,10 @@ function pairOf(recording, pair) {
   for (let at = recording.firstContact[pair]; at < recording.firstContact[pair + 1]; at++) {
     const numbers = Array.from(recording.contacts.subarray(6 * at, 6 * at + 6));
     answer.manifold.push({ drawn: [numbers.slice(0, 3), numbers.slice(3)], lower: recording.gaps[2 * at], upper: recording.gaps[2 * at + 1] });
+  }
+  for (let at = recording.firstLine[pair]; at < recording.firstLine[pair + 1]; at++) {
+    const numbers = Array.from(recording.lines.subarray(6 * at, 6 * at + 6));
+    answer.march.push({ isFeature: recording.kinds[at] !== DRAWN_MARCH, drawn: [numbers.slice(0, 3), numbers.slice(3)] });
   }
   return answer;
 }
