@@ -7,6 +7,7 @@
 #include <string.h>
 
 #include "bodies.h"
+#include "swiftprox/curved.h"
 #include "swiftprox/draw.h"
 #include "swiftprox/scene.h"
 #include "swiftprox/tuning.h"
@@ -288,7 +289,7 @@ static void marches(void)
     swiftprox_pair_config config = SWIFTPROX_PAIR_CONFIG_DEFAULT;
     size_t most = 0;
     unsigned kinds = 0;
-    int round;
+    int overlapping = 0, round;
     tuning.levels = SWIFTPROX_LEVELS_NONE;
     config.tuning = &tuning;
     for (round = 0; round < 300; ++round) {
@@ -302,11 +303,13 @@ static void marches(void)
         shapes[0] = round % 3 == 0 ? box(0.3, 0.4, 0.5) : random_body(points[0], 6 + (size_t)(7 * round) % (MANY - 6));
         shapes[1] = round % 3 == 1 ? box(0.6, 0.2, 0.7) : random_body(points[1], 5 + (size_t)(7 * round) % (MANY - 5));
         random_pose(poses[0], 0);
-        random_pose(poses[1], 5);
+        random_pose(poses[1], round % 4 == 0 ? 1 : 5);
         CHECK_OK(swiftprox_pair_distance(placed(shapes[0], poses[0]), placed(shapes[1], poses[1]), &cache, &config, &answer));
         CHECK_OK(swiftprox_pair_draw(placed(shapes[0], poses[0]), placed(shapes[1], poses[1]), NULL, &draw));
         steps = pick(SWIFTPROX_DRAW_KIND_MARCH);
-        CHECK(steps == answer.statistics.marching_steps);
+        /* A start that overlaps is no step. */
+        CHECK(steps == answer.statistics.marching_steps || (steps == 1 && answer.statistics.marching_steps == 0));
+        overlapping += answer.outcome == SWIFTPROX_OUTCOME_INTERSECTING;
         if (answer.outcome == SWIFTPROX_OUTCOME_SEPARATED && answer.decided_by == SWIFTPROX_DECIDED_BY_MARCHING && steps > 0) {
             const struct text *last = last_text(SWIFTPROX_DRAW_KIND_MARCH);
             char words[96], first[32], second[32];
@@ -329,7 +332,7 @@ static void marches(void)
         swiftprox_shape_release(shapes[0]);
         swiftprox_shape_release(shapes[1]);
     }
-    CHECK(most > 5);
+    CHECK(most > 5 && overlapping > 20);
     CHECK(kinds == 0x26e0); /* all six pairs of vertices, edges and faces at which a march ends */
 }
 
@@ -431,6 +434,52 @@ static void polytopes(void)
         CHECK(fabs(apart(drawn.points[1].start, drawn.points[0].start) - answer.depth) < 1e-12);
     }
     CHECK(overlapping > 50);
+}
+
+/* Pairs of all sorts: what is drawn of them is finite, and the witness points are those of the signed distance. */
+static void all_sorts(void)
+{
+    static double points[12][3];
+    const double half[3] = {0.5, 0.6, 0.7}, radii[3] = {1, 2, 0.5}, end[6] = {-1, 0, 0, 1, 0, 0}, flat[9] = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+    swiftprox_shape_options options = SWIFTPROX_SHAPE_OPTIONS_DEFAULT;
+    const swiftprox_shape *sorts[9];
+    int i, k, near;
+    CHECK_OK(swiftprox_shape_create_sphere(0.5, &sorts[0]));
+    CHECK_OK(swiftprox_shape_create_capsule(0.5, 1, &sorts[1]));
+    CHECK_OK(swiftprox_shape_create_box(half, 0.125, &sorts[2]));
+    CHECK_OK(swiftprox_shape_create_cylinder(1, 1, 0.01, &sorts[3]));
+    CHECK_OK(swiftprox_shape_create_ellipsoid(radii, 0.01, &sorts[4]));
+    options.input = SWIFTPROX_INPUT_HULL;
+    CHECK_OK(swiftprox_shape_create_from_points(end, 1, &options, &sorts[5]));
+    CHECK_OK(swiftprox_shape_create_from_points(end, 2, &options, &sorts[6]));
+    CHECK_OK(swiftprox_shape_create_from_points(flat, 3, &options, &sorts[7]));
+    sorts[8] = random_body(points, 12);
+    for (i = 0; i < 9; ++i) {
+        for (k = 0; k < 9; ++k) {
+            for (near = 0; near < 2; ++near) {
+                static const swiftprox_manifold_cache cold;
+                swiftprox_manifold_cache cache = cold;
+                swiftprox_signed_distance answer;
+                swiftprox_draw draw = recorder(ALL);
+                double poses[2][12];
+                size_t at;
+                random_pose(poses[0], 0);
+                random_pose(poses[1], near ? 0.2 : 6);
+                CHECK_OK(swiftprox_pair_signed_distance(placed(sorts[i], poses[0]), placed(sorts[k], poses[1]), &cache, NULL, &answer));
+                CHECK_OK(swiftprox_pair_draw(placed(sorts[i], poses[0]), placed(sorts[k], poses[1]), NULL, &draw));
+                CHECK(pick(SWIFTPROX_DRAW_KIND_MARCH) > 0);
+                CHECK(pick(SWIFTPROX_DRAW_KIND_WITNESS) == (isnan(answer.world1[0]) ? 0u : 1u));
+                CHECK(isnan(answer.world1[0]) || (same(picked[0].end, answer.world1) && same(picked[0].start, answer.world2)));
+                for (at = 0; at < drawn.line_count; ++at) {
+                    CHECK(isfinite(drawn.lines[at].start[0] + drawn.lines[at].start[1] + drawn.lines[at].start[2]));
+                    CHECK(isfinite(drawn.lines[at].end[0] + drawn.lines[at].end[1] + drawn.lines[at].end[2]));
+                }
+            }
+        }
+    }
+    for (i = 0; i < 9; ++i) {
+        swiftprox_shape_release(sorts[i]);
+    }
 }
 
 /* The points of a manifold. */
@@ -582,6 +631,7 @@ int main(void)
     shapes();
     marches();
     polytopes();
+    all_sorts();
     contacts();
     scenes();
     callbacks_in_the_environment_of_the_program();
