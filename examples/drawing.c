@@ -1,5 +1,5 @@
-/* What a query did: the march from two boxes' first features to the nearest ones, in words and, into a file that is named, as an SVG
- * picture. */
+/* What a query did: the march from two boxes' first features to the nearest ones, in words and, into a file that is named, as an
+ * SVG picture. */
 #include <stdio.h>
 #include <stdlib.h>
 

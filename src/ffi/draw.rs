@@ -105,8 +105,9 @@ pub unsafe extern "C" fn swiftprox_shape_draw(object: CPlaced, draw: *const CDra
 /// the points of the manifold; the polytope of overlapping objects. docs/tools.md has a table.
 ///
 /// The queries are run anew, cold; `config` is that of swiftprox_pair_manifold. The march is that of swiftprox_pair_distance with
-/// SWIFTPROX_LEVELS_NONE. March and polytope are those of the polyhedra over which radii are swept. Small bodies are drawn with a
-/// polytope, too, though all facets are searched. A polytope of more than 56 vertices is replaced by one of a search to 1 % or 10 %.
+/// SWIFTPROX_LEVELS_NONE. March and polytope are those of the polyhedra over which radii are swept. Small bodies, whose depth is
+/// searched by all facets, are drawn with a polytope, too. One of more than 56 vertices is replaced by that of a search to 1 % or
+/// 10 %.
 ///
 /// Same errors as swiftprox_pair_manifold; nothing is drawn then.
 #[unsafe(no_mangle)]
@@ -124,9 +125,9 @@ pub unsafe extern "C" fn swiftprox_pair_draw(
     })
 }
 
-/// Draws a scene, for debugging: edges and boxes of its objects, the pairs that its last query found near, and the results listed by
-/// that, each with what the query gave: witness points, normal, points of the manifold. Results stay where they were found, even if
-/// objects have moved since.
+/// Draws a scene, for debugging: edges and boxes of its objects, the pairs that its last query found near, and the results that it
+/// listed, each with what the query gave: witness points, normal, points of the manifold. Results stay where they were found, even
+/// if objects have moved since.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_draw(scene: *const SceneHandle, draw: *const CDraw) -> StatusCode {
     // SAFETY: the header's pointer rules.
