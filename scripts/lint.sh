@@ -1,11 +1,12 @@
 #!/bin/sh
-# What is checked without running anything: formatting, clippy, the width of comments, the pages' tables against their CSV files.
+# What is checked without running anything: formatting, clippy, links of comments, the width of comments, the pages' tables against their CSV files.
 set -e
 cd "${0%/*}/.."
 for manifest in Cargo.toml benches/compare/Cargo.toml loom/Cargo.toml; do
     cargo fmt --all --check --manifest-path "$manifest"
 done
 cargo clippy --locked --profile checked --workspace --all-targets -- -D warnings
+RUSTDOCFLAGS='-D warnings' cargo doc --locked --profile checked --no-deps --quiet
 if LC_ALL=C.UTF-8 grep -rnE '^.{133}' . --include='*.rs' --include='*.c' --include='*.cpp' --include='*.h' \
     --exclude-dir=target --exclude-dir=build --exclude-dir=.rust | grep -E ':[0-9]+: *(//|/?\*)' | grep -v '|$'; then
     echo 'comments are at most 132 columns wide' >&2

@@ -59,7 +59,7 @@ typedef struct swiftprox_pair_question {
 } swiftprox_pair_question;
 
 /**
- * Runs the query `kind` for `count` pairs; answers[k] belongs to pairs[k]. Answers and caches are bit for bit those of
+ * Runs the query `kind` for `count` pairs; `answers[k]` belongs to `pairs[k]`. Answers and caches are bit for bit those of
  * swiftprox_pair_intersection, swiftprox_pair_distance, swiftprox_pair_contact or swiftprox_pair_approximate. With a `scene`, its
  * workers share batches of 2,048 pairs or more; null uses only the caller's thread. The scene does not change, but no other call
  * may use it meanwhile.

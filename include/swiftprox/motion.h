@@ -24,7 +24,7 @@ typedef enum swiftprox_motion_kind SWIFTPROX_INT32 {
   SWIFTPROX_MOTION_KIND_FIXED = 0,
   /**
    * The object turns at a constant rate about a centre c that moves on a line. At time t, with start [R|T], a point p is at
-   * T + R c + t velocity + exp(t [rotation]) R (p - c).
+   * `T + R c + t velocity + exp(t [rotation]) R (p - c)`.
    */
   SWIFTPROX_MOTION_KIND_SCREW = 1,
   /**

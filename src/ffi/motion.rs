@@ -28,7 +28,7 @@ pub enum MotionKind {
     /// The object stays at start.
     Fixed = 0,
     /// The object turns at a constant rate about a centre c that moves on a line. At time t, with start [R|T], a point p is at
-    /// T + R c + t velocity + exp(t [rotation]) R (p - c).
+    /// `T + R c + t velocity + exp(t [rotation]) R (p - c)`.
     Screw = 1,
     /// The pose is (1 - t) start + t end, entry by entry. For turns of up to 0.2 radians; larger turns give refused poses in
     /// between.

@@ -12,8 +12,8 @@ use crate::base::simd::environment::with_default;
 /// whatever one of the two rotations is more distorted than the other.
 ///
 /// # Errors
-/// [`Error::Pose`] for a pose that is not accepted; [`Error::Argument`] for a centre that is not finite and a reach that is not
-/// from 0 to the largest double.
+/// `Error::Pose` for a pose that is not accepted; `Error::Argument` for a centre that is not finite and a reach that is not from 0
+/// to the largest double.
 pub fn motion_between(first: &Pose, second: &Pose, centre: &Vector, reach: f64) -> Result<(Screw, f64)> {
     with_default(|| {
         first.check()?;
