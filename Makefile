@@ -31,7 +31,7 @@
 # make charts                 all of docs/charts drawn anew from the CSV files, and the tables of the pages; nothing is measured
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
 # make hard                   flies the hard families, writes them with their exact truth to build/hard, and judges them as cases
-# make docs                   the pages and the headers as HTML in build/docs/html, by Doxygen
+# make site                   the pages, the references of C, C++, Rust and Python and a crowd in 3-D as HTML in build/site: docs/site
 # make packages               packages for Debian, Conan and cargo-c, tried as installed: scripts/debian.sh, conan.sh, cargo_c.sh
 # make cross                  the library checked for other systems, the C tests on AArch64 and i686: scripts/cross.sh
 # make build                  the libraries, tools and examples, in build/
@@ -55,6 +55,7 @@ DEPTH_PEERS = $(PEERS) pkg-config=pkg-config /usr/include/bullet=libbullet-dev /
 # DRAW=python3 takes that.
 DRAW = $(firstword $(wildcard /usr/bin/python3) python3)
 MATPLOTLIB = $(DRAW):matplotlib=python3-matplotlib
+PAGES = $(DRAW):markdown_it=python3-markdown-it $(DRAW):pygments=python3-pygments
 STABILITY = benches/results/stability
 STABILITY_PAGE = $(DRAW) benches/stability/report.py $(STABILITY).csv $(STABILITY)-cost.csv docs/charts/failures.svg docs/stability.md
 DEPTHS = benches/results/depths
@@ -69,7 +70,7 @@ MOTIONS = 800000
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo check test lint test-rust test-c test-fuzz test-proofs proofs fuzz asan tsan miri loom valgrind bench figures stability crowds bodies depths casts grounds compounds python-bench hard-motions engines steps charts cases hard legacy-bench docs packages cross clean
+.PHONY: build demo check test lint test-rust test-c test-fuzz test-proofs proofs fuzz asan tsan miri loom valgrind bench figures stability crowds bodies depths casts grounds compounds python-bench hard-motions engines steps charts cases hard legacy-bench site packages cross clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -116,7 +117,7 @@ test-rust:
 # in the end: it fails no test, but nobody should have to look for it.
 test-c:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3
-	-@scripts/require.sh valgrind=valgrind pkg-config=pkg-config $(PEERS)
+	-@scripts/require.sh valgrind=valgrind pkg-config=pkg-config $(PEERS) $(PAGES)
 	$(MAKE) build TESTING=ON
 	ctest --test-dir $(BUILD) --parallel 2 --output-on-failure
 	@grep -E '^( +verdicts|scene +poses|all )' $(BUILD)/Testing/Temporary/LastTest.log || true
@@ -275,10 +276,9 @@ hard:
 	cargo run --locked --release --example hard_cases -- $(BUILD)/hard $(if $(SEED),--seed $(SEED)) $(if $(COUNT),--count $(COUNT))
 	$(MAKE) cases CASES=$(BUILD)/hard
 
-docs:
-	@command -v doxygen >/dev/null || scripts/apt.sh doxygen
-	@command -v python3 >/dev/null || scripts/apt.sh python3
-	docs/reference/make.sh $(BUILD)/docs
+site: build
+	@scripts/require.sh doxygen=doxygen $(PAGES)
+	PYTHON=$(DRAW) docs/site/make.sh $(BUILD)
 
 packages:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3

@@ -47,7 +47,7 @@ install(FILES "${install_tree}/swiftproxConfig.cmake" "${PROJECT_BINARY_DIR}/swi
   DESTINATION "${config_dir}" COMPONENT swiftprox_development)
 install(FILES "${install_tree}/swiftprox.pc" "${install_tree}/swiftprox-legacy.pc" DESTINATION "${pkgconfig_dir}" COMPONENT swiftprox_development)
 install(DIRECTORY docs/ DESTINATION "${doc_dir}" COMPONENT swiftprox_development
-  FILES_MATCHING PATTERN "*.svg" PATTERN "*.png" PATTERN reference EXCLUDE)
+  FILES_MATCHING PATTERN "*.svg" PATTERN "*.png" PATTERN reference EXCLUDE PATTERN site EXCLUDE)
 
 # The pages, without links to what is not installed: those that lead out of docs/ keep their words.
 set(out_of_docs "../")

@@ -1,5 +1,5 @@
 #!/bin/sh
-# The pages and the headers as HTML, by Doxygen; a warning is a failure.
+# The headers as HTML, by Doxygen; a warning is a failure.
 #
 #   make.sh FOLDER        FOLDER/html gets it
 set -e

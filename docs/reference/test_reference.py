@@ -55,14 +55,6 @@ class Reference(unittest.TestCase):
         by_use = re.findall(r"@addtogroup swiftprox_(\w+)\n \*  @ingroup use_\w+", read(HERE, "groups.dox"))
         self.assertEqual(sorted(groups), sorted(by_use))
 
-    def test_pictures_of_pages_are_shown(self):
-        pages = [name for name in os.listdir(os.path.join(ROOT, "docs")) if name.endswith(".md")]
-        self.assertGreater(len(pages), 10)
-        shown = "".join(self.files.values())
-        for page in pages:
-            for picture in re.findall(r"!\[[^\]]*\]\((?:\w+/)?([^)]*)\)", read(ROOT, "docs", page)):
-                self.assertRegex(shown, f'(?:src|data)="{picture}"', page)
-
 
 if __name__ == "__main__":
     unittest.main(argv=sys.argv[:1])
