@@ -32,6 +32,8 @@
 # make cases CASES=DIR        judges the answers to cases with known truth, see scripts/cases.py; ANSWERS=DIR keeps them
 # make hard                   flies the hard families, writes them with their exact truth to build/hard, and judges them as cases
 # make site                   the pages, the references of C, C++, Rust and Python and a crowd in 3-D as HTML in build/site: docs/site
+# make release                all that a release hands out, made and tried as a dry run in build/release: scripts/release.sh; URL=FOLDER
+#                             is where its archive will be, TAG=--tag makes the tag
 # make packages               packages for Debian, Conan and cargo-c, tried as installed: scripts/debian.sh, conan.sh, cargo_c.sh
 # make cross                  the library checked for other systems, the C tests on AArch64 and i686: scripts/cross.sh
 # make build                  the libraries, tools and examples, in build/
@@ -42,6 +44,8 @@ export PATH := $(CURDIR)/.rust/bin:$(PATH):$(HOME)/.cargo/bin
 MAKEFLAGS += --no-print-directory
 BUILD = build
 MODELS =
+URL =
+TAG =
 CASES =
 ANSWERS =
 TESTING = OFF
@@ -70,7 +74,7 @@ MOTIONS = 800000
 TIMED =
 RESULTS = benches/results/$(shell date +%F)-$(shell uname -m).csv
 
-.PHONY: build demo check test lint test-rust test-c test-fuzz test-proofs proofs fuzz asan tsan miri loom valgrind bench figures stability crowds bodies depths casts grounds compounds python-bench hard-motions engines steps charts cases hard legacy-bench site packages cross clean
+.PHONY: build demo check test lint test-rust test-c test-fuzz test-proofs proofs fuzz asan tsan miri loom valgrind bench figures stability crowds bodies depths casts grounds compounds python-bench hard-motions engines steps charts cases hard legacy-bench site packages release cross clean
 
 build:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake
@@ -232,7 +236,7 @@ compounds:
 python-bench:
 	$(MAKE) build
 	python3 -m venv $(BUILD)/python/bench
-	$(BUILD)/python/bench/bin/pip install --quiet ./python scipy
+	$(BUILD)/python/bench/bin/pip install --quiet . scipy
 	-for peer in coal python-fcl mujoco; do $(BUILD)/python/bench/bin/pip install --quiet $$peer; done
 	$(TIMED) $(BUILD)/python/bench/bin/python python/bench.py $(BUILD)/lib/libswiftprox.so
 
@@ -285,6 +289,10 @@ packages:
 	scripts/debian.sh
 	scripts/conan.sh
 	scripts/cargo_c.sh
+
+release:
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ cmake=cmake python3=python3 git=git
+	URL='$(URL)' scripts/release.sh $(TAG)
 
 cross:
 	@scripts/require.sh $(CC_PACKAGES) cmake=cmake python3=python3

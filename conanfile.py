@@ -16,9 +16,10 @@ class Swiftprox(ConanFile):
     settings = "os", "arch", "compiler", "build_type"
     options = {"shared": [True, False]}
     default_options = {"shared": False}
-    # With benches/worst_case.rs, which Cargo.toml names.
-    exports_sources = (".cargo/*", "CMakeLists.txt", "Cargo.lock", "Cargo.toml", "LICENSE-*", "benches/worst_case.rs", "build.rs",
-                       "adapters/*", "cmake/*", "docs/*", "examples/*", "include/*", "src/*", "proofs/*", "testkit/*", "tools/*")
+    # With what Cargo.toml names: benches, and the members of the workspace.
+    exports_sources = (".cargo/*", "CMakeLists.txt", "Cargo.lock", "Cargo.toml", "LICENSE-*", "benches/*.rs", "build.rs", "adapters/*",
+                       "cmake/*", "docs/*", "examples/*", "include/*", "src/*", "proofs/*", "testkit/*", "tools/*",
+                       "fuzz/Cargo.toml", "fuzz/src/*", "fuzz/fuzz_targets/*")
     test_package_folder = "packaging/conan_test"
 
     def set_version(self):

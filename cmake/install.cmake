@@ -7,13 +7,15 @@ set(doc_dir "${CMAKE_INSTALL_DATAROOTDIR}/doc/swiftprox")
 if(PROJECT_IS_TOP_LEVEL)
   set(doc_dir "${CMAKE_INSTALL_DOCDIR}")
 endif()
-set(config_dir "${CMAKE_INSTALL_LIBDIR}/cmake/swiftprox")
+if(NOT DEFINED SWIFTPROX_INSTALL_CMAKEDIR)
+  set(SWIFTPROX_INSTALL_CMAKEDIR "${CMAKE_INSTALL_LIBDIR}/cmake/swiftprox")
+endif()
 set(pkgconfig_dir "${CMAKE_INSTALL_LIBDIR}/pkgconfig")
 set(install_tree "${PROJECT_BINARY_DIR}/install_tree")
 
 # --- The package files ---------------------------------------------------------------------------------------------------------
 
-set(from_config "${CMAKE_INSTALL_FULL_LIBDIR}/cmake/swiftprox")
+get_filename_component(from_config "${SWIFTPROX_INSTALL_CMAKEDIR}" ABSOLUTE BASE_DIR "${CMAKE_INSTALL_PREFIX}")
 file(RELATIVE_PATH config_include_dir "${from_config}" "${CMAKE_INSTALL_FULL_INCLUDEDIR}")
 file(RELATIVE_PATH config_library_dir "${from_config}" "${CMAKE_INSTALL_FULL_LIBDIR}")
 string(PREPEND config_include_dir "\${_swiftprox_here}/")
@@ -44,7 +46,7 @@ install(DIRECTORY "${SWIFTPROX_INCLUDE_DIR}/swiftprox" DESTINATION "${CMAKE_INST
 install(DIRECTORY "${SWIFTPROX_INCLUDE_DIR}/legacy" DESTINATION "${CMAKE_INSTALL_INCLUDEDIR}/swiftprox"
   COMPONENT swiftprox_development)
 install(FILES "${install_tree}/swiftproxConfig.cmake" "${PROJECT_BINARY_DIR}/swiftproxConfigVersion.cmake"
-  DESTINATION "${config_dir}" COMPONENT swiftprox_development)
+  DESTINATION "${SWIFTPROX_INSTALL_CMAKEDIR}" COMPONENT swiftprox_development)
 install(FILES "${install_tree}/swiftprox.pc" "${install_tree}/swiftprox-legacy.pc" DESTINATION "${pkgconfig_dir}" COMPONENT swiftprox_development)
 install(DIRECTORY docs/ DESTINATION "${doc_dir}" COMPONENT swiftprox_development
   FILES_MATCHING PATTERN "*.svg" PATTERN "*.png" PATTERN reference EXCLUDE PATTERN site EXCLUDE)

@@ -1,5 +1,5 @@
 #!/bin/sh
-# Builds the package as `pip install ./python` does, into a virtual environment of its own, and tests it:  test.sh BUILD LIBRARY
+# Builds the package as `pip install .` does, into a virtual environment of its own, and tests it:  test.sh BUILD LIBRARY
 #
 # Exit status 77, with the reason, where Python has no venv, or its tools cannot be had.
 cd "${0%/*}/.." || exit 1
@@ -15,7 +15,7 @@ fi
     skip "Python's headers are not installed"
 "$venv/bin/pip" install --quiet --retries 1 'scikit-build-core>=0.10' 'nanobind>=2.4' numpy pytest ninja >"$1/python/pip.log" 2>&1 ||
     skip "its packages cannot be had from PyPI; $1/python/pip.log has why"
-"$venv/bin/pip" install --quiet --no-build-isolation --no-deps ./python || exit 1
+"$venv/bin/pip" install --quiet --no-build-isolation --no-deps . || exit 1
 # For the examples; those whose packages cannot be had are skipped.
 for package in trimesh yourdfpy mujoco matplotlib; do
     "$venv/bin/pip" install --quiet --retries 1 $package >>"$1/python/pip.log" 2>&1 || echo "$package cannot be had"

@@ -30,7 +30,7 @@ libs=$(pkg-config --libs swiftprox)
 legacy=-I$place/usr/include/swiftprox/legacy
 archive=$place/usr/lib/libswiftprox.a
 needs="-lutil -lrt -lpthread -lm -ldl"
-readelf -d "$place/usr/lib/libswiftprox.so" | grep -q 'SONAME.*libswiftprox\.so\.0\.1]'
+readelf -d "$place/usr/lib/libswiftprox.so" | grep -qF "Library soname: [libswiftprox.so.$(scripts/versions.sh | cut -d. -f1,2)]"
 # Flags are words.
 # shellcheck disable=SC2086
 {

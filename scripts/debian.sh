@@ -45,11 +45,15 @@ c++ -std=c++17 hello.cpp $(pkg-config --cflags --libs swiftprox) -o hello_cpp
 ./hello_cpp
 c++ legacy.cpp $(pkg-config --cflags --libs swiftprox-legacy) -o legacy
 ./legacy >/dev/null
-cmake -S consumer -B consumer/build -DLANGUAGE=C -DHELLO=/tmp/packages/hello.c -DVERSION=0.2 -DNEXT_VERSION=0.3 -DSTATIC_LIBC=ON >/dev/null
+version=$(pkg-config --modversion swiftprox)
+major=${version%%.*} minor=${version#*.}
+minor=${minor%%.*}
+cmake -S consumer -B consumer/build -DLANGUAGE=C -DHELLO=/tmp/packages/hello.c -DVERSION=$major.$minor \
+    -DNEXT_VERSION=$major.$((minor + 1)) -DSTATIC_LIBC=ON >/dev/null
 cmake --build consumer/build >/dev/null
 ctest --test-dir consumer/build --output-on-failure
 for tool in swiftprox-query swiftprox-replay swiftprox-tune; do $tool --version; done
-apt-get remove -y -qq -o Dpkg::Use-Pty=0 libswiftprox0.2 >/dev/null
+apt-get remove -y -qq -o Dpkg::Use-Pty=0 $(dpkg-query -W "libswiftprox[0-9]*" | cut -f1) >/dev/null
 ! swiftprox-query --version 2>/dev/null
 '
 root=$(mktemp -d)

@@ -1,5 +1,6 @@
 #!/bin/sh
-# What is checked without running anything: formatting, clippy, links of comments, the width of comments, the pages' tables against their CSV files.
+# What is checked without running anything: formatting, clippy, links of comments, the width of comments, the tables of the pages
+# against their CSV files, versions, and the ABI against the last tag.
 set -e
 cd "${0%/*}/.."
 for manifest in Cargo.toml benches/compare/Cargo.toml loom/Cargo.toml; do
@@ -18,5 +19,7 @@ python3 benches/casts.py --check benches/results/casts.csv
 python3 benches/engines.py --check benches/results/engines.csv
 python3 benches/bodies.py --check
 python3 benches/sentences.py
+scripts/versions.sh >/dev/null
+python3 scripts/abi.py
 python3 benches/stability/report.py benches/results/stability.csv benches/results/stability-cost.csv docs/charts/failures.svg \
     docs/stability.md --check

@@ -25,7 +25,7 @@ echo '<!DOCTYPE html><meta http-equiv="refresh" content="0; url=swiftprox/index.
 
 venv=$build/python/venv
 [ -x "$venv/bin/pip" ] || "$python" -m venv "$venv" || true
-{ "$venv/bin/python" -c 'import swiftprox' || "$venv/bin/pip" install --quiet --retries 1 ./python; } 2>/dev/null &&
+{ "$venv/bin/python" -c 'import swiftprox' || "$venv/bin/pip" install --quiet --retries 1 .; } 2>/dev/null &&
     { "$venv/bin/python" -c 'import pdoc' || "$venv/bin/pip" install --quiet --retries 1 pdoc; } 2>/dev/null &&
     "$venv/bin/python" -m pdoc -o "$site/reference/python" swiftprox ||
     echo "no Python reference: the package or pdoc cannot be had"
