@@ -1,8 +1,13 @@
 # Runs the port without vcpkg, by the functions of vcpkg as far as it uses them:
 #
-#   cmake -D PORT_DIR=DIR -D VERSION=VERSION -D PLACE=DIR -P vcpkg.cmake       the package lies in PLACE/packages
+#   cmake -D PORT_DIR=DIR -D VERSION=VERSION -D PLACE=DIR [-D PROFILE=PROFILE] -P vcpkg.cmake
+#
+# The package lies in PLACE/packages; PROFILE is Cargo's.
 cmake_minimum_required(VERSION 3.21)
 set(PORT swiftprox)
+if(NOT PROFILE)
+  set(PROFILE release)
+endif()
 set(CURRENT_PACKAGES_DIR "${PLACE}/packages")
 
 function(run)
@@ -29,7 +34,7 @@ endfunction()
 function(vcpkg_cmake_configure)
   cmake_parse_arguments(PARSE_ARGV 0 arg "" "SOURCE_PATH" "OPTIONS")
   run("${CMAKE_COMMAND}" -S "${arg_SOURCE_PATH}" -B "${PLACE}/build" "-DCMAKE_INSTALL_PREFIX=${CURRENT_PACKAGES_DIR}"
-    -DCMAKE_BUILD_TYPE=Release ${arg_OPTIONS})
+    -DCMAKE_BUILD_TYPE=Release "-DSWIFTPROX_CARGO_PROFILE=${PROFILE}" ${arg_OPTIONS})
 endfunction()
 
 function(vcpkg_cmake_install)
