@@ -45,7 +45,8 @@ source_archive() {
 
 # crates.io takes up to 10 MB; what is in it Cargo.toml says.
 crate() {
-    cargo publish --dry-run --locked && cp "$CARGO_TARGET_DIR/package/swiftprox-$version.crate" "$place/files" &&
+    cargo publish --dry-run --locked && cargo package --locked --no-verify --quiet &&
+        cp "$CARGO_TARGET_DIR/package/swiftprox-$version.crate" "$place/files" &&
         [ "$(wc -c <"$place/files/swiftprox-$version.crate")" -lt 3000000 ]
 }
 
