@@ -1,9 +1,9 @@
 #!/usr/bin/env python3
 """Whether programs linked with the last tagged version run with this one:  abi.py [TAG]
 
-Compares the stable declarations of the C headers, as include/contents.txt has them: functions, callbacks, enumerators, constants, and
-the layouts of c_tests/abi/layout.h. What is new may be new; what was there stays, but for structs that know their size and grow at
-their end. Before the first tag there is nothing to compare, nor across versions whose libraries have different names."""
+Compares the stable declarations of the C headers, as include/contents.txt has them: functions, callbacks, enumerators, constants,
+and the layouts of c_tests/abi/layout.h. What is new may be new; what was there stays, but for structs that know their size and grow
+at their end. Before the first tag there is nothing to compare, nor across versions whose libraries have different names."""
 import os
 import re
 import subprocess
@@ -36,11 +36,11 @@ def interface_version(read):
 
 def without_name(parameter):
     """A parameter's type: its name may change."""
-    return re.sub(r"(?<=[\s*])\w+(?=(\[\w*\])*$)", "", parameter.strip()) if re.search(r"[\s*]", parameter.strip()) else parameter.strip()
+    return re.sub(r"(?<=[\s*])\w+(?=(\[\w*\])*$)", "", parameter.strip())
 
 
 def surface(read):
-    """All declarations, as texts by name, and the names of the stable ones. A member or an enumerator is NAME of its struct or enum."""
+    """All declarations, as texts by name and member or enumerator, and the names of the stable ones."""
     headers, stable, is_stable = [], set(), False
     for line in read("include/contents.txt").splitlines():
         if line.startswith("header "):

@@ -70,7 +70,8 @@ conan_packages() {
 
 recipes() {
     [ -e "$place/files/$archive" ] || source_archive
-    scripts/recipes.sh "$place/files/$archive" "$url/$archive" && cp -r build/recipes/vcpkg build/recipes/conda build/recipes/spack "$place"
+    scripts/recipes.sh "$place/files/$archive" "$url/$archive" &&
+        cp -r build/recipes/vcpkg build/recipes/conda build/recipes/spack "$place"
 }
 
 # step NAME FUNCTION [COMMAND ...], commands that it needs

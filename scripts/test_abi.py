@@ -28,7 +28,8 @@ class Abi(unittest.TestCase):
 
     def test_what_breaks_programs_is_found(self):
         for path, old, new, name in (
-                (HEADER, r"swiftprox_library_version\(void\);", "swiftprox_library_get_version(void);", "swiftprox_library_version"),
+                (HEADER, r"swiftprox_library_version\(void\);", "swiftprox_library_get_version(void);",
+                 "swiftprox_library_version"),
                 (HEADER, r"swiftprox_library_check_version\(int32_t major,", "swiftprox_library_check_version(int64_t major,",
                  "swiftprox_library_check_version"),
                 (HEADER, r"\(\*swiftprox_progress_callback\)\(void \*user,", "(*swiftprox_progress_callback)(const void *user,",

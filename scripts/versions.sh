@@ -1,6 +1,6 @@
 #!/bin/sh
-# One version everywhere: prints that of Cargo.toml, or what differs from it. CMake, Conan, Python and the recipes of packaging/ take it
-# from there.
+# One version everywhere: prints that of Cargo.toml, or what differs from it. CMake, Conan, Python and the recipes of packaging/ take
+# it from there.
 set -eu
 cd "${0%/*}/.."
 version=$(sed -n 's/^version = "\(.*\)"/\1/p' Cargo.toml | head -n 1)

@@ -1,8 +1,8 @@
 #!/usr/bin/env python3
 """The pages as HTML:  pages.py FOLDER
 
-README.md becomes index.html. Whatever a page links to comes along: pages, sources with colours, all other files as they are. The bar
-above each page leads to the parts of the site that the folder has."""
+README.md becomes index.html. Whatever a page links to comes along: pages, sources with colours, all other files as they are. The
+bar above each page leads to the parts of the site that the folder has."""
 import html
 import os
 import posixpath
@@ -147,8 +147,8 @@ class Site:
         return found
 
     def shown(self, path, children, found):
-        """What stands in a line, with links as they are in the site. Of a link that leads nowhere the words stay, and a page that is
-        called by its file has its title."""
+        """What stands in a line, with links as they are in the site. Of a link that leads nowhere the words stay, and a page that
+        is called by its file has its title."""
         leads, named = True, None
         for child in children:
             if child.type == "link_open":

@@ -1,7 +1,8 @@
 #!/usr/bin/env python3
 """Tests that all links of the site lead somewhere, anchors included:
 
-  test_site.py FOLDER        the site in the folder; no page is wider than the window, where Chromium is (PICTURES=DIR keeps its pictures)
+  test_site.py FOLDER        the site in the folder; where Chromium is, that no page is wider than the window, too: PICTURES=DIR
+                             keeps pictures of them
   test_site.py               the pages alone, made in a folder of their own
 
 Status 77, with the reason, where Python lacks what makes the pages."""
@@ -101,7 +102,7 @@ class Site(unittest.TestCase):
     def test_dead_links_are_found(self):
         with tempfile.TemporaryDirectory() as folder:
             with open(os.path.join(folder, "a.html"), "w") as file:
-                file.write('<h1 id="here"></h1><a href="#here"></a><a href="#there"></a><img src="b.svg"><a href="https://x.y/z"></a>')
+                file.write('<h1 id="here"></h1><a href="#here"></a><a href="#there"></a><img src="b.svg"><a href="https://x.y"></a>')
             self.assertEqual(dead_links(folder), ([("a.html", "#there"), ("a.html", "b.svg")], 3))
 
 
