@@ -1,5 +1,5 @@
 #!/bin/sh
-# One version everywhere: prints that of Cargo.toml, or what differs from it. CMake, Conan, Python and the recipes of packaging/ take
+# One version everywhere: prints that of Cargo.toml, or what differs. CMake, Conan, Python and the recipes of packaging/ take
 # it from there.
 set -eu
 cd "${0%/*}/.."
