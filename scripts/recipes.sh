@@ -38,7 +38,8 @@ try_vcpkg() {
         -DHELLO="$PWD/examples/hello.c" -DVERSION="${version%.*}" -DNEXT_VERSION=99.0 >>"$place_of_port/log"
     cmake --build "$place_of_port/consumer" >>"$place_of_port/log"
     ctest --test-dir "$place_of_port/consumer" --output-on-failure >>"$place_of_port/log"
-    "$place_of_port/packages/tools/swiftprox/swiftprox-query" --version >>"$place_of_port/log"
+    # Where tools find the library vcpkg itself writes into them.
+    LD_LIBRARY_PATH=$place_of_port/packages/lib "$place_of_port/packages/tools/swiftprox/swiftprox-query" --version >>"$place_of_port/log"
     echo "vcpkg: the port runs by a stand-in, programs find what it installs"
 }
 
@@ -68,8 +69,8 @@ try_nix() {
     flake=$place/${archive##*/}
     flake=path:${flake%.tar.gz}
     nix --extra-experimental-features 'nix-command flakes' eval --impure --no-write-lock-file \
-        --override-input nixpkgs "path:$PWD/packaging/alone/nixpkgs" "$flake#packages.x86_64-linux.default.drvPath" 2>"$place/nix.log" ||
-        { cat "$place/nix.log" >&2; return 1; }
+        --override-input nixpkgs "path:$PWD/packaging/alone/nixpkgs" "$flake#packages.x86_64-linux.default.drvPath" >/dev/null \
+        2>"$place/nix.log" || { cat "$place/nix.log" >&2; return 1; }
     echo "nix: the flake is evaluated with a stand-in for nixpkgs, not built"
 }
 
