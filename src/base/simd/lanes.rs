@@ -56,9 +56,9 @@ pub trait Lanes: Copy {
     fn at_most(self, other: Self) -> u32;
     /// |x| + |y| + |z|, rounded.
     fn norm1(self) -> f64;
-    /// Lane by lane the greater one.
+    /// Lane by lane the greater one; `other` of zeros of either sign, and if one is a NaN.
     fn max(self, other: Self) -> Self;
-    /// Lane by lane the lesser one.
+    /// Lane by lane the lesser one; `other` like [`Lanes::max`].
     fn min(self, other: Self) -> Self;
     /// Quotient.
     fn div(self, other: Self) -> Self;
@@ -99,23 +99,27 @@ pub trait Lanes: Copy {
     }
 }
 
-/// Plain arrays, for any target.
+/// Plain arrays, for any target. `FUSED`: products are added unrounded, by an instruction that the target must have, else by a call
+/// of hundreds of nanoseconds.
 #[derive(Clone, Copy)]
-pub struct Portable([f64; 4]);
+pub struct Plain<const FUSED: bool>([f64; 4]);
 
-impl Lanes for Portable {
-    type Twins = PortableTwins;
+/// Lanes of code that is not dispatched: alike on all machines.
+pub type Portable = Plain<false>;
+
+impl<const FUSED: bool> Lanes for Plain<FUSED> {
+    type Twins = PortableTwins<FUSED>;
     #[inline(always)]
-    fn twins(self, second: Self) -> PortableTwins {
+    fn twins(self, second: Self) -> PortableTwins<FUSED> {
         PortableTwins::rounded(self.0, second.0)
     }
     #[inline(always)]
     fn splat(x: f64) -> Self {
-        Portable([x; 4])
+        Plain([x; 4])
     }
     #[inline(always)]
     fn load(x: &[f64; 4]) -> Self {
-        Portable(*x)
+        Plain(*x)
     }
     #[inline(always)]
     fn to_array(self) -> [f64; 4] {
@@ -128,7 +132,7 @@ impl Lanes for Portable {
     }
     #[inline(always)]
     fn load_single(x: &[u32; 4]) -> Self {
-        Portable(x.map(|bits| f32::from_bits(bits).into()))
+        Plain(x.map(|bits| f32::from_bits(bits).into()))
     }
     #[inline(always)]
     fn store_single(self, to: &mut [u32; 4]) {
@@ -136,7 +140,7 @@ impl Lanes for Portable {
     }
     #[inline(always)]
     fn from_vector(v: &Vector) -> Self {
-        Portable([v.x, v.y, v.z, v.z])
+        Plain([v.x, v.y, v.z, v.z])
     }
     #[inline(always)]
     fn to_vector(self) -> Vector {
@@ -144,27 +148,33 @@ impl Lanes for Portable {
     }
     #[inline(always)]
     fn add(self, other: Self) -> Self {
-        Portable(std::array::from_fn(|i| self.0[i] + other.0[i]))
+        Plain(std::array::from_fn(|i| self.0[i] + other.0[i]))
     }
     #[inline(always)]
     fn sub(self, other: Self) -> Self {
-        Portable(std::array::from_fn(|i| self.0[i] - other.0[i]))
+        Plain(std::array::from_fn(|i| self.0[i] - other.0[i]))
     }
     #[inline(always)]
     fn mul(self, other: Self) -> Self {
-        Portable(std::array::from_fn(|i| self.0[i] * other.0[i]))
+        Plain(std::array::from_fn(|i| self.0[i] * other.0[i]))
     }
     #[inline(always)]
     fn mul_add(self, factor: Self, addend: Self) -> Self {
-        Portable(std::array::from_fn(|i| self.0[i] * factor.0[i] + addend.0[i]))
+        let one = |i: usize| {
+            if FUSED { self.0[i].mul_add(factor.0[i], addend.0[i]) } else { self.0[i] * factor.0[i] + addend.0[i] }
+        };
+        Plain(std::array::from_fn(one))
     }
     #[inline(always)]
     fn negated_mul_add(self, factor: Self, addend: Self) -> Self {
-        Portable(std::array::from_fn(|i| addend.0[i] - self.0[i] * factor.0[i]))
+        let one = |i: usize| {
+            if FUSED { (-self.0[i]).mul_add(factor.0[i], addend.0[i]) } else { addend.0[i] - self.0[i] * factor.0[i] }
+        };
+        Plain(std::array::from_fn(one))
     }
     #[inline(always)]
     fn negate(self) -> Self {
-        Portable(self.0.map(|x| -x))
+        Plain(self.0.map(|x| -x))
     }
     #[inline(always)]
     fn greater(self, other: Self) -> u32 {
@@ -173,23 +183,23 @@ impl Lanes for Portable {
     }
     #[inline(always)]
     fn splat_x(self) -> Self {
-        Portable([self.0[0]; 4])
+        Plain([self.0[0]; 4])
     }
     #[inline(always)]
     fn splat_y(self) -> Self {
-        Portable([self.0[1]; 4])
+        Plain([self.0[1]; 4])
     }
     #[inline(always)]
     fn splat_z(self) -> Self {
-        Portable([self.0[2]; 4])
+        Plain([self.0[2]; 4])
     }
     #[inline(always)]
     fn transpose(rows: &[Self; 3]) -> [Self; 4] {
-        std::array::from_fn(|i| Portable([rows[0].0[i], rows[1].0[i], rows[2].0[i], 0.0]))
+        std::array::from_fn(|i| Plain([rows[0].0[i], rows[1].0[i], rows[2].0[i], 0.0]))
     }
     #[inline(always)]
     fn rotate(self) -> Self {
-        Portable([self.0[1], self.0[2], self.0[0], self.0[3]])
+        Plain([self.0[1], self.0[2], self.0[0], self.0[3]])
     }
     #[inline(always)]
     fn dot(self, other: Self) -> f64 {
@@ -210,31 +220,31 @@ impl Lanes for Portable {
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        other.where_greater(self, other, self)
+        self.where_greater(other, self, other)
     }
     #[inline(always)]
     fn div(self, other: Self) -> Self {
-        Portable(std::array::from_fn(|i| self.0[i] / other.0[i]))
+        Plain(std::array::from_fn(|i| self.0[i] / other.0[i]))
     }
     #[inline(always)]
     fn sqrt(self) -> Self {
-        Portable(self.0.map(f64::sqrt))
+        Plain(self.0.map(f64::sqrt))
     }
     #[inline(always)]
     fn components(vectors: &[Self; 4]) -> [Self; 3] {
-        std::array::from_fn(|k| Portable(std::array::from_fn(|i| vectors[i].0[k])))
+        std::array::from_fn(|k| Plain(std::array::from_fn(|i| vectors[i].0[k])))
     }
     #[inline(always)]
     fn where_greater(self, left: Self, right: Self, other: Self) -> Self {
-        Portable(std::array::from_fn(|i| if left.0[i] > right.0[i] { self.0[i] } else { other.0[i] }))
+        Plain(std::array::from_fn(|i| if left.0[i] > right.0[i] { self.0[i] } else { other.0[i] }))
     }
     #[inline(always)]
     fn with_first(self, other: Self) -> Self {
-        Portable([other.0[0], self.0[1], self.0[2], self.0[3]])
+        Plain([other.0[0], self.0[1], self.0[2], self.0[3]])
     }
     #[inline(always)]
     fn upper_halves(first: Self, second: Self) -> Self {
-        Portable([first.0[2], first.0[3], second.0[2], second.0[3]])
+        Plain([first.0[2], first.0[3], second.0[2], second.0[3]])
     }
     #[inline(always)]
     fn products_are_below(self, vectors: [&[f32; 8]; 3], limit: f32) -> bool {
@@ -294,10 +304,13 @@ impl Lanes for Portable {
     }
 }
 
-impl Portable {
+impl<const FUSED: bool> Plain<FUSED> {
     #[inline(always)]
     fn products(self, [x, y, z]: [&[f32; 8]; 3]) -> [f32; 8] {
         let [a, b, c, _] = self.0.map(|lane| lane as f32);
-        std::array::from_fn(|i| x[i] * a + y[i] * b + z[i] * c)
+        let one = |i: usize| {
+            if FUSED { z[i].mul_add(c, y[i].mul_add(b, x[i] * a)) } else { x[i] * a + y[i] * b + z[i] * c }
+        };
+        std::array::from_fn(one)
     }
 }

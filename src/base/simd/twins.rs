@@ -37,9 +37,9 @@ pub trait Twins: Copy {
     fn dots(self, other: Self) -> [f32; 2];
     /// The same of the first vectors alone.
     fn dot(self, other: Self) -> f32;
-    /// Number by number the lesser one.
+    /// Number by number the lesser one; `other` like [`Lanes::max`](super::Lanes::max).
     fn min(self, other: Self) -> Self;
-    /// Number by number the greater one.
+    /// Number by number the greater one, like it.
     fn max(self, other: Self) -> Self;
     /// Quotients.
     fn div(self, other: Self) -> Self;
@@ -74,11 +74,11 @@ pub trait Twins: Copy {
     }
 }
 
-/// Plain arrays, for any target.
+/// Plain arrays, for any target; `FUSED` as for [`super::lanes::Plain`].
 #[derive(Clone, Copy)]
-pub struct PortableTwins([f32; 8]);
+pub struct PortableTwins<const FUSED: bool>([f32; 8]);
 
-impl PortableTwins {
+impl<const FUSED: bool> PortableTwins<FUSED> {
     /// Both vectors, rounded.
     #[inline(always)]
     pub(super) fn rounded(first: [f64; 4], second: [f64; 4]) -> Self {
@@ -92,7 +92,7 @@ impl PortableTwins {
     }
 }
 
-impl Twins for PortableTwins {
+impl<const FUSED: bool> Twins for PortableTwins<FUSED> {
     #[inline(always)]
     fn load(first: &[f32; 4], second: &[f32; 4]) -> Self {
         PortableTwins(std::array::from_fn(|i| if i < 4 { first[i] } else { second[i - 4] }))
@@ -123,11 +123,17 @@ impl Twins for PortableTwins {
     }
     #[inline(always)]
     fn mul_add(self, factor: Self, addend: Self) -> Self {
-        PortableTwins(std::array::from_fn(|i| self.0[i] * factor.0[i] + addend.0[i]))
+        let one = |i: usize| {
+            if FUSED { self.0[i].mul_add(factor.0[i], addend.0[i]) } else { self.0[i] * factor.0[i] + addend.0[i] }
+        };
+        PortableTwins(std::array::from_fn(one))
     }
     #[inline(always)]
     fn negated_mul_add(self, factor: Self, addend: Self) -> Self {
-        PortableTwins(std::array::from_fn(|i| addend.0[i] - self.0[i] * factor.0[i]))
+        let one = |i: usize| {
+            if FUSED { (-self.0[i]).mul_add(factor.0[i], addend.0[i]) } else { addend.0[i] - self.0[i] * factor.0[i] }
+        };
+        PortableTwins(std::array::from_fn(one))
     }
     #[inline(always)]
     fn splat_x(self) -> Self {
@@ -164,7 +170,7 @@ impl Twins for PortableTwins {
     }
     #[inline(always)]
     fn min(self, other: Self) -> Self {
-        other.where_greater(self, other, self)
+        self.where_greater(other, self, other)
     }
     #[inline(always)]
     fn max(self, other: Self) -> Self {
