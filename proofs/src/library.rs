@@ -1,5 +1,6 @@
 //! All that is proved of the library, named in one place.
 
+pub use swiftprox::base::angles::{cosine, reduced, sine};
 pub use swiftprox::base::double_double::{DoubleDouble, two_product, two_sum, wide_dot};
 pub use swiftprox::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, orthonormality, rotated};
 pub use swiftprox::base::normal::over_length;
@@ -25,7 +26,7 @@ pub use swiftprox::distance::marching::{
     between_feet, correction, error_along, from_foot, misfit_across_edge, misfit_between_edges, projected,
 };
 pub use swiftprox::motion::bound::{LEAST_BETWEEN, OF_ANGLE, OF_TURN, least_within};
-pub use swiftprox::motion::turn::{angle, axis_and_speed, cosine, crossed, entry, reduced, sine, versine};
+pub use swiftprox::motion::turn::{angle, axis_and_speed, crossed, entry, versine};
 pub use swiftprox::pair::{
     NearestOfRound, ends_of_points, ends_of_segments, shrunk, square_between, square_of_rigid, together,
 };

@@ -54,11 +54,21 @@ pub fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((exponent + 1023) as u64) << 52)
 }
 
+/// The exponent e of a number 2^e·m, 1 ≤ m < 2, and less or more than any double's for 0 and infinity. `log2` is rounded as the machine's
+/// library has it.
+#[inline]
+pub fn binary_order(x: f64) -> i32 {
+    debug_assert!(x >= 0.0);
+    let exponent = |x: f64| (x.to_bits() >> 52) as i32 - 1023;
+    // Subnormal numbers have none of their own.
+    if x < f64::MIN_POSITIVE { exponent(x * power_of_two(54)) - 54 } else { exponent(x) }
+}
+
 /// A power of two times which a length of this order has a square that is a double and not lost; 1 where it has one as it is.
 #[inline]
 pub fn moderate_unit(length: f64) -> f64 {
     debug_assert!(length >= 0.0);
-    if (1e-100..=1e100).contains(&length) { 1.0 } else { power_of_two(-(length.log2() as i32).clamp(-1022, 1022)) }
+    if (1e-100..=1e100).contains(&length) { 1.0 } else { power_of_two(-binary_order(length).clamp(-1022, 1022)) }
 }
 
 /// The vector times a power of two, such that the product of two is a double and not lost, whatever their lengths.

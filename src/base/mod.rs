@@ -12,6 +12,8 @@ pub(crate) mod enumerator;
 pub mod scalar;
 pub mod math;
 #[doc(hidden)]
+pub mod angles;
+#[doc(hidden)]
 pub mod simd;
 pub mod progress;
 pub(crate) mod sorting;

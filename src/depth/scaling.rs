@@ -1,7 +1,7 @@
 //! A pair in another unit of length: the search is for magnitudes whose cubes are numbers.
 
 use crate::base::error::Result;
-use crate::base::math::{Pose, Vector, power_of_two};
+use crate::base::math::{Pose, Vector, binary_order, power_of_two};
 use crate::body::polyhedron::lookup::Plan;
 use crate::body::polyhedron::outlines::Outlines;
 use crate::body::polyhedron::{LARGEST, Polyhedron};
@@ -28,7 +28,7 @@ impl Rescaled {
         if !(radius > 0.0 && radius < f64::INFINITY) {
             return Ok(None);
         }
-        let unit = power_of_two(-(radius.log2() as i32).clamp(-1000, 1000));
+        let unit = power_of_two(-binary_order(radius).clamp(-1000, 1000));
         let poses = poses.map(|pose| in_unit_of_pose(pose, unit));
         let [polyhedron1, polyhedron2] = polyhedra.map(|polyhedron| in_unit_of(polyhedron, unit));
         match (polyhedron1?, polyhedron2?, poses) {

@@ -8,7 +8,7 @@ use super::normals::TILT;
 use super::reach::GroundReach;
 use super::vertices::Vertices;
 use crate::answer::{feature_of_vertices, label};
-use crate::base::math::{Matrix, UNIT_ROUNDOFF, Vector, is_unit};
+use crate::base::math::{Matrix, UNIT_ROUNDOFF, Vector, is_unit, length};
 use crate::body::polyhedron::MergedFace;
 use crate::pair::{Feature, FeatureKind, Outcome, Placed, SignedDistance};
 use crate::placed::state::FeatureId;
@@ -328,8 +328,8 @@ fn highest_between(one: &Low, other: &Low, tail: &Vector) -> Option<(Vector, f64
     let along = |[x, y]: [f64; 2], point: [f64; 2]| x * point[0] + y * point[1];
     let [p, q] = [one.point, other.point].map(|point| flat(&(point - tail)));
     let unit = |[x, y]: [f64; 2]| {
-        let length = x.hypot(y);
-        [x / length, y / length]
+        let norm = length(&Vector::new(x, y, 0.0));
+        [x / norm, y / norm]
     };
     let mut best: Option<([f64; 2], f64, [u32; 2])> = None;
     let mut consider = |way: [f64; 2], height: f64, vertices: [u32; 2]| {

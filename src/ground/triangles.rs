@@ -2,6 +2,7 @@
 //! with half as many vertices.
 
 use super::tree::{GroundTree, NodeBounds};
+use crate::base::angles::around;
 use crate::base::error::{Error, Result};
 use crate::base::math::Vector;
 use crate::base::memory::{collected, copied, extend, filled, push, with_capacity};
@@ -199,10 +200,9 @@ impl TriangleSide {
 
 /// The angle of a triangle around a side, from the first of those there, the way to which triangles that go upwards face.
 fn angle([inward, ahead]: [Vector; 2], to: Vector) -> f64 {
-    let angle = to.dot(&ahead).atan2(to.dot(&inward));
+    let angle = around(to.dot(&inward), to.dot(&ahead));
     // Those of a plane are at one angle, whatever rounding says.
-    let angle = (angle * f64::from(1 << 24)).round();
-    if angle < 0.0 { angle + (std::f64::consts::TAU * f64::from(1 << 24)).round() } else { angle }
+    (angle * f64::from(1 << 24)).round() % f64::from(4 << 24)
 }
 
 /// The sides of all triangles that are not left out, those between two places together.

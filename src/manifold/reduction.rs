@@ -3,6 +3,7 @@
 
 use super::answer::FOUR;
 use super::places::CommonPoint;
+use crate::base::angles::sin_cos;
 
 /// By how much less deep than the deepest point the earlier deepest may be, relative to the size of the pair: a contact at rest
 /// rocks.
@@ -44,7 +45,7 @@ impl Thinned<'_> {
         let mut stays = [false; ROOM];
         stays[most(&self.places, |place| -place.gap())] = true;
         for direction in 0..DIRECTIONS {
-            let (sine, cosine) = (std::f64::consts::TAU * direction as f64 / DIRECTIONS as f64).sin_cos();
+            let (sine, cosine) = sin_cos(std::f64::consts::TAU * direction as f64 / DIRECTIONS as f64);
             stays[most(&self.places, |place| cosine * place.spots[0].x + sine * place.spots[0].y)] = true;
         }
         self.count = 0;

@@ -3,6 +3,7 @@
 use super::bound::rounding_of_pose;
 use super::kinds::{Motion, Screw, check_finite};
 use super::path::Path;
+use crate::base::angles::arctangent;
 use crate::base::error::{Result, check_range};
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::environment::with_default;
@@ -63,7 +64,7 @@ fn shortest_turn(r: &Matrix) -> Vector {
     };
     let (part, w) = if w < 0.0 { (-part, -w) } else { (part, w) };
     let length = part.norm();
-    if length > 0.0 { part * (2.0 * length.atan2(w) / length) } else { Vector::zeros() }
+    if length > 0.0 { part * (2.0 * arctangent(length, w) / length) } else { Vector::zeros() }
 }
 
 #[cfg(test)]

@@ -23,7 +23,7 @@
 use super::carried::Carried;
 use super::kinds::{Callback, Motion, Screw};
 use super::path::Path;
-use super::turn::LARGEST_ANGLE;
+use crate::base::angles::LARGEST_ANGLE;
 use crate::base::error::{Error, Result};
 use crate::base::math::{Pose, STRETCH, UNIT_ROUNDOFF as U, Vector};
 use crate::base::scalar::{Scalar, constant};

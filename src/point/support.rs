@@ -4,7 +4,7 @@ use super::answer::SupportVertex;
 use super::check_finite;
 use crate::answer::{moved, normalised, placed_points};
 use crate::base::error::{Error, Result};
-use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, binary_order};
 use crate::base::memory::in_integers;
 use crate::base::simd::environment::with_default;
 use crate::base::simd::{Lanes, Portable};
@@ -57,7 +57,7 @@ fn climb(polyhedron: &Polyhedron, pose: &Pose, direction: &Vector) -> (u32, bool
     }
     // A power of two, in two parts as neither end of the range has its inverse among the doubles: less than 1 long, and no digit
     // is lost that could turn it by 2⁻¹⁰⁰⁰.
-    let exponent = direction.amax().log2().floor().clamp(-1073.0, 1023.0) as i32 + 2;
+    let exponent = binary_order(direction.amax()).clamp(-1073, 1023) + 2;
     let halves = [exponent / 2, exponent - exponent / 2];
     let scaled = halves.iter().fold(*direction, |d, &half| d * f64::powi(2.0, -half));
     let (vertex, excess) = farthest(polyhedron, Portable::from_vector(&pose.rotate_back(&scaled)), None);

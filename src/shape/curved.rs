@@ -5,7 +5,7 @@
 
 use super::{LARGEST_SWEPT_RADIUS, Shape, ShapeOptions};
 use crate::base::error::{Error, Result, check_range};
-use crate::base::math::{STRETCH, UNIT_ROUNDOFF as U, Vector};
+use crate::base::math::{STRETCH, UNIT_ROUNDOFF as U, Vector, length};
 use crate::base::memory::{push, with_capacity};
 
 /// The least length of a body, 2⁻⁹⁶⁰: what underflows in a product with it is less than what points are inside by.
@@ -161,7 +161,7 @@ fn regular_polygon(quarter: usize) -> Result<Vec<[f64; 2]>> {
 
 /// How far a quarter of the unit circle is from the sides between these corners, at most: 1 less the height of a side's middle.
 fn sagitta_of_circle(corners: &[[f64; 2]]) -> f64 {
-    let height = |side: &[[f64; 2]]| 0.5 * f64::hypot(side[0][0] + side[1][0], side[0][1] + side[1][1]);
+    let height = |side: &[[f64; 2]]| 0.5 * length(&Vector::new(side[0][0] + side[1][0], side[0][1] + side[1][1], 0.0));
     1.0 - corners.windows(2).map(height).fold(1.0, f64::min) + ERROR
 }
 

@@ -17,7 +17,7 @@ use std::path::Path;
 use crate::base::error::{Error, Result, check_range};
 use crate::base::locality::{along_curve, in_order};
 use crate::base::mark::Mark;
-use crate::base::math::{Matrix, Vector};
+use crate::base::math::{Matrix, Vector, length};
 use crate::base::memory::{OnNeed, copied, found, in_integers, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
@@ -659,7 +659,7 @@ fn eighth_diagonal(points: &[Vector]) -> f64 {
     match (corner(f64::min), corner(f64::max)) {
         (Some(lower), Some(upper)) => {
             let eighth = 0.125 * upper - 0.125 * lower;
-            eighth.x.hypot(eighth.y).hypot(eighth.z)
+            length(&eighth)
         }
         _ => 0.0,
     }

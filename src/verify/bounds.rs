@@ -2,7 +2,7 @@
 //! They hold to the last bit; where they do not suffice, nothing is reported, and integers decide.
 
 use crate::base::double_double::{DoubleDouble, WideVector, narrow, two_product, wide_difference, wide_dot, widen};
-use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, clamp, divisor, length, power_of_two};
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, binary_order, clamp, divisor, length, power_of_two};
 use crate::base::scalar::Ring;
 use crate::body::polyhedron::{Polyhedron, Vertex};
 use crate::placed::Pair;
@@ -47,7 +47,7 @@ impl<'a> Bounds<'a> {
         if !(size > 0.0 && size < f64::INFINITY) {
             return None;
         }
-        let unit = power_of_two(-(size.log2() as i32).clamp(-MOST_SCALED, MOST_SCALED));
+        let unit = power_of_two(-binary_order(size).clamp(-MOST_SCALED, MOST_SCALED));
         let in_units = |x: DoubleDouble| DoubleDouble { hi: x.hi * unit, lo: x.lo * unit };
         let [centre1, centre2] = [0, 1].map(|i| rotate(poses[i], &widen(&(polyhedra[i].centre * unit))));
         let between = plus_difference(&apart.map(in_units), &centre1, &centre2);

@@ -4,6 +4,7 @@ use std::cmp::Ordering;
 use std::collections::{BinaryHeap, HashMap};
 use std::ops::Range;
 
+use crate::base::angles::around;
 use crate::base::error::Result;
 use crate::base::locality::places_of;
 use crate::base::math::{Matrix, Vector};
@@ -287,14 +288,14 @@ impl FacesAround<'_> {
         (first..first + tried).map(move |i| faces[i % count])
     }
 
-    /// The angle of a point about the axis from a vertex to the centre of mass.
+    /// A measure of the angle of a point about the axis from a vertex to the centre of mass.
     fn angle(&self, vertex: u32, point: &Vector) -> f64 {
         let position = &self.polyhedron.vertices[vertex as usize].position;
         let axis = self.polyhedron.mass.centre_of_mass - self.polyhedron.centre - position;
         let across = axis.cross(&Matrix::identity().column(axis.iamin()));
         let from = point - position;
         // Both are as long as the axis times the part across it.
-        from.dot(&axis.cross(&across)).atan2(from.dot(&across) * axis.norm())
+        around(from.dot(&across) * axis.norm(), from.dot(&axis.cross(&across)))
     }
 }
 

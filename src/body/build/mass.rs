@@ -4,7 +4,7 @@ use crate::base::double_double::{
     DoubleDouble, WideVector, narrow, two_sum, wide_cross, wide_difference, wide_dot, widen,
 };
 use crate::base::error::Result;
-use crate::base::math::{Matrix, UNIT_ROUNDOFF, Vector, power_of_two};
+use crate::base::math::{Matrix, UNIT_ROUNDOFF, Vector, binary_order, power_of_two};
 use crate::base::progress::Progress;
 use crate::body::polyhedron::{MassProperties, Polyhedron};
 
@@ -98,7 +98,7 @@ pub fn inertia(polyhedron: &Polyhedron) -> Matrix {
     if radius == 0.0 {
         return Matrix::zeros();
     }
-    let unit = power_of_two((radius.log2() as i32).clamp(-1000, 1000));
+    let unit = power_of_two(binary_order(radius).clamp(-1000, 1000));
     let covariance = covariance(polyhedron, 1.0 / unit);
     let tensor = Matrix::from_diagonal_element(covariance.trace()) - covariance;
     tensor * unit * unit

@@ -11,6 +11,7 @@
 
 use std::f64::consts::PI;
 
+use crate::base::angles::{around, sin_cos};
 use crate::base::error::Result;
 use crate::base::math::{Vector, divisor};
 use crate::base::memory::{OnNeed, collected, copied};
@@ -245,15 +246,19 @@ impl Spherical {
         debug_assert_eq!(cells.len(), Spherical::cell_count(resolution));
         let halfway = |i: usize| (i as f64 + 0.5) * PI / resolution as f64;
         let altitude = |i| {
-            let cosine = f64::cos(halfway(i));
+            let (_, cosine) = sin_cos(halfway(i));
             -cosine * cosine.abs()
+        };
+        let azimuth = |j| {
+            let (sine, cosine) = sin_cos(halfway(j));
+            around(cosine, sine)
         };
         Ok(Spherical {
             resolution,
             radius_factor,
             cells: Cells::new(cells, vertex_count)?,
             altitudes: collected((0..resolution).map(altitude))?,
-            azimuths: collected((0..2 * resolution).map(|j| around(halfway(j).cos(), halfway(j).sin())))?,
+            azimuths: collected((0..2 * resolution).map(azimuth))?,
         })
     }
 
@@ -289,8 +294,8 @@ impl Spherical {
             _ if cell == last => -Vector::z(),
             _ => {
                 let (ring, entry) = ((cell - 1) / (2 * resolution) + 1, (cell - 1) % (2 * resolution));
-                let (polar, azimuth) = (ring as f64 * increment, entry as f64 * increment);
-                Vector::new(polar.sin() * azimuth.cos(), polar.sin() * azimuth.sin(), polar.cos())
+                let [(sine, cosine), (y, x)] = [ring, entry].map(|steps| sin_cos(steps as f64 * increment));
+                Vector::new(sine * x, sine * y, cosine)
             }
         }
     }
@@ -299,18 +304,6 @@ impl Spherical {
     pub fn cell_count(resolution: usize) -> usize {
         debug_assert!(resolution > 0);
         (resolution - 1) * 2 * resolution + 2
-    }
-}
-
-/// A number in [0, 4) that rises with the azimuth of (x, y): where a ray meets the square |x| + |y| = 1, going round.
-fn around(x: f64, y: f64) -> f64 {
-    let along = y / divisor(x.abs() + y.abs());
-    if x < 0.0 {
-        2.0 - along
-    } else if along < 0.0 {
-        4.0 + along
-    } else {
-        along
     }
 }
 

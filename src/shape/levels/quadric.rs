@@ -12,7 +12,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use crate::base::error::Result;
-use crate::base::math::{Vector, power_of_two};
+use crate::base::math::{Vector, binary_order, power_of_two};
 use crate::base::memory::{collected, copied, filled, push, push_to_heap};
 use crate::base::progress::Progress;
 use crate::body::polyhedron::triangulation::{Triangulation, next, previous};
@@ -54,7 +54,7 @@ pub fn simplify(
 ) -> Result<Simplified> {
     // A power of two takes the body to size 1 and back without rounding, so that no product can overflow.
     let size = positions.iter().map(|p| p.amax()).fold(0.0, f64::max);
-    let factor = if size > 0.0 { power_of_two(-(size.log2() as i32).clamp(-1000, 1000)) } else { 1.0 };
+    let factor = if size > 0.0 { power_of_two(-binary_order(size).clamp(-1000, 1000)) } else { 1.0 };
     let mut collapse = Collapse::new(collected(positions.iter().map(|p| p * factor))?, triangles)?;
     collapse.run(target.max(4), progress)?;
     let mut simplified = collapse.finish()?;

@@ -1,7 +1,7 @@
 //! Bodies of extreme size are laid out near size 1 and scaled back.
 
 use crate::base::error::Result;
-use crate::base::math::{Vector, power_of_two};
+use crate::base::math::{Vector, binary_order, power_of_two};
 use crate::base::memory::collected;
 use crate::body::build::mass::bounding_box;
 use crate::body::polyhedron::{LARGEST, MassProperties, PlaneBlock, Polyhedron, SMALLEST};
@@ -13,7 +13,7 @@ pub fn factor_to_middle_scale(points: &[Vector]) -> f64 {
     if size == 0.0 || (SMALLEST..=LARGEST).contains(&size) {
         return 1.0;
     }
-    power_of_two(-(size.log2() as i32).clamp(-1000, 1000))
+    power_of_two(-binary_order(size).clamp(-1000, 1000))
 }
 
 /// Undoes the scaling of a polyhedron that was laid out about the local origin, and whose labels are still indices of the points.

@@ -4,7 +4,7 @@ use std::cmp::Reverse;
 use std::collections::BinaryHeap;
 
 use crate::base::error::Result;
-use crate::base::math::Vector;
+use crate::base::math::{Vector, length};
 use crate::base::memory::{collected, filled, push, with_capacity};
 
 /// A point seen along the direction.
@@ -64,7 +64,7 @@ fn without_flat_corners(hull: &[OutlineSpot], tolerance: f64) -> Result<Vec<u32>
     // The bits of numbers that are not negative are in their order.
     let height = |i: usize, [before, after]: [usize; 2]| {
         let (a, c) = (&hull[before], &hull[after]);
-        (turn(a, &hull[i], c) / (c.x - a.x).hypot(c.y - a.y)).abs().to_bits()
+        (turn(a, &hull[i], c) / length(&Vector::new(c.x - a.x, c.y - a.y, 0.0))).abs().to_bits()
     };
     let mut heights = filled(0_u64, count)?;
     // One for each corner, and two more for each that goes.
