@@ -1,7 +1,8 @@
 #!/bin/sh
 # Checks the library for other systems, and tests it on other processors. What cannot be had here is said by name and left out.
 #
-#   cross.sh [PART ...]        check; aarch64, under qemu-user; i686, natively with a C library of its own. No part: all
+#   cross.sh [PART ...]        check; aarch64, under qemu-user; i686, natively with a C library of its own; windows, under wine.
+#                              No part: all of these. native: what hosts of other systems run, without an emulator
 #
 # rustup has the targets: without it only those are here that the system's Rust came with.
 set -eu
@@ -16,6 +17,14 @@ LEFT_OUT="$LEFT_OUT|command_lines|replay_page|reference|swiftprox-|newcomer|samp
 
 # Of 32 bits: these count on sizes of 64, and `depth` on other roundings, which the header keeps to x86-64 and AArch64.
 LEFT_OUT_32='|^(depth|bad_input|mesh_reader|files)$'
+
+# What the processor and the system have a say in, of the tests in Rust: digits, verdicts, roundings, files.
+RUST_TESTS='--test determinism --test swept --test pair --test depth --test manifold'
+
+# What of the C tests knows nothing of POSIX.
+WINDOWS='scene/scene_use scene/results scene/sets scene/listener scene/many_objects pair/depth pair/cast pair/ray pair/bodies
+    pair/compound pair/ground pair/point pair/pose pair/gradient pair/batch process/bad_input process/allocator process/released
+    process/environment process/threads shape/mesh_reader shape/progress'
 
 # Sees to the standard library for a target.
 has_target() {
@@ -45,20 +54,54 @@ test_on() {
     ctest --test-dir "build/$1" --parallel 2 --output-on-failure --exclude-regex "$LEFT_OUT$4"
 }
 
-[ $# -gt 0 ] || set -- check aarch64 i686
+# Runs tests in Rust: TARGET, its linker, what starts its programs, and which.
+rust_tests_on() {
+    target=$1 linker=$2 runner=$3
+    shift 3
+    cargo test --locked --profile checked --target "$target" --config "target.$target.linker = '$linker'" \
+        --config "target.$target.runner = '$runner'" "$@"
+}
+
+# Builds the C tests with MinGW, each with the static library, and one with the DLL: the compiler, what starts programs.
+c_tests_on_windows() {
+    compiler=$1 runner=$2 made=target/x86_64-pc-windows-gnu/checked folder=build/windows
+    cargo build --locked --profile checked --lib --features allocator --target x86_64-pc-windows-gnu
+    mkdir -p "$folder"
+    cp "$made/swiftprox.dll" "$folder"
+    for program in $WINDOWS; do
+        name=${program##*/}
+        "$compiler" -std=gnu11 -O1 -Iinclude -Ic_tests "c_tests/$program.c" "$made/libswiftprox.a" -Wl,--gc-sections -static \
+            -lpthread -lkernel32 -lntdll -luserenv -lws2_32 -ldbghelp -o "$folder/$name.exe"
+        # A folder for what it writes.
+        (cd "$folder" && $runner "./$name.exe" .) || { echo "windows: $name failed" >&2; return 1; }
+    done
+    "$compiler" -Iinclude examples/hello.c "$made/libswiftprox.dll.a" -o "$folder/hello.exe"
+    (cd "$folder" && $runner ./hello.exe)
+}
+
+[ $# -gt 0 ] || set -- check aarch64 i686 windows
 for part in "$@"; do
     case $part in
     check) check ;;
     aarch64)
-        scripts/require.sh aarch64-linux-gnu-g++=g++-aarch64-linux-gnu qemu-aarch64=qemu-user cmake=cmake python3=python3
+        scripts/require.sh aarch64-linux-gnu-g++=g++-aarch64-linux-gnu qemu-aarch64=qemu-user cmake=cmake python3=python3 || continue
         test_on aarch64 aarch64-linux-gnu 'qemu-aarch64;-L;/usr/aarch64-linux-gnu' '' ''
+        ! has_target aarch64-unknown-linux-gnu || rust_tests_on aarch64-unknown-linux-gnu aarch64-linux-gnu-gcc \
+            'qemu-aarch64 -L /usr/aarch64-linux-gnu' $RUST_TESTS
         ;;
     i686)
-        scripts/require.sh i686-linux-gnu-g++=g++-i686-linux-gnu cmake=cmake python3=python3
+        scripts/require.sh i686-linux-gnu-g++=g++-i686-linux-gnu cmake=cmake python3=python3 || continue
         # The tests compare doubles, which the x87 would hold with more bits.
         test_on i686 i686-linux-gnu '/usr/i686-linux-gnu/lib/ld-linux.so.2;--library-path;/usr/i686-linux-gnu/lib' "$LEFT_OUT_32" \
             '-msse2 -mfpmath=sse'
         ;;
+    windows)
+        scripts/require.sh x86_64-w64-mingw32-gcc=gcc-mingw-w64-x86-64 /usr/lib/wine/wine64=wine64 || continue
+        has_target x86_64-pc-windows-gnu || continue
+        c_tests_on_windows x86_64-w64-mingw32-gcc /usr/lib/wine/wine64
+        rust_tests_on x86_64-pc-windows-gnu x86_64-w64-mingw32-gcc /usr/lib/wine/wine64 --test determinism
+        ;;
+    native) cargo test --locked --profile checked --lib $RUST_TESTS ;;
     *)
         echo "cross.sh: no part $part" >&2
         exit 2

@@ -1,5 +1,4 @@
-//! Angles. A library's sine or arctangent differs from machine to machine in the last digits; these are sums, products and quotients,
-//! which do not.
+//! Angles. The last digits of a library's sine or arctangent are each machine's own; these are sums, products and quotients.
 
 use crate::base::math::divisor;
 use crate::base::scalar::{Scalar, constant};

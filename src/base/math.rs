@@ -54,8 +54,7 @@ pub fn power_of_two(exponent: i32) -> f64 {
     f64::from_bits(((exponent + 1023) as u64) << 52)
 }
 
-/// The exponent e of a number 2^e·m, 1 ≤ m < 2, and less or more than any double's for 0 and infinity. `log2` is rounded as the machine's
-/// library has it.
+/// The exponent e of a number 2^e·m, 1 ≤ m < 2; of 0 and infinity less and more than any other. The system's `log2` may be off.
 #[inline]
 pub fn binary_order(x: f64) -> i32 {
     debug_assert!(x >= 0.0);

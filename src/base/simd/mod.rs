@@ -1,14 +1,15 @@
 //! Four doubles at a time, dispatched once per query to AVX2 with FMA where the machine has them, and to AVX-512 where it has that.
 //!
-//! A query is written once, generic over [`Lanes`], and compiled three times: with `Baseline` for what every machine of the target
-//! has, and with `Wide` inside functions that enable the features. On AArch64 NEON is the baseline, and there is nothing else.
-//! Everything on the query's path is `#[inline(always)]`, so that it is compiled with the features of its caller. AVX-512 means the same operations on the same four lanes, and so the same numbers; it
-//! has twice the registers and operands broadcast from memory. On AMD's Zen 5 that saved a query whose features have not changed
-//! 6 % of its time, others 1 to 2 %, on an Intel Xeon 8 % and 3 to 6 %, if the functions begin at multiples of 64 bytes (see
-//! `.cargo/config.toml`); if not, both are equal there.
+//! A query is written once, generic over [`Lanes`], and compiled three times: with `Baseline` for what every machine of the
+//! target has, and with `Wide` inside functions that enable the features. On AArch64 NEON is the baseline, and there is nothing
+//! else. Everything on the query's path is `#[inline(always)]`, so that it is compiled with the features of its caller. AVX-512
+//! means the same operations on the same four lanes, and so the same numbers; it has twice the registers and operands broadcast
+//! from memory. On AMD's Zen 5 that saved a query whose features have not changed 6 % of its time, others 1 to 2 %, on an Intel
+//! Xeon 8 % and 3 to 6 %, if the functions begin at multiples of 64 bytes (see `.cargo/config.toml`); if not, both are equal
+//! there.
 //!
-//! AVX2, AVX-512 and NEON give the same digits: each method does the same operations in the same order, fuses the same products, and
-//! takes the same one of equal numbers. What is not dispatched computes with [`Portable`], which fuses nothing anywhere.
+//! AVX2, AVX-512 and NEON give the same digits: each method does the same operations in the same order, fuses the same products,
+//! and takes the same one of equal numbers. What is not dispatched computes with [`Portable`], which fuses nothing anywhere.
 //!
 //! Rules of code generation, which the code on a query's path keeps and cites by number. Each was measured where it is cited.
 //!

@@ -16,10 +16,10 @@ pub(super) struct Neon([float64x2_t; 2]);
 /// Single-precision numbers 0 to 3, 4 to 7.
 pub(super) type Eight = [float32x4_t; 2];
 
-// SAFETY of every block in this file: this module is compiled for targets alone that have NEON, and what the blocks do needs no more,
-// but for loads and stores, whose pointers are to arrays of the size that is read or written.
+// SAFETY of every block in this file: the module is compiled for targets alone that have NEON, and what the blocks do needs no more.
+// The pointers of loads and stores are to arrays of the size that is read or written.
 impl Neon {
-    /// The components, each in two registers' worth of places, times those of eight vectors.
+    /// Products of eight vectors with this one.
     #[inline(always)]
     fn products(self, [x, y, z]: [&[f32; 8]; 3]) -> Eight {
         let single = self.single();
@@ -93,7 +93,7 @@ pub(super) fn lesser_ones(a: Eight, b: Eight) -> Eight {
     [0, 1].map(|half| unsafe { vbslq_f32(vcltq_f32(a[half], b[half]), a[half], b[half]) })
 }
 
-/// The first of the results of comparing lanes, a bit each.
+/// The results of comparing lanes, a bit each.
 #[inline(always)]
 fn bits_of_four([low, high]: [uint64x2_t; 2]) -> u32 {
     // SAFETY: see above.
