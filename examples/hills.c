@@ -1,4 +1,4 @@
-/* Hills and a scene: boxes come down on a ground of 128 triangles, and each step asks once what they rest on. */
+/* Hills in a scene: boxes come down on a ground of 128 triangles, an object as they are, and each step asks once what they rest on. */
 #include <stdio.h>
 #include <stdlib.h>
 
@@ -29,7 +29,7 @@ static void demand(swiftprox_status status)
 }
 
 /* Four hills of height 1 on 8 by 8 squares of side 2. */
-static const swiftprox_ground *make_hills(void)
+static void add_hills(swiftprox_scene *scene)
 {
     double heights[SIDE * SIDE];
     for (int i = 0; i < SIDE * SIDE; i++) {
@@ -38,7 +38,12 @@ static const swiftprox_ground *make_hills(void)
     }
     const swiftprox_ground *ground;
     demand(swiftprox_ground_create_from_heights(SIDE, SIDE, 2, 2, heights, &ground));
-    return ground;
+
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
+    options.ground = ground;
+    swiftprox_object_id hills;
+    demand(swiftprox_scene_add_object(scene, NULL, 0, &options, &hills)); /* at its origin, until swiftprox_scene_set_pose */
+    swiftprox_ground_release(ground);                                     /* the scene has a share of its own */
 }
 
 /* Boxes of side 1 in two rows. */
@@ -58,15 +63,15 @@ static void add_boxes(swiftprox_scene *scene, swiftprox_object_id *ids)
     swiftprox_shape_release(box);
 }
 
-static void print_contacts(const swiftprox_scene *scene, const swiftprox_ground *ground, swiftprox_scratch *scratch)
+static void print_contacts(const swiftprox_scene *scene, swiftprox_scratch *scratch)
 {
-    const double here[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}; /* rows of [R|T] */
     swiftprox_scene_ground_config config = SWIFTPROX_SCENE_GROUND_CONFIG_DEFAULT;
     config.max_distance = 0.05;
     config.reduces = 1; /* four points of a contact are enough */
 
+    const swiftprox_placed_ground own = {NULL, NULL}; /* the scene's grounds */
     swiftprox_scene_ground_answer answer;
-    demand(swiftprox_scene_ground_contacts(scene, NULL, (swiftprox_placed_ground){ground, here}, &config, scratch, &answer));
+    demand(swiftprox_scene_ground_contacts(scene, NULL, own, &config, scratch, &answer));
     for (size_t i = 0; i < answer.contact_count; i++) {
         const swiftprox_scene_ground_contact *found = &answer.contacts[i];
         const swiftprox_manifold *manifold = &found->contact.manifold;
@@ -85,12 +90,12 @@ int main(int argc, char **argv)
     if (!command_line_read(&line, argc, argv, &status)) {
         return status;
     }
-    const swiftprox_ground *ground = make_hills();
     swiftprox_scene *scene;
     swiftprox_scratch *scratch;
     swiftprox_object_id ids[BOXES];
     demand(swiftprox_scene_create(NULL, &scene));
     demand(swiftprox_scratch_create(&scratch));
+    add_hills(scene);
     add_boxes(scene, ids);
 
     for (int step = 0; step < STEPS; step++) {
@@ -101,10 +106,9 @@ int main(int argc, char **argv)
         }
         demand(swiftprox_scene_prepare(scene)); /* trees find the near objects */
         printf("height %.2f\n", height);
-        print_contacts(scene, ground, scratch);
+        print_contacts(scene, scratch);
     }
     swiftprox_scratch_destroy(scratch);
     demand(swiftprox_scene_destroy(scene));
-    swiftprox_ground_release(ground);
     return EXIT_SUCCESS;
 }

@@ -290,11 +290,12 @@ static size_t bytes_of_pair(const struct page_pair *pair)
            (size_t)pair->line_count * LINE_BYTES;
 }
 
+/* A ground has none: the page shows its pairs alone. */
 static uint32_t find_body(const struct page_data *data, const struct player *player, swiftprox_object_id id, uint32_t piece)
 {
     uint32_t number;
     return id.bits != 0 && player_find_number(player, id, &number) && number < data->object_count &&
-                   data->objects[number].first_body != PAGE_NO_BODY
+                   data->objects[number].first_body != PAGE_NO_BODY && piece < data->objects[number].piece_count
                ? data->objects[number].first_body + piece
                : PAGE_NO_BODY;
 }

@@ -111,10 +111,17 @@ struct pass {
 static int look_at_body(const struct player *player, swiftprox_object_id id, uint32_t piece, struct tune_scene *scene)
 {
     const swiftprox_shape *shape;
+    swiftprox_object_info object = {.struct_size = sizeof object};
     swiftprox_shape_info info = {.struct_size = sizeof info};
     swiftprox_shape_tuning_info tuning = {.struct_size = sizeof tuning};
     if (id.bits == 0) {
         return GOOD; /* a shape that was in no scene */
+    }
+    if (swiftprox_scene_get_object_info(player->scene, id, &object) != SWIFTPROX_OK) {
+        return player_failed();
+    }
+    if (object.ground) {
+        return GOOD; /* it is not tuned */
     }
     if (swiftprox_scene_get_piece(player->scene, id, piece, &shape) != SWIFTPROX_OK ||
         swiftprox_shape_get_info(shape, &info) != SWIFTPROX_OK || swiftprox_shape_get_tuning_info(shape, &tuning) != SWIFTPROX_OK) {

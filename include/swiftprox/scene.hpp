@@ -109,6 +109,15 @@ class SceneView
             return swiftprox_scene_add_object(scene_, shapes.data(), shapes.size(), &c, id);
         });
     }
+    /** A ground, which is fixed. */
+    Result<swiftprox_object_id> try_add(const Ground &ground, const ObjectOptions &options = {})
+    {
+        swiftprox_object_options c = options.to_c();
+        c.ground = ground.get();
+        return detail::asked<swiftprox_object_id>([&](swiftprox_object_id *id) {
+            return swiftprox_scene_add_object(scene_, nullptr, 0, &c, id);
+        });
+    }
     Result<swiftprox_object_id> try_copy_object(swiftprox_object_id original)
     {
         return detail::asked<swiftprox_object_id>([&](swiftprox_object_id *id) {
@@ -443,6 +452,17 @@ class SceneView
                                                        c, scratch.get(), answer);
             });
     }
+    /** With the grounds that are objects of the scene. */
+    Result<swiftprox_scene_ground_answer> try_ground_contacts(SetScratch &scratch, const SceneGroundConfig &config = {},
+                                                              const ObjectSet *set = nullptr) const
+    {
+        return detail::floor_contacts(
+            set, config,
+            [&](const swiftprox_object_set *of, const swiftprox_scene_ground_config *c, swiftprox_scene_ground_answer *answer) {
+                return swiftprox_scene_ground_contacts(scene_, of, swiftprox_placed_ground{nullptr, nullptr}, c,
+                                                       scratch.get(), answer);
+            });
+    }
     /** A contact for each piece. */
     Result<swiftprox_scene_ground_answer> try_half_space_contacts(const swiftprox_half_space &half_space, SetScratch &scratch,
                                                                   const SceneGroundConfig &config = {},
@@ -463,6 +483,7 @@ class SceneView
     {
         return take(try_add(pieces, options));
     }
+    swiftprox_object_id add(const Ground &ground, const ObjectOptions &options = {}) { return take(try_add(ground, options)); }
     swiftprox_object_id copy_object(swiftprox_object_id original) { return take(try_copy_object(original)); }
     std::vector<swiftprox_object_id> add_objects(Range<const Shape> shapes, Range<const ObjectOptions> options = {})
     {
@@ -576,6 +597,11 @@ class SceneView
                                                   const ObjectSet *set = nullptr) const
     {
         return take(try_ground_contacts(ground, scratch, config, set));
+    }
+    swiftprox_scene_ground_answer ground_contacts(SetScratch &scratch, const SceneGroundConfig &config = {},
+                                                  const ObjectSet *set = nullptr) const
+    {
+        return take(try_ground_contacts(scratch, config, set));
     }
     swiftprox_scene_ground_answer half_space_contacts(const swiftprox_half_space &half_space, SetScratch &scratch,
                                                       const SceneGroundConfig &config = {}, const ObjectSet *set = nullptr) const

@@ -44,14 +44,16 @@ uint64_t add(Scene &scene, nb::handle pieces, nb::handle pose, bool fixed, uint6
         held.push_back(nb::cast<const Shape &>(piece));
         shapes.push_back(held.back().get());
     };
-    if (nb::isinstance<Shape>(pieces)) {
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
+    if (nb::isinstance<Ground>(pieces)) {
+        options.ground = nb::cast<const Ground &>(pieces).ground;
+    } else if (nb::isinstance<Shape>(pieces)) {
         hold(pieces);
     } else {
         for (nb::handle piece : pieces) {
             hold(piece);
         }
     }
-    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     if (!pose.is_none()) {
         std::memcpy(options.pose, read_pose(pose, "pose").m, sizeof options.pose);
     }
@@ -347,9 +349,10 @@ void bind_scene(nb::module_ &m)
         }, nb::arg("threads") = 1, "An empty scene, whose queries share this many threads. Their number changes no bit.")
         .def("add", &add, nb::arg("pieces"), nb::arg("pose").none() = nb::none(), nb::kw_only(), nb::arg("fixed") = false,
              nb::arg("user_data") = 0, nb::arg("groups") = 1, nb::arg("mask") = UINT32_MAX,
-             nb::sig("def add(self, pieces: Shape | collections.abc.Sequence[Shape], pose: Pose | " ARRAY " | None = None, *, fixed: bool = False, "
+             nb::sig("def add(self, pieces: Shape | collections.abc.Sequence[Shape] | Ground, pose: Pose | " ARRAY " | None = None, *, fixed: bool = False, "
                      "user_data: int = 0, groups: int = 1, mask: int = 0xffffffff) -> int"),
-             "Adds an object of one or more convex pieces and returns its number. Two fixed objects are never tested.")
+             "Adds an object of one or more convex pieces, or a ground, which is fixed, and returns its number. Two fixed objects\n"
+             "are never tested.")
         .def("remove", [](Scene &self, uint64_t id) {
             run_alone(self, [&] { return swiftprox_scene_remove_object(self.scene, {id}); });
         }, nb::arg("id"), "Removes an object.")

@@ -148,6 +148,25 @@ impl PairAnswer {
             statistics: Statistics { marching_steps: 0, fallback_iterations: 0, exact_iterations: 0, levels: [0; 2] },
         }
     };
+
+    /// The answer of the same two objects, given the other way round.
+    pub(crate) fn reversed(&self) -> PairAnswer {
+        // The sum with +0 turns −0 into 0.
+        let normal = self.normal.map(|x| -x + 0.0);
+        let [level1, level2] = self.statistics.levels;
+        PairAnswer {
+            local1: self.local2,
+            local2: self.local1,
+            world1: self.world2,
+            world2: self.world1,
+            normal,
+            feature1: self.feature2,
+            feature2: self.feature1,
+            proof: self.proof.map(|[vertex1, vertex2]| [vertex2, vertex1]),
+            statistics: Statistics { levels: [level2, level1], ..self.statistics },
+            ..*self
+        }
+    }
 }
 
 impl Default for PairAnswer {

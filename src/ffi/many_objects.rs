@@ -84,7 +84,12 @@ unsafe fn all_object_options(options: *const CObjectOptions, count: usize) -> Ch
             return Err(Failure::new(StatusCode::ErrorStructSize, message));
         }
         // SAFETY: by the caller.
-        all.push(unsafe { object_options(place) }?);
+        let (own, ground) = unsafe { object_options(place) }?;
+        if ground.is_some() {
+            let message = format!("options[{k}].ground is set: add grounds one by one by swiftprox_scene_add_object");
+            return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
+        }
+        all.push(own);
     }
     Ok(all)
 }

@@ -10,6 +10,7 @@ use super::scene::{SceneHandle, change, look};
 use super::structs::{Versioned, read_struct, write_struct};
 use crate::base::math::Pose;
 use crate::base::memory::with_capacity;
+use crate::ground::Ground;
 use crate::scene::Object;
 use crate::scene::object::{ObjectId, ObjectOptions};
 use crate::shape::Shape;
@@ -31,6 +32,8 @@ pub struct CObjectOptions {
     pub groups: u32,
     /// The groups it is tested against. Default: 0, which means all.
     pub mask: u32,
+    /// A ground that the object is, instead of pieces; experimental. It is always fixed. Default: null.
+    pub ground: *const Ground,
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.
@@ -47,6 +50,7 @@ impl CObjectOptions {
         fixed: 0,
         groups: 0,
         mask: 0,
+        ground: std::ptr::null(),
     };
 }
 
@@ -58,7 +62,7 @@ pub struct ObjectInfo {
     pub struct_size: usize,
     /// The caller's number.
     pub user_data: u64,
-    /// Number of convex pieces.
+    /// Number of convex pieces; 0 for a ground.
     pub piece_count: usize,
     /// Its pose, row-major [R|T].
     pub pose: [f64; 12],
@@ -68,6 +72,8 @@ pub struct ObjectInfo {
     pub groups: u32,
     /// The groups it is tested against.
     pub mask: u32,
+    /// The ground that it is, or null; experimental. The scene owns the share.
+    pub ground: *const Ground,
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.
@@ -85,6 +91,7 @@ impl ObjectInfo {
         fixed: 0,
         groups: 0,
         mask: 0,
+        ground: std::ptr::null(),
     };
 }
 
@@ -93,7 +100,10 @@ impl ObjectInfo {
 /// Adds an object of one or more convex pieces in one local frame. All its pairs are active. The scene takes its own share of each
 /// shape, so the caller may release its shares at once. Null `options` mean the defaults. On failure `*id` is null.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces. SWIFTPROX_ERROR_LIMIT: more objects or pieces than a scene holds.
+/// With options->ground and a piece_count of 0 it adds that ground. Results name the ground as piece 0, and the triangle as a
+/// feature that is a face. swiftprox_scene_set_pose moves it. Functions about pieces refuse it. Two grounds make no pair.
+///
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces and no ground, or both. SWIFTPROX_ERROR_LIMIT: more objects or pieces than a scene holds.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_add_object(
     scene: *mut SceneHandle,
@@ -191,7 +201,8 @@ pub unsafe extern "C" fn swiftprox_scene_copy_object_ids(
 /// Sets an object's user data, pose, fixed flag, groups and mask. Fill info with swiftprox_scene_get_object_info, then change
 /// members. An unchanged pose moves nothing. Pair caches are kept.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count differs from the object's; nothing has changed.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count or ground differs from the object's, and nothing has changed; or a ground is not
+/// to be fixed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_object_info(
     scene: *mut SceneHandle,
@@ -204,12 +215,17 @@ pub unsafe extern "C" fn swiftprox_scene_set_object_info(
             input(info, "info")?;
             let before = info_of(&scene.object(id)?);
             let after = read_struct(info, before)?;
-            if after.piece_count != before.piece_count {
+            if (after.piece_count, after.ground) != (before.piece_count, before.ground) {
                 let message = format!(
-                    "info->piece_count is {}, and the object has {}; fill info by swiftprox_scene_get_object_info",
+                    "info->piece_count is {}, and the object has {}, or info->ground is another; fill info by \
+                     swiftprox_scene_get_object_info",
                     after.piece_count, before.piece_count
                 );
                 return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
+            }
+            if !after.ground.is_null() && after.fixed == 0 {
+                // Refused, before anything has changed.
+                scene.set_fixed(id, false)?;
             }
             if after.pose != before.pose {
                 scene.set_pose(id, &Pose::from_row_major(&after.pose))?;
@@ -341,33 +357,32 @@ fn info_of(object: &Object) -> ObjectInfo {
         fixed: i32::from(object.fixed()),
         groups: object.groups(),
         mask: object.mask(),
+        ground: object.ground().map_or(std::ptr::null(), Arc::as_ptr),
     }
 }
 
 /// Refuses a piece that an object does not have.
 pub(super) fn check_piece(object: &Object, piece: usize) -> Checked<()> {
-    let count = object.pieces().len();
-    if piece >= count {
-        let message = format!("piece {piece} of an object with {count}");
-        return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
-    }
-    Ok(())
+    Ok(object.refuse_absent(piece)?)
 }
 
-/// How an object begins, in Rust's terms.
+/// How an object begins, in Rust's terms, and the ground that it is.
 ///
 /// # Safety
 /// `options` meets the header's pointer rules.
-pub(super) unsafe fn object_options(options: *const CObjectOptions) -> Checked<ObjectOptions> {
+pub(super) unsafe fn object_options(options: *const CObjectOptions) -> Checked<(ObjectOptions, Option<Arc<Ground>>)> {
     // SAFETY: by the caller.
     let options = unsafe { read_struct(options, CObjectOptions::DEFAULT) }?;
-    Ok(ObjectOptions {
+    let own = ObjectOptions {
         pose: Pose::from_row_major(&options.pose),
         fixed: options.fixed != 0,
         user_data: options.user_data,
         groups: groups_or_first(options.groups),
         mask: mask_or_all(options.mask),
-    })
+    };
+    // SAFETY: by the caller.
+    let ground = (!options.ground.is_null()).then(|| unsafe { share(options.ground, "options->ground") });
+    Ok((own, ground.transpose()?))
 }
 
 /// Groups as a program gives them: none are the first one.
@@ -380,20 +395,20 @@ fn mask_or_all(mask: u32) -> u32 {
     if mask == 0 { u32::MAX } else { mask }
 }
 
-/// One more share of a shape.
+/// One more share of a shape or a ground.
 ///
 /// # Safety
-/// `shape` meets the header's pointer rules.
-pub(super) unsafe fn share(shape: *const Shape, name: impl std::fmt::Display) -> Checked<Arc<Shape>> {
-    // SAFETY: a live shape by the caller, which came from Arc::into_raw.
-    let is_alive = unsafe { shape.as_ref() }.is_some_and(|shape| shape.mark().is_alive());
+/// `pointer` meets the header's pointer rules.
+pub(super) unsafe fn share<T: Handle>(pointer: *const T, name: impl std::fmt::Display) -> Checked<Arc<T>> {
+    // SAFETY: a live one by the caller, which came from Arc::into_raw.
+    let is_alive = unsafe { pointer.as_ref() }.is_some_and(|shared| shared.mark().is_alive());
     if !is_alive {
-        return Err(if shape.is_null() { Failure::null(&name.to_string()) } else { freed::<Shape>(&name.to_string()) });
+        return Err(if pointer.is_null() { Failure::null(&name.to_string()) } else { freed::<T>(&name.to_string()) });
     }
-    // SAFETY: a live shape by the caller, which came from Arc::into_raw.
+    // SAFETY: a live one by the caller, which came from Arc::into_raw.
     Ok(unsafe {
-        Arc::increment_strong_count(shape);
-        Arc::from_raw(shape)
+        Arc::increment_strong_count(pointer);
+        Arc::from_raw(pointer)
     })
 }
 
@@ -413,17 +428,26 @@ unsafe fn add(
         // SAFETY: by the caller.
         unsafe { output(id, "id", ObjectId::NULL) }?;
         // SAFETY: by the caller.
-        let options = unsafe { object_options(options) }?;
-        made = Some((make()?, options));
+        let (options, ground) = unsafe { object_options(options) }?;
+        let pieces = make()?;
+        if ground.is_some() && !pieces.is_empty() {
+            let message =
+                "options->ground and pieces are set: an object is a ground or has pieces; add one object for each";
+            return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
+        }
+        made = Some((pieces, ground, options));
         Ok(())
     });
-    let Some((pieces, options)) = made else {
+    let Some((pieces, ground, options)) = made else {
         return status;
     };
     // SAFETY: by the caller; `id` was written before.
     unsafe {
         change(scene, |scene| {
-            id.write(scene.add_object(pieces, &options)?);
+            id.write(match ground {
+                Some(ground) => scene.add_ground(ground, &options)?,
+                None => scene.add_object(pieces, &options)?,
+            });
             Ok(())
         })
     }

@@ -1,6 +1,6 @@
 //! Contacts of a scene's objects with a ground or a half-space; threads may ask at once.
 
-use super::failure::{Checked, StatusCode};
+use super::failure::{Checked, Failure, StatusCode};
 use super::ground::{CPlacedGround, read_placed};
 use super::guard::guard;
 use super::object_set::{CObjectSet, read_set};
@@ -16,7 +16,7 @@ use crate::scene::{GroupFilter, SceneGroundContact, SceneGroundContacts, SetScra
 #[derive(Debug, Clone, Copy)]
 #[repr(C)]
 pub struct CSceneGroundAnswer {
-    /// Sorted by object, piece and triangle. Null if contact_count is 0.
+    /// Sorted by object, piece, ground and triangle. Null if contact_count is 0.
     pub contacts: *const SceneGroundContact,
     /// Number of contacts.
     pub contact_count: usize,
@@ -42,6 +42,7 @@ pub struct CSceneGroundConfig {
     /// Not 0: at most four points stay on each side of a body (swiftprox_pair_ground_contacts). Default: 0.
     pub reduces: i32,
     /// The ground's groups, one bit each. An object is tested if its mask has a bit of them. Default: 0, which means the first, 1.
+    /// Grounds of the scene have their own.
     pub groups: u32,
     /// An object is tested if its groups have a bit of this. Default: 0, which means all.
     pub mask: u32,
@@ -63,12 +64,16 @@ impl CSceneGroundConfig {
     };
 }
 
-/// Finds the contacts of objects of a scene with a ground (grounds belong to no scene), up to config->max_distance apart. Contacts
-/// of each piece are as from swiftprox_pair_ground_contacts. Null set: all objects, in order of creation. Fixed objects are
-/// skipped, unless set->poses gives their poses; set->among is not read. Activation and the scene's pair filter do not apply.
+/// Finds the contacts of objects of a scene with grounds, up to config->max_distance apart. Contacts of each piece are as from
+/// swiftprox_pair_ground_contacts. Null set: all objects, in order of creation. Fixed objects are skipped, unless set->poses gives
+/// their poses; set->among is not read.
+///
+/// If ground.ground and ground.pose are null, the grounds are the objects of the scene that are grounds, and the pairs those that
+/// queries test. Else it is one that is in no scene: activation and the scene's pair filter do not apply.
 ///
 /// Threads: as for swiftprox_scene_least_distance. The scratch owns the results and must not be null. Once it is large enough, only
 /// integer arithmetic allocates. On failure the answer is empty. Same errors as swiftprox_pair_manifold.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: also for a ground in the set, and for groups or a mask without a ground.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_ground_contacts(
     scene: *const SceneHandle,
@@ -79,7 +84,11 @@ pub unsafe extern "C" fn swiftprox_scene_ground_contacts(
     answer: *mut CSceneGroundAnswer,
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
-    unsafe { find(scene, set, || Ok(FloorInput::Ground(read_placed(ground)?)), config, scratch, answer) }
+    unsafe {
+        let is_of_scene = ground.ground.is_null() && ground.pose.is_null();
+        let floor = || if is_of_scene { Ok(FloorInput::OfScene) } else { Ok(FloorInput::Ground(read_placed(ground)?)) };
+        find(scene, set, floor, config, scratch, answer)
+    }
 }
 
 /// Like swiftprox_scene_ground_contacts for a half-space: one contact for each piece within config->max_distance, as from
@@ -124,6 +133,12 @@ unsafe fn find<'a>(
             };
             let (scratch, set) = (exclusive(scratch, "scratch")?, set.as_ref());
             let SceneGroundContacts { contacts, points } = match floor()? {
+                FloorInput::OfScene if groups != 0 || mask != 0 => {
+                    let message = "config->groups and mask are those of a ground in no scene: leave them 0, the scene's grounds \
+                                   have their own";
+                    return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
+                }
+                FloorInput::OfScene => scene.own_ground_contacts(set, &config, scratch)?,
                 FloorInput::Ground(ground) => scene.ground_contacts(set, ground, &config, filter, scratch)?,
                 FloorInput::HalfSpace(half_space) => {
                     scene.half_space_contacts(set, half_space, &config, filter, scratch)?
@@ -140,8 +155,10 @@ unsafe fn find<'a>(
     })
 }
 
-/// The ground or half-space that objects may meet.
+/// The grounds or the half-space that objects may meet.
 enum FloorInput<'a> {
+    /// Those of the scene.
+    OfScene,
     Ground(PlacedGround<'a>),
     HalfSpace(&'a HalfSpace),
 }

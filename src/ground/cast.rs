@@ -5,7 +5,9 @@ use super::reach::GroundReach;
 use super::tree::{FOUR, FourBoxes, NodeBounds, Visit};
 use crate::base::error::{Error, Result};
 use crate::base::simd::environment::with_default;
-use crate::motion::{CastAnswer, CastConfig, CastOutcome, Motion, Moving, PartEnd, Swept, cast};
+#[cfg(doc)]
+use crate::motion::cast;
+use crate::motion::{Carried, CastAnswer, CastConfig, CastOutcome, Motion, Moving, PartEnd, Swept, cast_carried};
 use crate::pair::PairCache;
 use crate::shape::TriangleShape;
 
@@ -30,6 +32,18 @@ const LONGER: f64 = 16.0;
 /// As of [`cast`]. [`Error::Argument`] also for `config.ignores_parting`: a body that rests on a ground parts from some triangles
 /// alone. [`Error::Memory`]: about 4 kB are requested.
 pub fn ground_cast(body: Moving, ground: PlacedGround, config: &CastConfig) -> Result<GroundCastAnswer> {
+    ground_cast_carried(body.into(), ground, config)
+}
+
+/// The same of a piece of a moving object.
+///
+/// # Errors
+/// As of [`ground_cast`].
+pub(crate) fn ground_cast_carried(
+    body: Carried,
+    ground: PlacedGround,
+    config: &CastConfig,
+) -> Result<GroundCastAnswer> {
     with_default(|| {
         config.check()?;
         if config.ignores_parting {
@@ -54,7 +68,7 @@ pub fn ground_cast(body: Moving, ground: PlacedGround, config: &CastConfig) -> R
             part_end: config.time_end,
             stretch: 1.0,
         };
-        let swept = Swept::new(body.into(), config.range())?;
+        let swept = Swept::new(body, config.range())?;
         let mut before: Option<(f64, NodeBounds)> = None;
         for place in swept.places() {
             let PartEnd { time, pose, off } = place?;
@@ -80,7 +94,7 @@ pub fn ground_cast(body: Moving, ground: PlacedGround, config: &CastConfig) -> R
 
 /// The first contact with the triangles that walks have reached.
 struct FirstTouch<'a> {
-    body: Moving<'a>,
+    body: Carried<'a>,
     fixed: &'a Motion<'a>,
     ground: PlacedGround<'a>,
     /// Its range is that of the part, up to the first contact so far.
@@ -122,7 +136,8 @@ impl Visit for FirstTouch<'_> {
         }
         let mut answer = CastAnswer::default();
         let other = Moving { shape: self.scratch.of(&own), motion: self.fixed };
-        cast([self.body, other], &mut PairCache::default(), &self.config, &mut answer)?;
+        let (bodies, range) = ([self.body, other.into()], self.config.range());
+        cast_carried(bodies, range, &mut PairCache::default(), &self.config, &mut answer)?;
         self.queries += answer.queries;
         let is_free = answer.outcome == CastOutcome::Free;
         let is_later = !is_free && answer.time_lower >= self.part_end && self.part_end < self.range_end;

@@ -70,6 +70,7 @@ pub(crate) fn add_contacts(
         config.check()?;
         body.pose.check()?;
         ground.pose.check()?;
+        body.shape.refuse_deviation("contacts with grounds")?;
         let reach = GroundReach::new(body, ground)?;
         let (bounds, enough) = (reach.bounds, config.max_distance / reach.stretch);
         let within = PairConfig { max_distance: config.max_distance, ..PairConfig::default() };

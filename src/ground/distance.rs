@@ -31,13 +31,28 @@ pub fn ground_distance(
     ground: PlacedGround,
     config: &PairConfig,
 ) -> Result<GroundDistance> {
+    if let Query::Approximate | Query::Contact = query {
+        return Err(Error::Argument("a ground is asked for distance or intersection".into()));
+    }
+    nearest_triangle(query, body, ground, config)
+}
+
+/// The same for any query: a distance is exact where it may be approximate, and of [`Query::Contact`] the points and the normal of
+/// an intersecting answer are those of its triangle.
+///
+/// # Errors
+/// As of [`ground_distance`].
+pub(crate) fn nearest_triangle(
+    query: Query,
+    body: Placed,
+    ground: PlacedGround,
+    config: &PairConfig,
+) -> Result<GroundDistance> {
     with_default(|| {
         let ask: Ask = match query {
-            Query::Distance => pair::distance,
+            Query::Distance | Query::Approximate => pair::distance,
             Query::Intersection => pair::intersection,
-            Query::Approximate | Query::Contact => {
-                return Err(Error::Argument("a ground is asked for distance or intersection".into()));
-            }
+            Query::Contact => pair::contact,
         };
         config.check(query)?;
         body.pose.check()?;
@@ -56,6 +71,7 @@ pub fn ground_distance(
             lower: f64::INFINITY,
             enough: if is_verdict { 0.0 } else { config.max_distance },
             is_verdict,
+            is_open: false,
             reach,
         };
         ground.ground.layout().walk(&mut least)?;
@@ -79,6 +95,8 @@ struct LeastToGround<'a> {
     /// Anything farther away no longer counts.
     enough: f64,
     is_verdict: bool,
+    /// A curved body may intersect one of them.
+    is_open: bool,
 }
 
 impl Visit for LeastToGround<'_> {
@@ -118,14 +136,16 @@ impl Visit for LeastToGround<'_> {
                 self.nearest = GroundDistance { answer, triangle };
                 return Ok(false);
             }
-            // The upper end may be infinite: distances need not be doubles.
-            Outcome::Separated
-                if !self.is_verdict && (!self.is_found() || answer.upper < self.nearest.answer.upper) =>
-            {
+            Outcome::Undecided => self.is_open = true,
+            Outcome::Separated if !self.is_verdict => {}
+            Outcome::Separated | Outcome::Beyond | Outcome::None => return Ok(true),
+        }
+        // The upper end may be infinite: distances need not be doubles.
+        if !self.is_found() || answer.upper < self.nearest.answer.upper {
+            if !self.is_verdict {
                 self.enough = answer.upper;
-                self.nearest = GroundDistance { answer, triangle };
             }
-            _ => {}
+            self.nearest = GroundDistance { answer, triangle };
         }
         Ok(true)
     }
@@ -142,7 +162,9 @@ impl LeastToGround<'_> {
             return self.nearest;
         }
         answer.lower = self.lower;
-        if !self.is_found() {
+        if self.is_open {
+            answer.outcome = Outcome::Undecided;
+        } else if !self.is_found() {
             // A verdict without a tolerance finds no nearest.
             answer.outcome = if self.is_verdict { Outcome::Separated } else { Outcome::Beyond };
             answer.distance = answer.lower;

@@ -31,9 +31,11 @@ mod contacts;
 
 use crate::base::math::Pose;
 pub use answer::{GroundContact, GroundContacts};
+pub(crate) use cast::ground_cast_carried;
 pub use cast::{GroundCastAnswer, ground_cast};
 pub(crate) use contacts::add_contacts;
 pub use contacts::ground_contacts;
+pub(crate) use distance::nearest_triangle;
 pub use distance::{GroundDistance, ground_distance};
 pub use ray::GroundRayAnswer;
 pub use surface::{Ground, HeightGrid};

@@ -7,7 +7,7 @@ use crate::base::error::{Error, Result};
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::environment::with_default;
 use crate::pair::{Feature, FeatureKind};
-use crate::ray::{Ray, RayAnswer, RayOutcome, cast_ray};
+use crate::ray::{Ray, RayAnswer, RayOutcome, cast_ray, cast_ray_in_integers};
 use crate::shape::TriangleShape;
 
 /// The answer of a ray cast at a ground.
@@ -27,6 +27,18 @@ impl PlacedGround<'_> {
     /// # Errors
     /// As of [`cast_ray`]; [`Error::Memory`]: about 4 kB are requested.
     pub fn cast_ray(&self, ray: &Ray) -> Result<GroundRayAnswer> {
+        self.first_hit(ray, false)
+    }
+
+    /// The same, and both ends of the entry are neighbouring doubles.
+    ///
+    /// # Errors
+    /// As of [`PlacedGround::cast_ray`].
+    pub(crate) fn cast_ray_in_integers(&self, ray: &Ray) -> Result<GroundRayAnswer> {
+        self.first_hit(ray, true)
+    }
+
+    fn first_hit(&self, ray: &Ray, in_integers: bool) -> Result<GroundRayAnswer> {
         with_default(|| {
             ray.check()?;
             self.pose.check()?;
@@ -36,6 +48,7 @@ impl PlacedGround<'_> {
             let mut first = FirstRayHit {
                 ground: *self,
                 ray,
+                in_integers,
                 local,
                 scratch: None,
                 found,
@@ -55,6 +68,7 @@ impl PlacedGround<'_> {
 struct FirstRayHit<'a> {
     ground: PlacedGround<'a>,
     ray: &'a Ray,
+    in_integers: bool,
     local: LocalRay,
     /// Made on first need.
     scratch: Option<TriangleShape>,
@@ -76,13 +90,14 @@ impl Visit for FirstRayHit<'_> {
 
     fn triangle(&mut self, triangle: u32) -> Result<bool> {
         let answer = match self.local.rounded(&self.ground.ground.layout().points(triangle), triangle) {
-            Some(answer) => answer,
-            None => {
+            Some(answer) if !self.in_integers || answer.outcome == RayOutcome::Miss => answer,
+            _ => {
                 let scratch = match &mut self.scratch {
                     Some(scratch) => scratch,
                     none => none.insert(self.ground.ground.triangle_shape().copy()?),
                 };
-                cast_ray(scratch.of(&self.ground.ground.triangle(triangle)).at(self.ground.pose), self.ray)?
+                let cast = if self.in_integers { cast_ray_in_integers } else { cast_ray };
+                cast(scratch.of(&self.ground.ground.triangle(triangle)).at(self.ground.pose), self.ray)?
             }
         };
         match answer.outcome {

@@ -78,9 +78,8 @@ impl GroundReach {
     /// For poses that are accepted.
     ///
     /// # Errors
-    /// [`Error::Argument`] for a curved body; [`Error::Bug`].
+    /// [`Error::Bug`].
     pub fn new(body: Placed, ground: PlacedGround) -> Result<GroundReach> {
-        body.shape.refuse_deviation("grounds")?;
         let (polyhedron, pose) = (body.shape.polyhedron(), body.pose);
         let (turn, origin) = (ground.pose.rotation(), ground.pose.translation());
         let Some(inverse) = turn.try_inverse() else {
@@ -93,7 +92,8 @@ impl GroundReach {
             + origin.lp_norm(1)
             + 2.0 * (polyhedron.centre.lp_norm(1) + middle.lp_norm(1) + half.lp_norm(1));
         let stretch = least_stretch(ground.pose);
-        let beyond = body.shape.swept_radius() / stretch + ROUNDING * size;
+        // A pose does not stretch the ball that is swept, nor a deviation.
+        let beyond = (body.shape.swept_radius() + body.shape.deviation()) / stretch + ROUNDING * size;
         let (axes, ends) = (inverse * pose.rotation(), ground.ground.layout().bounds());
         let own = OwnReach {
             middle: at,
@@ -192,7 +192,7 @@ impl GroundReach {
             + self.origin.lp_norm(1)
             + 2.0 * (polyhedron.centre.lp_norm(1) + 2.0 * polyhedron.radius)
             + 2.0 * (other.lower.lp_norm(1) + other.upper.lp_norm(1));
-        let radius = body.shape.swept_radius() * (1.0 + 16.0 * UNIT_ROUNDOFF);
+        let radius = (body.shape.swept_radius() + body.shape.deviation()) * (1.0 + 16.0 * UNIT_ROUNDOFF);
         // Lengths along a vector of length 1 + 4u.
         let gap = low - high - of_vertex(polyhedron, vertex, &downwards) - radius - 64.0 * UNIT_ROUNDOFF * size;
         gap * (1.0 - 16.0 * UNIT_ROUNDOFF)

@@ -7,6 +7,7 @@ use super::covers::Covers;
 use super::grid::GroundGrid;
 use super::layout::GroundLayout;
 use super::marks::Marks;
+use super::tree::NodeBounds;
 use super::triangles::Soup;
 use crate::base::error::{Error, Result, check_range};
 use crate::base::mark::Mark;
@@ -207,6 +208,22 @@ impl Ground {
         let Ground { layout, covers, marks, shape, .. } = self;
         let lists = layout.heap_bytes() + covers.heap_bytes() + size_of_val(&marks[..]);
         size_of::<Ground>() + shape.shown().bytes() + lists
+    }
+
+    /// The least and the greatest corner of a box around its triangles.
+    pub(crate) fn bounds(&self) -> [Vector; 2] {
+        let NodeBounds { lower, upper } = self.layout.bounds();
+        [lower, upper]
+    }
+
+    /// Its vertices, in their order.
+    pub(crate) fn vertices(&self) -> impl ExactSizeIterator<Item = Vector> {
+        (0..self.vertex_count()).map(|v| self.layout.vertex(v as u32))
+    }
+
+    /// The vertices of each triangle; of one that is left out they have no area.
+    pub(crate) fn corners(&self) -> impl ExactSizeIterator<Item = [u32; 3]> {
+        (0..self.triangle_count()).map(|t| self.layout.corners(t as u32))
     }
 
     /// The triangles.

@@ -8,14 +8,16 @@ use std::sync::Arc;
 use crate::base::error::Result;
 use crate::base::math::Pose;
 use crate::base::memory::{copied, push};
+use crate::ground::Ground;
 use crate::scene::world::object::{ObjectId, ObjectOptions};
 use crate::scene::world::testing::PairFilter;
 use crate::shape::Shape;
 
-/// The names that stand for objects, shapes and filters.
+/// The names that stand for objects, shapes, grounds and filters.
 pub(crate) trait Names {
     type Object: Copy + Debug;
     type Shape: Clone + Debug;
+    type Ground: Debug;
     type Filter: Debug;
 }
 
@@ -26,6 +28,7 @@ pub(crate) struct Themselves;
 impl Names for Themselves {
     type Object = ObjectId;
     type Shape = Arc<Shape>;
+    type Ground = Arc<Ground>;
     type Filter = PairFilter;
 }
 
@@ -36,6 +39,7 @@ pub(crate) struct RecordedNames;
 impl Names for RecordedNames {
     type Object = u32;
     type Shape = u32;
+    type Ground = u32;
     type Filter = ();
 }
 
@@ -45,6 +49,11 @@ pub(crate) enum Change<'a, N: Names> {
     /// Adds an object, the next in order of creation.
     Object {
         pieces: Cow<'a, [N::Shape]>,
+        options: ObjectOptions,
+    },
+    /// As above, which is a ground.
+    Ground {
+        ground: N::Ground,
         options: ObjectOptions,
     },
     /// As above, like another one.
@@ -88,6 +97,9 @@ pub(crate) trait Rename<From: Names, To: Names> {
     /// # Errors
     /// As above.
     fn shape(&mut self, shape: &From::Shape) -> Result<To::Shape>;
+    /// # Errors
+    /// As above.
+    fn ground(&mut self, ground: &From::Ground) -> Result<To::Ground>;
     fn filter(&mut self, filter: &From::Filter) -> To::Filter;
 }
 
@@ -101,6 +113,7 @@ impl<From: Names> Change<'_, From> {
             Change::Object { pieces, options } => {
                 Change::Object { pieces: all(pieces, |shape| names.shape(shape))?, options: *options }
             }
+            Change::Ground { ground, options } => Change::Ground { ground: names.ground(ground)?, options: *options },
             Change::Copy(object) => Change::Copy(names.object(*object)?),
             Change::Remove(object) => Change::Remove(names.object(*object)?),
             Change::Fixed(object, fixed) => Change::Fixed(names.object(*object)?, *fixed),

@@ -2,9 +2,7 @@
 
 use std::sync::Arc;
 
-#[cfg(doc)]
-use crate::base::error::Error;
-use crate::base::error::Result;
+use crate::base::error::{Error, Result};
 use crate::base::simd::environment::with_default;
 use crate::base::workers::Workers;
 use crate::pair::Query;
@@ -74,6 +72,12 @@ impl Scene {
                 near.grow(world.proxies.len());
                 return Ok(Some(added));
             }
+            Change::Ground { ground, options } => {
+                near.reserve(1)?;
+                let added = world.add_ground(&ground, &options)?;
+                near.grow(world.proxies.len());
+                return Ok(Some(added));
+            }
             Change::Copy(original) => {
                 near.reserve(world.rows_of(original).len())?;
                 let added = world.copy(original)?;
@@ -87,6 +91,10 @@ impl Scene {
             }
             Change::Fixed(id, fixed) => {
                 let object = world.view().get(id)?;
+                if object.ground().is_some() && !fixed {
+                    let is_ground = format!("object {id} is a ground, and grounds are fixed");
+                    return Err(Error::Argument(format!("{is_ground}: leave it so, its pose may be set all the same")));
+                }
                 if object.fixed() != fixed {
                     near.take_out(object.proxies(), object.fixed());
                     world.set_fixed(id, fixed)?;

@@ -9,6 +9,7 @@ use crate::base::error::{Error, Result};
 use crate::base::files;
 use crate::base::math::Pose;
 use crate::base::workers::Workers;
+use crate::ground::Ground;
 #[cfg(doc)]
 use crate::pair::{self, Outcome};
 use crate::pair::{Query, SignedDistance};
@@ -33,6 +34,18 @@ impl Scene {
     /// no ids left, [`Error::Memory`]. Nothing is added then.
     pub fn add_object(&mut self, pieces: Vec<Arc<Shape>>, options: &ObjectOptions) -> Result<ObjectId> {
         self.adding(Change::Object { pieces: pieces.into(), options: *options })
+    }
+
+    /// Adds a ground as an object. It is fixed, whatever the options say, but may be moved by [`Scene::set_pose`]. All of a scene
+    /// sees it: a result names it as its piece 0, and the triangle as a feature that is a face. Two grounds make no pair.
+    ///
+    /// Queries answer a pair with it as [`ground_distance`](crate::ground::ground_distance) does, approximate ones exactly; a
+    /// [`SceneQuery::detail`] adds nothing to it: [`Scene::own_ground_contacts`] gives its contacts.
+    ///
+    /// # Errors
+    /// As [`Scene::add_object`].
+    pub fn add_ground(&mut self, ground: Arc<Ground>, options: &ObjectOptions) -> Result<ObjectId> {
+        self.adding(Change::Ground { ground, options: *options })
     }
 
     /// Adds an object with the pieces (shared), the poses, the fixedness, the filter bits and the user data of another one. All
@@ -83,7 +96,7 @@ impl Scene {
     /// Fixes an object or lets it move: two fixed ones are never tested. The caches of its pairs stay.
     ///
     /// # Errors
-    /// [`Error::Handle`] for an id that is null, stale or another scene's.
+    /// [`Error::Handle`] for an id that is null, stale or another scene's; [`Error::Argument`] for a ground that is to move.
     pub fn set_fixed(&mut self, id: ObjectId, fixed: bool) -> Result<()> {
         self.doing(Change::Fixed(id, fixed))
     }

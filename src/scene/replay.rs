@@ -9,6 +9,7 @@ use crate::base::error::{Error, Result};
 use crate::base::files::open_to_read;
 use crate::base::locks::locked;
 use crate::base::memory::{lacking, push};
+use crate::ground::Ground;
 use crate::pair::Query;
 use crate::scene::change::{Change, RecordedNames, Rename, Themselves};
 use crate::scene::door::Scene;
@@ -46,6 +47,7 @@ pub struct Replay {
     length: u64,
     is_whole: bool,
     shapes: Vec<Arc<Shape>>,
+    grounds: Vec<Arc<Ground>>,
     /// All objects that there ever were, by number.
     ids: Vec<ObjectId>,
     decisions: Arc<Mutex<Decisions>>,
@@ -151,6 +153,7 @@ impl Replay {
             length,
             is_whole,
             shapes: Vec::new(),
+            grounds: Vec::new(),
             ids: Vec::new(),
             decisions: Arc::default(),
             changes: Vec::new(),
@@ -208,6 +211,7 @@ impl Replay {
         while let Some((start, record)) = self.next_record()? {
             match (record, &mut self.question) {
                 (Record::Shape(shape), _) => push(&mut self.shapes, shape)?,
+                (Record::Ground(ground), _) => push(&mut self.grounds, ground)?,
                 (Record::Question { subject, kind, query }, None) => {
                     self.question = Some(ReplayQuestion { subject, kind, query, outcome: Recorded::Nothing });
                 }
@@ -277,8 +281,8 @@ impl Replay {
                 if let Change::Filter(_) | Change::FilterAgain = change {
                     locked(&self.decisions).known.clear();
                 }
-                let Replay { shapes, ids, decisions, .. } = self;
-                let change = change.renamed(&mut KnownObjects { shapes, ids, decisions })?;
+                let Replay { shapes, grounds, ids, decisions, .. } = self;
+                let change = change.renamed(&mut KnownObjects { shapes, grounds, ids, decisions })?;
                 scene.change(change)?.map_or(Ok(()), |id| push(&mut self.ids, id))
             }
             Record::Decisions(decisions) => self.learn(scene, &decisions),
@@ -286,6 +290,7 @@ impl Replay {
             Record::End
             | Record::Scene { .. }
             | Record::Shape(_)
+            | Record::Ground(_)
             | Record::Question { .. }
             | Record::Answer(_)
             | Record::Failed => Ok(()),
@@ -361,6 +366,7 @@ impl Decisions {
 /// The values that a replay has for the numbers of a recording.
 struct KnownObjects<'a> {
     shapes: &'a [Arc<Shape>],
+    grounds: &'a [Arc<Ground>],
     ids: &'a [ObjectId],
     decisions: &'a Arc<Mutex<Decisions>>,
 }
@@ -372,6 +378,11 @@ impl Rename<RecordedNames, Themselves> for KnownObjects<'_> {
 
     fn shape(&mut self, number: &u32) -> Result<Arc<Shape>> {
         shape(self.shapes, *number).cloned()
+    }
+
+    fn ground(&mut self, number: &u32) -> Result<Arc<Ground>> {
+        let absent = || Error::File(format!("ground {number} of {}", self.grounds.len()));
+        self.grounds.get(*number as usize).cloned().ok_or_else(absent)
     }
 
     fn filter(&mut self, (): &()) -> PairFilter {

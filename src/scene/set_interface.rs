@@ -124,7 +124,8 @@ impl Scene {
     ///
     /// # Errors
     /// [`Error::Handle`](crate::base::error::Error::Handle) for an id that is null, stale or another scene's;
-    /// [`Error::Argument`](crate::base::error::Error::Argument) unless there is one motion or one for each object; same as for
+    /// [`Error::Argument`](crate::base::error::Error::Argument) unless there is one motion or one for each object, for a ground in the
+    /// set, and where an object comes near one while `config.ignores_parting` is set; same as for
     /// [`motion::cast`](crate::motion::cast()), and [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn cast(
         &self,
@@ -176,7 +177,7 @@ impl Scene {
     ///
     /// # Errors
     /// [`Error::Handle`](crate::base::error::Error::Handle) for an id that is null, stale or another scene's;
-    /// [`Error::Argument`](crate::base::error::Error::Argument) unless a set with poses has one for each object;
+    /// [`Error::Argument`](crate::base::error::Error::Argument) for a ground in the set, and unless a set with poses has one for each;
     /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted; same as for
     /// [`ground_contacts`](crate::ground::ground_contacts), and [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn ground_contacts<'a>(
@@ -187,7 +188,21 @@ impl Scene {
         filter: GroupFilter,
         scratch: &'a mut SetScratch,
     ) -> Result<SceneGroundContacts<'a>> {
-        self.floor_contacts(set, Floor::Ground(ground), config, filter, scratch)
+        self.floor_contacts(set, Some((Floor::Ground(ground), filter)), config, scratch)
+    }
+
+    /// The same with the grounds that are objects of the scene, each contact naming its own. Pairs are those that queries test, so
+    /// that activation and the scene's filter count here.
+    ///
+    /// # Errors
+    /// As [`Scene::ground_contacts`].
+    pub fn own_ground_contacts<'a>(
+        &self,
+        set: Option<&ObjectSet>,
+        config: &ManifoldConfig,
+        scratch: &'a mut SetScratch,
+    ) -> Result<SceneGroundContacts<'a>> {
+        self.floor_contacts(set, None, config, scratch)
     }
 
     /// The same for a half-space: a contact for each piece that is within `max_distance`, as
@@ -203,21 +218,20 @@ impl Scene {
         filter: GroupFilter,
         scratch: &'a mut SetScratch,
     ) -> Result<SceneGroundContacts<'a>> {
-        self.floor_contacts(set, Floor::HalfSpace(half_space), config, filter, scratch)
+        self.floor_contacts(set, Some((Floor::HalfSpace(half_space), filter)), config, scratch)
     }
 
     fn floor_contacts<'a>(
         &self,
         set: Option<&ObjectSet>,
-        floor: Floor,
+        floor: Option<(Floor, GroupFilter)>,
         config: &ManifoldConfig,
-        filter: GroupFilter,
         scratch: &'a mut SetScratch,
     ) -> Result<SceneGroundContacts<'a>> {
         with_default(|| {
-            let SetScratch { members, open, found: rows, ground, contacts, .. } = scratch;
-            let question = grounds::GroundQuestion { others: self.others(&NOBODY), set, floor, config, filter };
-            grounds::find(question, &mut grounds::SetGroundRoom { members, open, rows, ground, contacts })?;
+            let SetScratch { members, open, found: rows, near_grounds: near, ground, contacts, .. } = scratch;
+            let question = grounds::GroundQuestion { others: self.others(&NOBODY), set, floor, config };
+            grounds::find(question, &mut grounds::SetGroundRoom { members, open, rows, near, ground, contacts })?;
             Ok(SceneGroundContacts { contacts: &contacts[..], points: &ground.points })
         })
     }

@@ -513,6 +513,25 @@ impl Shape {
         self.deviation
     }
 
+    /// The hull of the corners of a box, as what surrounds something else: boxes and spheres around it hold, and nothing is known to
+    /// be inside.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for corners beyond 2¹⁰⁰⁰; [`Error::Memory`](crate::base::error::Error::Memory).
+    pub(crate) fn surrounding([lower, upper]: &[Vector; 2]) -> Result<Shape> {
+        let end = |corner: usize, axis: usize| if corner >> axis & 1 == 1 { upper[axis] } else { lower[axis] };
+        let corners = [0, 1, 2, 3, 4, 5, 6, 7].map(|corner| Vector::from_fn(|axis, _| end(corner, axis)));
+        let options = ShapeOptions {
+            input: InputPolicy::Hull,
+            hierarchy: HierarchyOptions { kind: HierarchyKind::None, ..HierarchyOptions::default() },
+            lookup: LookupOptions { kind: LookupKind::None, ..LookupOptions::default() },
+            ..ShapeOptions::default()
+        };
+        let mut shape = Shape::from_points(&corners, &options)?;
+        shape.extent.inner_radius = f64::NEG_INFINITY;
+        Ok(shape)
+    }
+
     /// Refuses a curved body where its polyhedron would be taken for it.
     ///
     /// # Errors

@@ -4,7 +4,8 @@ use super::hills;
 use swiftprox::error::Error;
 use swiftprox::ground::{Ground, HeightGrid, ground_distance};
 use swiftprox::math::{Matrix, Pose, Vector};
-use swiftprox::pair::{FeatureKind, Outcome, PairAnswer, PairConfig, Query};
+use swiftprox::pair::{self, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Query};
+use swiftprox::shape::Shape;
 use testkit::oracle::{Polytope, Truth, truth};
 use testkit::random::Random;
 use testkit::shapes::{at, cuboid, hull};
@@ -178,4 +179,58 @@ fn the_bound_of_a_verdict_is_finite_where_squares_are_not() {
             assert!(lower.is_finite() && truths[0].lies_between(lower, upper), "{query:?} {size:e}: {found:?}");
         }
     }
+}
+
+/// Cylinders, cones and ellipsoids: the least of what pairs say of each triangle, undecided where the deviation hides the verdict.
+#[test]
+fn curved_bodies_are_as_far_as_pairs_say() {
+    let mut random = Random::new(0xc0de);
+    let shapes = [
+        Shape::from_cylinder(0.4, 0.5, 1e-2).unwrap(),
+        Shape::from_cone(0.4, 0.5, 1e-2).unwrap(),
+        Shape::from_ellipsoid(&Vector::new(0.5, 0.3, 0.4), 1e-2).unwrap(),
+    ];
+    let mut seen = [0; 3];
+    for round in 0..150 {
+        let (vertices, triangles) = hills(&mut random, 4, 1.0);
+        let ground = Ground::from_triangles(&vertices, &triangles).unwrap();
+        let place = Pose::new(&random.rotation(), &random.vector());
+        let shape = &shapes[round % 3];
+        let from = place.transform(&(Vector::new(1.5, 1.5, 0.0) + random.vector() * 1.5));
+        let mut pose = Pose::new(&random.rotation(), &from);
+        for again in 0..2 {
+            let config = PairConfig::default();
+            let (mut least, mut outcome) = ([f64::INFINITY; 2], Outcome::Separated);
+            for corners in &triangles {
+                let triangle = hull(&corners.map(|v| vertices[v as usize]));
+                let mut answer = PairAnswer::default();
+                let bodies = [shape.at(&pose), triangle.at(&place)];
+                pair::distance(bodies, &mut PairCache::default(), &config, &mut answer).unwrap();
+                least = [least[0].min(answer.lower), least[1].min(answer.upper)];
+                outcome = match (outcome, answer.outcome) {
+                    (Outcome::Intersecting, _) | (_, Outcome::Intersecting) => Outcome::Intersecting,
+                    (Outcome::Undecided, _) | (_, Outcome::Undecided) => Outcome::Undecided,
+                    _ => Outcome::Separated,
+                };
+            }
+            let found = ground_distance(Query::Distance, shape.at(&pose), ground.at(&place), &config).unwrap();
+            let PairAnswer { lower, upper, .. } = found.answer;
+            assert_eq!(found.answer.outcome, outcome, "{found:?}");
+            assert!((lower - least[0]).abs() < 1e-12 && (upper - least[1]).abs() < 1e-12, "{found:?} {least:?}");
+            let verdict = ground_distance(Query::Intersection, shape.at(&pose), ground.at(&place), &config).unwrap();
+            assert_eq!(verdict.answer.outcome, outcome, "{verdict:?}");
+            assert!(outcome == Outcome::Separated || (verdict.triangle as usize) < triangles.len());
+            seen[match outcome {
+                Outcome::Separated => 0,
+                Outcome::Undecided => 1,
+                _ => 2,
+            }] += 1;
+            if again == 0 && outcome == Outcome::Separated {
+                // To where the polyhedron is half the deviation away.
+                let way = Vector::from(found.answer.normal) * (upper - 0.5 * shape.deviation());
+                pose = Pose::new(&pose.rotation(), &(pose.translation() - way));
+            }
+        }
+    }
+    assert!(seen.iter().all(|count| *count > 30), "{seen:?}");
 }

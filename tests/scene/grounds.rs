@@ -88,7 +88,13 @@ fn one_by_one<'a>(
             contacts.extend(found.contacts.iter().map(|contact| {
                 let mut contact = *contact;
                 contact.first_point += first;
-                SceneGroundContact { object: known.id, user_data: number as u64, piece, contact }
+                SceneGroundContact {
+                    object: known.id,
+                    user_data: number as u64,
+                    ground: ObjectId::NULL,
+                    piece,
+                    contact,
+                }
             }));
         }
     }

@@ -6,6 +6,7 @@ mod contacts;
 mod counts;
 mod events;
 mod few;
+mod ground_objects;
 mod grounds;
 mod listener;
 mod motions;

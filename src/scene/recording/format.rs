@@ -6,7 +6,8 @@ use std::sync::Arc;
 use crate::base::binary::{Reader, Writer};
 use crate::base::enumerator::{Enumerator, enumerator};
 use crate::base::error::Result;
-use crate::base::math::Pose;
+use crate::base::math::{Pose, Vector};
+use crate::ground::Ground;
 use crate::pair::Query;
 use crate::scene::change::{Change, RecordedNames};
 use crate::scene::recording::digest::Digest;
@@ -51,6 +52,8 @@ pub(crate) enum RecordKind {
     Failed = 23,
     KeptPairLimit = 24,
     PieceUserData = 30,
+    GroundData = 31,
+    Ground = 32,
 }
 
 enumerator!(RecordKind {
@@ -79,7 +82,9 @@ enumerator!(RecordKind {
     Answer,
     Failed,
     KeptPairLimit,
-    PieceUserData
+    PieceUserData,
+    GroundData,
+    Ground
 });
 
 /// A filter's word on a pair of objects.
@@ -100,6 +105,8 @@ pub(crate) enum Record<'a> {
     },
     /// The next number's.
     Shape(Arc<Shape>),
+    /// As above.
+    Ground(Arc<Ground>),
     Change(Change<'a, RecordedNames>),
     Question {
         subject: Subject<'static, u32, u32>,
@@ -120,6 +127,7 @@ impl Record<'_> {
             Record::End => RecordKind::End,
             Record::Scene { .. } => RecordKind::Scene,
             Record::Shape(_) => RecordKind::Shape,
+            Record::Ground(_) => RecordKind::GroundData,
             Record::Change(change) => kind_of(change),
             Record::Question { .. } => RecordKind::Question,
             Record::Decisions(_) => RecordKind::Decisions,
@@ -137,6 +145,7 @@ impl Record<'_> {
             Record::End | Record::Failed => Ok(()),
             Record::Scene { is_whole } => to.flag(*is_whole),
             Record::Shape(shape) => crate::base::memory::extend(&mut to.bytes, to_bytes(shape)?),
+            Record::Ground(ground) => to.ground(ground),
             Record::Change(change) => write_change(change, to),
             Record::Question { subject, kind, query } => {
                 to.subject(subject)?;
@@ -164,6 +173,7 @@ impl Record<'_> {
             RecordKind::End => Record::End,
             RecordKind::Scene => Record::Scene { is_whole: from.flag()? },
             RecordKind::Shape => Record::Shape(Arc::new(from_bytes(from.take(from.rest.len())?)?)),
+            RecordKind::GroundData => Record::Ground(Arc::new(from.ground()?)),
             RecordKind::Question => {
                 Record::Question { subject: from.subject()?, kind: from.choice()?, query: from.query()? }
             }
@@ -184,6 +194,7 @@ impl Record<'_> {
 fn kind_of(change: &Change<RecordedNames>) -> RecordKind {
     match change {
         Change::Object { .. } => RecordKind::Object,
+        Change::Ground { .. } => RecordKind::Ground,
         Change::Copy(..) => RecordKind::Copy,
         Change::Remove(..) => RecordKind::Remove,
         Change::Fixed(..) => RecordKind::Fixed,
@@ -208,13 +219,12 @@ fn kind_of(change: &Change<RecordedNames>) -> RecordKind {
 fn write_change(change: &Change<RecordedNames>, to: &mut Writer) -> Result<()> {
     match change {
         Change::Object { pieces, options } => {
-            let ObjectOptions { pose, fixed, user_data, groups, mask } = options;
             to.numbers(pieces)?;
-            to.pose(pose)?;
-            to.flag(*fixed)?;
-            to.raw(user_data.to_le_bytes())?;
-            to.number(*groups)?;
-            to.number(*mask)
+            to.options(options)
+        }
+        Change::Ground { ground, options } => {
+            to.number(*ground)?;
+            to.options(options)
         }
         Change::Copy(object) | Change::Remove(object) => to.number(*object),
         Change::Fixed(object, flag) | Change::ObjectActive(object, flag) => {
@@ -267,16 +277,8 @@ fn write_change(change: &Change<RecordedNames>, to: &mut Writer) -> Result<()> {
 /// The change of a kind of record; other kinds mean no change.
 fn read_change(kind: RecordKind, from: &mut Reader) -> Result<Change<'static, RecordedNames>> {
     Ok(match kind {
-        RecordKind::Object => Change::Object {
-            pieces: from.numbers()?.into(),
-            options: ObjectOptions {
-                pose: from.pose()?,
-                fixed: from.flag()?,
-                user_data: u64::from_le_bytes(from.raw()?),
-                groups: from.number()?,
-                mask: from.number()?,
-            },
-        },
+        RecordKind::Object => Change::Object { pieces: from.numbers()?.into(), options: from.options()? },
+        RecordKind::Ground => Change::Ground { ground: from.number()?, options: from.options()? },
         RecordKind::Copy => Change::Copy(from.number()?),
         RecordKind::Remove => Change::Remove(from.number()?),
         RecordKind::Fixed => Change::Fixed(from.number()?, from.flag()?),
@@ -313,6 +315,23 @@ fn read_change(kind: RecordKind, from: &mut Reader) -> Result<Change<'static, Re
 impl Writer {
     pub(super) fn flag(&mut self, flag: bool) -> Result<()> {
         self.raw([u8::from(flag)])
+    }
+
+    fn options(&mut self, options: &ObjectOptions) -> Result<()> {
+        let ObjectOptions { pose, fixed, user_data, groups, mask } = options;
+        self.pose(pose)?;
+        self.flag(*fixed)?;
+        self.raw(user_data.to_le_bytes())?;
+        self.number(*groups)?;
+        self.number(*mask)
+    }
+
+    fn ground(&mut self, ground: &Ground) -> Result<()> {
+        self.real(ground.thickness())?;
+        self.number(ground.vertex_count() as u32)?;
+        ground.vertices().try_for_each(|vertex| vertex.iter().try_for_each(|x| self.real(*x)))?;
+        self.number(ground.triangle_count() as u32)?;
+        ground.corners().try_for_each(|corners| corners.iter().try_for_each(|v| self.number(*v)))
     }
 
     fn pair(&mut self, pair: &[u32; 2]) -> Result<()> {
@@ -383,6 +402,23 @@ impl Reader<'_> {
             [1] => Ok(true),
             _ => self.damaged("a flag is neither 0 nor 1"),
         }
+    }
+
+    fn options(&mut self) -> Result<ObjectOptions> {
+        Ok(ObjectOptions {
+            pose: self.pose()?,
+            fixed: self.flag()?,
+            user_data: u64::from_le_bytes(self.raw()?),
+            groups: self.number()?,
+            mask: self.number()?,
+        })
+    }
+
+    fn ground(&mut self) -> Result<Ground> {
+        let thickness = self.real()?;
+        let vertices = self.list(24, |from| Ok(Vector::new(from.real()?, from.real()?, from.real()?)))?;
+        let triangles = self.list(12, |from| Ok([from.number()?, from.number()?, from.number()?]))?;
+        Ground::from_triangles(&vertices, &triangles)?.with_thickness(thickness)
     }
 
     fn pair(&mut self) -> Result<[u32; 2]> {

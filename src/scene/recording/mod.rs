@@ -14,8 +14,8 @@
 //! looked at before its length is believed. The last record tells that the recording was ended; without it the program was.
 //!
 //! Objects are numbered in order of creation, those that there were when the recording began first. Shapes are numbered, too, and
-//! stand in the recording as in a file of their own ([`shape::file`](crate::shape::file)). A question is written and handed to the
-//! system before it is answered: one that ends the program is the last record.
+//! stand in the recording as in a file of their own ([`shape::file`](crate::shape::file)); so are grounds, by their triangles. A
+//! question is written and handed to the system before it is answered: one that ends the program is the last record.
 
 pub(crate) mod digest;
 pub(crate) mod format;
@@ -27,6 +27,7 @@ use std::sync::Arc;
 
 use crate::base::error::{Error, Result};
 use crate::base::memory::{collected, push};
+use crate::ground::Ground;
 use crate::pair::Query;
 use crate::scene::change::{Change, RecordedNames, Rename, Themselves};
 use crate::scene::search::query::{PlacedBody, SceneAnswer, SceneQuery, Subject};
@@ -174,7 +175,7 @@ impl Recording {
     }
 }
 
-/// Numbers for the objects and shapes in a scene. A shape is written down when it first gets one.
+/// Numbers for the objects, shapes and grounds in a scene. A shape or ground is written down when it first gets one.
 struct Numbering<'a> {
     recorder: &'a mut Recorder,
     objects: &'a ObjectTable,
@@ -187,6 +188,10 @@ impl Rename<Themselves, RecordedNames> for Numbering<'_> {
 
     fn shape(&mut self, shape: &Arc<Shape>) -> Result<u32> {
         self.recorder.shape(shape)
+    }
+
+    fn ground(&mut self, ground: &Arc<Ground>) -> Result<u32> {
+        self.recorder.ground(ground)
     }
 
     fn filter(&mut self, _: &PairFilter) {}
@@ -204,7 +209,10 @@ fn write_world(recorder: &mut Recorder, world: &World) -> Result<()> {
         write(Change::KeptPairLimit(world.kept_pair_limit))?;
     }
     for object in world.view().iter() {
-        write(Change::Object { pieces: object.pieces().into(), options: object.options() })?;
+        write(match object.ground() {
+            Some(ground) => Change::Ground { ground: ground.clone(), options: object.options() },
+            None => Change::Object { pieces: object.pieces().into(), options: object.options() },
+        })?;
         for (piece, pose) in (0..).zip(object.piece_poses()) {
             write(Change::PiecePose { object: object.id(), piece, pose: *pose })?;
         }

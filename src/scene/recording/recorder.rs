@@ -8,6 +8,7 @@ use std::sync::{Arc, Weak};
 use crate::base::binary::{EMPTY_CHECKSUM, Writer, checksum};
 use crate::base::error::{Error, Result};
 use crate::base::memory::lacking;
+use crate::ground::Ground;
 use crate::scene::recording::format::{MAGIC, Record, VERSION};
 use crate::shape::Shape;
 
@@ -25,12 +26,28 @@ pub(crate) struct Recorder {
     kept: Writer,
     /// The checksum of all that was written.
     sum: u64,
-    /// Shapes that are written down, by their addresses, which are theirs as long as a weak share is kept.
-    shapes: HashMap<usize, (Weak<Shape>, u32)>,
+    shapes: Written<Shape>,
+    grounds: Written<Ground>,
     /// Places in the order of creation of the objects that there were at first: their numbers are those in here.
     serials: Vec<u64>,
     /// The position in the order of creation of the objects that came later.
     first_new: u64,
+}
+
+/// The numbers of what is written down, by addresses, which are theirs as long as a weak share is kept.
+struct Written<T>(HashMap<usize, (Weak<T>, u32)>);
+
+impl<T> Written<T> {
+    /// Its number, and whether it is new: to be written down at once.
+    fn number(&mut self, thing: &Arc<T>) -> Result<(u32, bool)> {
+        let (address, count) = (Arc::as_ptr(thing).addr(), self.0.len());
+        if let Some((_, number)) = self.0.get(&address) {
+            return Ok((*number, false));
+        }
+        self.0.try_reserve(1).map_err(|e| lacking::<(usize, Weak<T>, u32)>(count + 1, &e))?;
+        self.0.insert(address, (Arc::downgrade(thing), count as u32));
+        Ok((count as u32, true))
+    }
 }
 
 impl fmt::Debug for Recorder {
@@ -49,7 +66,8 @@ impl Recorder {
         kept.raw(MAGIC)?;
         kept.number(VERSION)?;
         let sum = checksum(EMPTY_CHECKSUM, &kept.bytes);
-        Ok(Recorder { sink, name, kept, sum, shapes: HashMap::new(), serials, first_new: created })
+        let (shapes, grounds) = (Written(HashMap::new()), Written(HashMap::new()));
+        Ok(Recorder { sink, name, kept, sum, shapes, grounds, serials, first_new: created })
     }
 
     /// The number of the object with this place in the order of creation.
@@ -69,14 +87,23 @@ impl Recorder {
     /// # Errors
     /// As [`Recorder::write`].
     pub fn shape(&mut self, shape: &Arc<Shape>) -> Result<u32> {
-        let address = Arc::as_ptr(shape).addr();
-        if let Some((_, number)) = self.shapes.get(&address) {
-            return Ok(*number);
+        // A record that cannot be written ends the recording.
+        let (number, is_new) = self.shapes.number(shape)?;
+        if is_new {
+            self.write(&Record::Shape(shape.clone()))?;
         }
-        self.shapes.try_reserve(1).map_err(|e| lacking::<(usize, Weak<Shape>, u32)>(self.shapes.len() + 1, &e))?;
-        self.write(&Record::Shape(shape.clone()))?;
-        let number = self.shapes.len() as u32;
-        self.shapes.insert(address, (Arc::downgrade(shape), number));
+        Ok(number)
+    }
+
+    /// The same of a ground.
+    ///
+    /// # Errors
+    /// As [`Recorder::write`].
+    pub fn ground(&mut self, ground: &Arc<Ground>) -> Result<u32> {
+        let (number, is_new) = self.grounds.number(ground)?;
+        if is_new {
+            self.write(&Record::Ground(ground.clone()))?;
+        }
         Ok(number)
     }
 

@@ -86,6 +86,14 @@ impl Contacts {
         SceneContacts { contacts: self.list.as_slice(), points: self.points.as_slice() }
     }
 
+    /// Adds one for a pair of which no details are found.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn push_none(&mut self) -> Result<()> {
+        self.list.push(Contact { first_point: self.points.count(), ..Contact::default() })
+    }
+
     fn points_of(
         &mut self,
         bodies: [Placed; 2],

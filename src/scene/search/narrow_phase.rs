@@ -392,7 +392,11 @@ impl<'a> Pass<'a> {
             Some(of_share) if pair.takes_share => of_share,
             _ => &self.request.config,
         };
-        (self.solver)([placed(a), placed(b)], cache, config, answer)?;
+        let bodies = [placed(a), placed(b)];
+        match self.proxies.grounds.of_pair(pair.proxies) {
+            None => (self.solver)(bodies, cache, config, answer)?,
+            Some(ground) => ground.ask(self.request.of_ground(), bodies, config, answer)?,
+        }
         pair.apart_until = self.apart_until(answer, a, b);
         // Pairs that a budget left open may go on the next time.
         if answer.decided_by == DecidedBy::Budget {
@@ -412,6 +416,9 @@ impl<'a> Pass<'a> {
         findings: &mut Findings,
     ) -> Result<()> {
         let Findings { slots, contacts, .. } = findings;
+        if self.proxies.grounds.of_pair(pair.proxies).is_some() {
+            return contacts.push_none();
+        }
         let answer = &slots.next().answer;
         let bodies =
             pair.proxies.map(|proxy| self.proxies.shapes[proxy as usize].at(&self.proxies.poses[proxy as usize]));

@@ -129,7 +129,7 @@ pub struct PairResult {
     pub answer: PairAnswer,
 }
 
-/// A query of contacts returns this for a pair beside its answer. Parts not asked for are unset.
+/// A query of contacts returns this for a pair beside its answer. Parts not asked for are unset, and all of a pair with a ground.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct Contact {
@@ -178,7 +178,7 @@ impl SceneAnswer<'_> {
     /// its number among them. It is put together from what the query has said.
     ///
     /// # Errors
-    /// [`Error::Argument`] if there are not so many contacts.
+    /// [`Error::Argument`] if there are not so many contacts, and for a ground that the piece touches.
     pub fn signed_distance(&self, number: usize) -> Result<SignedDistance> {
         let pair = self.found.or(self.pairs.get(number));
         let (Some(Contact { depth, .. }), Some(PairResult { answer, .. })) = (self.contacts.contacts.get(number), pair)
@@ -188,6 +188,11 @@ impl SceneAnswer<'_> {
                 "there is no contact {number}, the last query said {count}: ask for contacts with their depths"
             )));
         };
+        if answer.outcome == Outcome::Intersecting && depth.outcome == Outcome::None {
+            return Err(Error::Argument(format!(
+                "contact {number} is with a ground, whose depth this query does not find: ask for the ground's contacts"
+            )));
+        }
         let is_deep = depth.outcome == Outcome::Intersecting;
         Ok(if is_deep { SignedDistance::from(depth) } else { SignedDistance::from(answer) })
     }

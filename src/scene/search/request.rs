@@ -121,6 +121,11 @@ impl Request {
         self.kind == Query::Intersection
     }
 
+    /// What a pair with a ground is asked.
+    pub fn of_ground(&self) -> Query {
+        if self.details.is_some() { Query::Distance } else { self.kind }
+    }
+
     /// The solver that answers for one pair.
     pub fn solver(&self) -> Solver {
         match self.kind {

@@ -26,7 +26,11 @@ impl Search {
         let (world, near, kind) = (&mut *searched.world, &mut *searched.near, self.latest);
         let Kept { findings, pass, asked } = &mut self.kept[kind];
         let (Some(last_pass), Some(request)) = (*pass, &*asked) else { return Ok(false) };
-        if !request.is_plain(query) || !near.lists_all(world) || !are_many_moved(&world.proxies.motions, last_pass) {
+        if !request.is_plain(query)
+            || !world.proxies.grounds.is_empty()
+            || !near.lists_all(world)
+            || !are_many_moved(&world.proxies.motions, last_pass)
+        {
             return Ok(false);
         }
         let NearPairs { pairs, marks, caches, .. } = &mut near.list;

@@ -4,13 +4,16 @@
 use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
 use crate::base::memory::push;
+use crate::ground::{GroundCastAnswer, ground_cast_carried};
 use crate::motion::{self, Carried, CastAnswer, CastConfig, CastOutcome, Motion, PartEnd, Swept};
 use crate::scene::near::tree::Branch;
 use crate::scene::search::query::PairResult;
 use crate::scene::sets::caches::Caches;
+use crate::scene::sets::members;
 use crate::scene::sets::nearest::signed;
 use crate::scene::sets::others::Others;
 use crate::scene::world::boxes::Aabb;
+use crate::scene::world::grounds::face;
 use crate::scene::world::rows::{grown_box, placed};
 
 /// How a cast of moving objects through a scene came out. Unset numbers are NaN.
@@ -140,6 +143,7 @@ fn list_movers(question: &CastQuestion, room: &mut CastRoom) -> Result<()> {
     for (of, id) in (0..).zip(ids) {
         let named = |error: Error| error.about(&format!("object {of} of {} of the set", ids.len()));
         let object = world.objects.get(*id).map_err(named)?;
+        members::refuse_ground(world, *id).map_err(named)?;
         let piece_poses = object.arrangement.as_ref().map_or(&[][..], |arrangement| &arrangement.piece_poses);
         for (piece, proxy) in object.proxies().enumerate() {
             let first = boxes.len() as u32;
@@ -227,7 +231,16 @@ fn cast_all(question: &CastQuestion, room: &mut CastRoom) -> Result<SceneCastAns
         let bodies = [question.carried(mover), second];
         let mut answer = CastAnswer::default();
         let config = CastConfig { time_end: until, ..**config };
-        motion::cast_carried(bodies, config.range(), caches.of(pair), &config, &mut answer)?;
+        match (world.proxies.grounds.get(other as usize), approach.target) {
+            (Some(ground), CastTarget::Piece(_)) => {
+                let place = &world.proxies.poses[other as usize];
+                let GroundCastAnswer { answer: found, triangle } =
+                    ground_cast_carried(bodies[0], ground.at(place), &config)?;
+                answer = found;
+                answer.contact.feature2 = face(triangle);
+            }
+            _ => motion::cast_carried(bodies, config.range(), caches.of(pair), &config, &mut answer)?,
+        }
         earliest.queries = earliest.queries.saturating_add(answer.queries);
         if answer.outcome == CastOutcome::Free {
             continue;

@@ -2,7 +2,7 @@
 
 use crate::base::error::{Error, Result, check_range};
 use crate::base::math::Pose;
-use crate::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed};
+use crate::pair::{self, Outcome, PairAnswer, PairConfig, Placed, Query};
 use crate::scene::near::tree::Branch;
 use crate::scene::search::query::PairResult;
 use crate::scene::sets::caches::Caches;
@@ -103,7 +103,11 @@ fn hit(others: &Others, room: &mut FirstHitRoom, max_distance: f64) -> Result<Op
         if are_far_apart(one, other, max_distance) || !world.is_tested(members.map(|proxy| proxy as usize), true) {
             return Ok(None);
         }
-        Ok(answer_if_hit(bodies, max_distance, caches.of(members))?.map(|answer| signed(world, members, answer)))
+        let ask = |config: &PairConfig, answer: &mut PairAnswer| match proxies.grounds.of_pair(members) {
+            None => pair::intersection(bodies, caches.of(members), config, answer),
+            Some(ground) => ground.ask(Query::Intersection, bodies, config, answer),
+        };
+        Ok(answer_if_hit(max_distance, ask)?.map(|answer| signed(world, members, answer)))
     };
     for (k, member) in members.iter().enumerate() {
         let shape = &proxies.shapes[member.proxy as usize];
@@ -130,12 +134,15 @@ fn hit(others: &Others, room: &mut FirstHitRoom, max_distance: f64) -> Result<Op
     Ok(None)
 }
 
-/// The answer for two bodies if they are no farther apart than `max_distance`; otherwise none.
-fn answer_if_hit(bodies: [Placed; 2], max_distance: f64, cache: &mut PairCache) -> Result<Option<PairAnswer>> {
+/// The answer that `ask` gives for two bodies if they are no farther apart than `max_distance`; otherwise none.
+fn answer_if_hit(
+    max_distance: f64,
+    ask: impl FnOnce(&PairConfig, &mut PairAnswer) -> Result<()>,
+) -> Result<Option<PairAnswer>> {
     let mut answer = PairAnswer::default();
     let limit = if max_distance > 0.0 { max_distance } else { f64::INFINITY };
     let config = PairConfig { max_distance: limit, ..PairConfig::default() };
-    pair::intersection(bodies, cache, &config, &mut answer)?;
+    ask(&config, &mut answer)?;
     let hits = match answer.outcome {
         // Curved bodies that may meet are not free.
         Outcome::Intersecting | Outcome::Undecided => true,

@@ -1,8 +1,8 @@
-//! The contacts of objects in a scene with what is in no scene, a ground or a half-space: piece by piece the answer of the pair
-//! layer.
+//! The contacts of objects in a scene with its grounds, or with what is in no scene, a ground or a half-space: piece by piece the
+//! answer of the pair layer.
 
-use crate::base::error::Result;
-use crate::base::memory::push;
+use crate::base::error::{Error, Result};
+use crate::base::memory::{extend, push};
 use crate::ground::{GroundContact, GroundContacts, PlacedGround, add_contacts};
 use crate::manifold::{ManifoldConfig, ManifoldPoint, add_points, half_space_manifold_into};
 use crate::pair::{HalfSpace, Outcome, Placed};
@@ -38,6 +38,8 @@ pub struct SceneGroundContact {
     pub object: ObjectId,
     /// The caller's own number of the object.
     pub user_data: u64,
+    /// The ground's object; null for what is in no scene.
+    pub ground: ObjectId,
     /// Which piece.
     pub piece: u32,
     /// As of the pair; its points are among those of all contacts. Of a half-space all bits of the triangle are set.
@@ -47,7 +49,7 @@ pub struct SceneGroundContact {
 /// The contacts of a scene's objects with a ground or a half-space.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct SceneGroundContacts<'a> {
-    /// By object, piece and triangle.
+    /// By object, piece, ground and triangle.
     pub contacts: &'a [SceneGroundContact],
     /// The points, those of each contact together.
     pub points: &'a [ManifoldPoint],
@@ -65,9 +67,9 @@ pub(crate) enum Floor<'a> {
 pub(crate) struct GroundQuestion<'a> {
     pub others: Others<'a>,
     pub set: Option<&'a ObjectSet<'a>>,
-    pub floor: Floor<'a>,
+    /// None: the grounds of the scene.
+    pub floor: Option<(Floor<'a>, GroupFilter)>,
     pub config: &'a ManifoldConfig,
-    pub filter: GroupFilter,
 }
 
 /// The room that the question is worked in, and the findings.
@@ -75,6 +77,7 @@ pub(crate) struct SetGroundRoom<'a> {
     pub members: &'a mut Vec<Member>,
     pub open: &'a mut Vec<Branch>,
     pub rows: &'a mut Vec<u32>,
+    pub near: &'a mut Vec<[u32; 2]>,
     pub ground: &'a mut GroundContacts,
     pub contacts: &'a mut Vec<SceneGroundContact>,
 }
@@ -85,13 +88,24 @@ pub(crate) struct SetGroundRoom<'a> {
 /// As `ground::ground_contacts` and `manifold::half_space_manifold`, and for
 /// the set as [`members::list`].
 pub(crate) fn find(question: GroundQuestion, room: &mut SetGroundRoom) -> Result<()> {
-    let GroundQuestion { others, set, floor, config, filter } = question;
-    let SetGroundRoom { members, open, rows, ground, contacts } = room;
-    contacts.clear();
-    ground.points.clear();
-    let within = Within::new(floor, config)?;
+    let GroundQuestion { others, set, floor, config } = question;
+    room.contacts.clear();
+    room.ground.points.clear();
+    if let Some(set) = set {
+        members::list(others.world, set, Boxes::Made, room.members)?;
+        for (k, id) in set.ids.iter().enumerate() {
+            let named = |error: Error| error.about(&format!("object {k} of {} of the set", set.ids.len()));
+            members::refuse_ground(others.world, *id).map_err(named)?;
+        }
+    }
+    let Some((floor, filter)) = floor else {
+        return find_of_scene(&others, set, config, room);
+    };
+    let SetGroundRoom { members, open, rows, ground, contacts, .. } = room;
+    let floor = &AskedFloor { floor, within: Within::new(floor, config)? };
+    let within = &floor.within;
     // The scene has checked its poses.
-    let mut asking = Asking { floor, config: *config, within: &within, ground, contacts };
+    let mut asking = Asking { config: *config, ground, contacts };
     let proxies = &others.world.proxies;
     let is_tested = |label: &Label| label.groups & filter.mask != 0 && filter.groups & label.mask != 0;
     let Some(set) = set else {
@@ -99,16 +113,61 @@ pub(crate) fn find(question: GroundQuestion, room: &mut SetGroundRoom) -> Result
         for row in rows.iter().map(|row| *row as usize) {
             let label = &proxies.labels[row];
             if is_tested(label) && !label.fixed {
-                asking.ask(label, &proxies.spheres(row), others.placed(row))?;
+                asking.ask(floor, label, &proxies.spheres(row), others.placed(row))?;
             }
         }
         return Ok(());
     };
-    members::list(others.world, set, Boxes::Made, members)?;
     for member in &**members {
         let label = &proxies.labels[member.proxy as usize];
         if is_tested(label) && (!label.fixed || set.poses.is_some()) && within.may_reach(&member.bounds) {
-            asking.ask(label, &member.spheres, member.placed(others.world))?;
+            asking.ask(floor, label, &member.spheres, member.placed(others.world))?;
+        }
+    }
+    Ok(())
+}
+
+/// The same with the grounds of the scene, for the pairs that queries test.
+fn find_of_scene(
+    others: &Others,
+    set: Option<&ObjectSet>,
+    config: &ManifoldConfig,
+    room: &mut SetGroundRoom,
+) -> Result<()> {
+    config.check()?;
+    let SetGroundRoom { members, open, rows, near, ground: found, contacts } = room;
+    let (world, proxies) = (others.world, &others.world.proxies);
+    near.clear();
+    for (row, ground) in proxies.grounds.iter() {
+        let within = Within::new(Floor::Ground(ground.at(&proxies.poses[row])), config)?;
+        match set {
+            None => {
+                others.list(open, rows, |bounds| within.may_reach(bounds))?;
+                extend(near, rows.iter().map(|body| [*body, row as u32]))?;
+            }
+            Some(_) => {
+                let reached = (0..).zip(&**members).filter(|(_, member)| within.may_reach(&member.bounds));
+                extend(near, reached.map(|(k, _)| [k, row as u32]))?;
+            }
+        }
+    }
+    near.sort_unstable();
+    let has_moved = set.is_some_and(|set| set.poses.is_some());
+    let mut asking = Asking { config: *config, ground: found, contacts };
+    for [body, row] in near.iter().map(|pair| pair.map(|k| k as usize)) {
+        let (proxy, placed) = match set {
+            None => (body, others.placed(body)),
+            Some(_) => (members[body].proxy as usize, members[body].placed(world)),
+        };
+        if let Some(ground) = proxies.grounds.get(row)
+            && world.is_tested([proxy, row], has_moved)
+        {
+            asking.ask_ground(
+                ground.at(&proxies.poses[row]),
+                proxies.labels[row].object,
+                &proxies.labels[proxy],
+                placed,
+            )?;
         }
     }
     Ok(())
@@ -164,25 +223,29 @@ impl<'a> Within<'a> {
     }
 }
 
+/// What is asked of each piece.
+struct AskedFloor<'a> {
+    floor: Floor<'a>,
+    within: Within<'a>,
+}
+
 /// Asks of one piece after the other.
 struct Asking<'a> {
-    floor: Floor<'a>,
     config: ManifoldConfig,
-    within: &'a Within<'a>,
     ground: &'a mut GroundContacts,
     contacts: &'a mut Vec<SceneGroundContact>,
 }
 
 impl Asking<'_> {
-    fn ask(&mut self, label: &Label, spheres: &Spheres, body: Placed) -> Result<()> {
-        if !self.within.may_reach_ball(spheres) {
+    fn ask(&mut self, asked: &AskedFloor, label: &Label, spheres: &Spheres, body: Placed) -> Result<()> {
+        if !asked.within.may_reach_ball(spheres) {
             return Ok(());
         }
         let Asking { config, ground, .. } = self;
-        ground.contacts.clear();
-        match self.floor {
-            Floor::Ground(placed) => add_contacts(body, placed, config, ground)?,
+        match asked.floor {
+            Floor::Ground(placed) => return self.ask_ground(placed, ObjectId::NULL, label, body),
             Floor::HalfSpace(half_space) => {
+                ground.contacts.clear();
                 let first_point = ground.points.len();
                 let points = &mut ground.points;
                 let manifold = add_points(points, |sink| half_space_manifold_into(body, half_space, config, sink))??;
@@ -191,9 +254,20 @@ impl Asking<'_> {
                 }
             }
         }
+        self.list(ObjectId::NULL, label)
+    }
+
+    fn ask_ground(&mut self, placed: PlacedGround, id: ObjectId, label: &Label, body: Placed) -> Result<()> {
+        self.ground.contacts.clear();
+        add_contacts(body, placed, &self.config, self.ground)?;
+        self.list(id, label)
+    }
+
+    /// Lists the contacts that were found last.
+    fn list(&mut self, ground: ObjectId, label: &Label) -> Result<()> {
         let &Label { object, user_data, piece, .. } = label;
-        for &contact in &ground.contacts {
-            push(self.contacts, SceneGroundContact { object, user_data, piece, contact })?;
+        for &contact in &self.ground.contacts {
+            push(self.contacts, SceneGroundContact { object, user_data, ground, piece, contact })?;
         }
         Ok(())
     }

@@ -96,6 +96,17 @@ pub(crate) fn list(world: &World, set: &ObjectSet, boxes: Boxes, members: &mut V
     Ok(())
 }
 
+/// Refuses a ground where a set holds the bodies that may meet grounds.
+///
+/// # Errors
+/// [`Error::Argument`]; [`Error::Handle`] for an id that names no object of the scene.
+pub(crate) fn refuse_ground(world: &World, id: ObjectId) -> Result<()> {
+    match world.view().get(id)?.ground() {
+        None => Ok(()),
+        Some(_) => Err(Error::Argument("it is a ground, which stays where the scene has it: leave it out".into())),
+    }
+}
+
 /// Whether an object is in a set.
 pub(crate) fn holds(set: &ObjectSet, id: ObjectId) -> bool {
     set.ids.contains(&id)

@@ -6,7 +6,7 @@ use std::collections::BinaryHeap;
 
 use crate::base::error::{Result, check_range};
 use crate::base::memory::{extend, push, push_to_heap};
-use crate::pair::{self, Outcome, PairAnswer, PairConfig, Placed};
+use crate::pair::{self, Outcome, PairAnswer, PairConfig, Placed, Query};
 use crate::scene::near::tree::{Branch, Held};
 use crate::scene::search::query::PairResult;
 use crate::scene::sets::bounds::{of_boxes, of_spheres};
@@ -271,7 +271,10 @@ impl<'a> NearestSearch<'a> {
     fn learn(&mut self, pair: [u32; 2], bodies: [Placed; 2]) -> Result<()> {
         let mut answer = PairAnswer::default();
         let config = PairConfig { max_distance: self.enough, ..PairConfig::default() };
-        pair::distance(bodies, self.caches.of(pair), &config, &mut answer)?;
+        match self.question.world.proxies.grounds.of_pair(pair) {
+            None => pair::distance(bodies, self.caches.of(pair), &config, &mut answer)?,
+            Some(ground) => ground.ask(Query::Distance, bodies, &config, &mut answer)?,
+        }
         if answer.outcome == Outcome::Beyond {
             return Ok(());
         }

@@ -4,10 +4,12 @@
 use crate::base::error::Result;
 use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::memory::push;
+use crate::ground::GroundRayAnswer;
 use crate::ray::{Ray, RayAnswer, RayOutcome, cast_ray, cast_ray_in_integers};
 use crate::scene::near::tree::Branch;
 use crate::scene::sets::others::Others;
 use crate::scene::world::boxes::Aabb;
+use crate::scene::world::grounds::face;
 use crate::scene::world::object::ObjectId;
 use crate::scene::world::rows::Label;
 
@@ -24,7 +26,7 @@ pub enum RayHits {
     Any = 2,
 }
 
-/// A convex piece that a ray meets.
+/// A convex piece that a ray meets, or a ground at its first triangle, a face.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct SceneRayHit {
@@ -90,7 +92,7 @@ pub(crate) fn cast(question: RayQuestion, room: &mut RayRoom) -> Result<()> {
         if from > until {
             break;
         }
-        let answer = cast_ray(others.placed(row as usize), &Ray { t_max: until, ..*ray })?;
+        let answer = cast_at(&others, row, &Ray { t_max: until, ..*ray }, false)?;
         if answer.outcome == RayOutcome::Miss {
             continue;
         }
@@ -115,11 +117,26 @@ pub(crate) fn cast(question: RayQuestion, room: &mut RayRoom) -> Result<()> {
         hits.truncate(1);
         // The exit of the ray was not looked at yet.
         for first in &mut **hits {
-            let again = cast_ray(others.placed(first.row as usize), ray)?;
+            let again = cast_at(&others, first.row, ray, false)?;
             first.answer.exit = again.exit;
         }
     }
     Ok(())
+}
+
+/// Where a ray meets a piece, or first a ground.
+fn cast_at(others: &Others, row: u32, ray: &Ray, in_integers: bool) -> Result<RayAnswer> {
+    let placed = others.placed(row as usize);
+    let Some(ground) = others.world.proxies.grounds.get(row as usize) else {
+        return if in_integers { cast_ray_in_integers(placed, ray) } else { cast_ray(placed, ray) };
+    };
+    let ground = ground.at(placed.pose);
+    let GroundRayAnswer { mut answer, triangle } =
+        if in_integers { ground.cast_ray_in_integers(ray)? } else { ground.cast_ray(ray)? };
+    if answer.outcome != RayOutcome::Miss {
+        answer.feature = face(triangle);
+    }
+    Ok(answer)
 }
 
 /// Puts hits in order of their entries, and those of one entry in order of creation. Entries that overlap are found in integers, as
@@ -143,7 +160,7 @@ fn put_in_order(others: &Others, ray: &Ray, hits: &mut [SceneRayHit]) -> Result<
             for hit in &mut hits[first..last] {
                 if hit.answer.exact == 0 {
                     let exit = hit.answer.exit;
-                    hit.answer = RayAnswer { exit, ..cast_ray_in_integers(others.placed(hit.row as usize), ray)? };
+                    hit.answer = RayAnswer { exit, ..cast_at(others, hit.row, ray, true)? };
                 }
             }
             hits[first..last].sort_unstable_by(order);

@@ -35,4 +35,6 @@ pub struct SetScratch {
     /// The contacts of the last piece with a ground, and the points of all pieces.
     pub(crate) ground: GroundContacts,
     pub(crate) contacts: Vec<SceneGroundContact>,
+    /// Pieces and the grounds that they may touch.
+    pub(crate) near_grounds: Vec<[u32; 2]>,
 }

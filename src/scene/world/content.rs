@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::base::error::{Error, Result};
 use crate::base::memory::copied;
 use crate::base::simd::environment::with_default;
+use crate::ground::Ground;
 use crate::scene::world::activation::Activation;
 use crate::scene::world::object::{ObjectId, ObjectOptions, ObjectTable};
 use crate::scene::world::object_view::Objects;
@@ -80,6 +81,19 @@ impl World {
         Ok(id)
     }
 
+    /// Adds a ground, which is fixed.
+    ///
+    /// # Errors
+    /// See [`Scene::add_ground`](crate::scene::Scene::add_ground).
+    pub fn add_ground(&mut self, ground: &Arc<Ground>, options: &ObjectOptions) -> Result<ObjectId> {
+        let around = Arc::new(Shape::surrounding(&ground.bounds())?);
+        self.proxies.grounds.reserve()?;
+        let row = self.proxies.len();
+        let id = self.add(&[around], &ObjectOptions { fixed: true, ..*options })?;
+        self.proxies.grounds.push(row, ground.clone());
+        Ok(id)
+    }
+
     /// Refuses objects of which one could not be added: so many of a piece each, with these options.
     ///
     /// # Errors
@@ -125,10 +139,9 @@ impl World {
     /// # Errors
     /// As [`World::remove`]; [`Error::Argument`] for a piece that the object does not have, [`Error::Memory`].
     pub fn set_piece_user_data(&mut self, id: ObjectId, piece: u32, user_data: u64) -> Result<()> {
-        let (piece, count) = (piece as usize, self.objects.get(id)?.proxies().len());
-        if piece >= count {
-            return Err(Error::Argument(format!("piece {piece} of an object of {count} pieces")));
-        }
+        let (piece, object) = (piece as usize, self.view().get(id)?);
+        object.refuse_absent(piece)?;
+        let count = object.pieces().len();
         self.piece_data.set(id, [piece, count], user_data)
     }
 
@@ -138,6 +151,10 @@ impl World {
     /// See [`Scene::copy_object`](crate::scene::Scene::copy_object).
     pub fn copy(&mut self, id: ObjectId) -> Result<ObjectId> {
         let original = self.view().get(id)?;
+        if let Some(ground) = original.ground() {
+            let (ground, options) = (ground.clone(), original.options());
+            return self.add_ground(&ground, &options);
+        }
         let (options, piece_poses) = (original.options(), copied(original.piece_poses())?);
         let pieces = copied(original.pieces())?;
         let piece_data = self.piece_data.copy_of(id)?;
@@ -164,6 +181,7 @@ impl World {
     /// # Errors
     /// As [`World::remove`].
     pub fn set_fixed(&mut self, id: ObjectId, fixed: bool) -> Result<()> {
+        debug_assert!(fixed || self.view().get(id)?.ground().is_none());
         for proxy in self.objects.get(id)?.proxies() {
             self.proxies.labels[proxy].fixed = fixed;
             self.proxies.look_for_pairs_of(proxy);
@@ -216,6 +234,9 @@ impl World {
     /// both may be of fixed objects.
     pub fn is_tested(&self, [a, b]: [usize; 2], moved: bool) -> bool {
         let World { objects, proxies, activation, filter, given, .. } = self;
+        if !proxies.grounds.is_empty() && [a, b].iter().all(|row| proxies.grounds.get(*row).is_some()) {
+            return false;
+        }
         if !(if moved { proxies.may_meet_moved(a, b) } else { proxies.may_meet(a, b) }) {
             return false;
         }

@@ -4,6 +4,7 @@ pub mod object;
 pub(crate) mod activation;
 pub(crate) mod boxes;
 pub(crate) mod rows;
+pub(crate) mod grounds;
 pub(crate) mod proxies;
 pub(crate) mod piece_data;
 pub(crate) mod object_view;

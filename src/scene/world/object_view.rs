@@ -3,8 +3,9 @@
 use std::ops::Range;
 use std::sync::Arc;
 
-use crate::base::error::Result;
+use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
+use crate::ground::Ground;
 use crate::scene::world::boxes::Aabb;
 use crate::scene::world::object::{Entry, ObjectId, ObjectOptions, ObjectTable};
 use crate::scene::world::piece_data::PieceData;
@@ -24,7 +25,7 @@ impl<'a> Objects<'a> {
     /// The object of an id.
     ///
     /// # Errors
-    /// [`Error::Handle`](crate::base::error::Error::Handle) for an id that is null, stale or another scene's.
+    /// [`Error::Handle`] for an id that is null, stale or another scene's.
     pub fn get(self, id: ObjectId) -> Result<Object<'a>> {
         self.table.get(id).map(|entry| Object { entry, proxies: self.proxies, piece_data: self.piece_data })
     }
@@ -35,7 +36,7 @@ impl<'a> Objects<'a> {
     }
 }
 
-/// One or several convex pieces that move together.
+/// One or several convex pieces that move together, or a ground.
 #[derive(Debug, Clone, Copy)]
 pub struct Object<'a> {
     pub(crate) entry: &'a Entry,
@@ -49,9 +50,28 @@ impl<'a> Object<'a> {
         self.label().object
     }
 
-    /// Its convex pieces, shared, in one local frame; at least one. They are never tested against each other.
+    /// Its convex pieces, shared, in one local frame; at least one, but none of a ground. They are never tested against each other.
     pub fn pieces(&self) -> &'a [Arc<Shape>] {
-        &self.proxies.shapes[self.entry.proxies()]
+        if self.ground().is_some() { &[] } else { &self.proxies.shapes[self.entry.proxies()] }
+    }
+
+    /// The ground that it is, if it is one.
+    pub fn ground(&self) -> Option<&'a Arc<Ground>> {
+        self.proxies.grounds.get(self.entry.first_proxy as usize)
+    }
+
+    /// Refuses a piece that it does not have.
+    ///
+    /// # Errors
+    /// [`Error::Argument`].
+    pub(crate) fn refuse_absent(&self, piece: usize) -> Result<()> {
+        match self.pieces().len() {
+            0 => Err(Error::Argument(format!(
+                "piece {piece} of an object that is a ground, which has no pieces: ask or set what is the object's"
+            ))),
+            count if piece >= count => Err(Error::Argument(format!("piece {piece} of an object of {count} pieces"))),
+            _ => Ok(()),
+        }
     }
 
     /// Its rows among the proxies.

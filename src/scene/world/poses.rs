@@ -125,11 +125,10 @@ impl World {
     /// # Errors
     /// See [`Scene::set_piece_pose`](crate::scene::Scene::set_piece_pose).
     pub fn set_piece_pose(&mut self, id: ObjectId, piece: u32, pose: &Pose) -> Result<()> {
+        let at = piece as usize;
+        self.view().get(id)?.refuse_absent(at)?;
         let object = self.objects.get_mut(id)?;
-        let (own, at) = (object.proxies(), piece as usize);
-        if at >= own.len() {
-            return Err(Error::Argument(format!("piece {piece} of an object of {} pieces", own.len())));
-        }
+        let own = object.proxies();
         let (proxies, passes) = (&mut self.proxies, self.passes);
         with_default(|| {
             pose.check()?;
