@@ -1161,16 +1161,21 @@ typedef struct swiftprox_object_options {
   uint32_t groups;
   /** The groups it is tested against. Default: 0, which means all. */
   uint32_t mask;
+  /** A ground that the object is, instead of pieces; experimental. It is always fixed. Default: null. */
+  const struct swiftprox_ground *ground;
 } swiftprox_object_options;
 
 /** Begins a swiftprox_object_options: the defaults. In C and C++, as an initialiser. */
-#define SWIFTPROX_OBJECT_OPTIONS_DEFAULT {sizeof(swiftprox_object_options), 0, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, 0, 0, 0}
+#define SWIFTPROX_OBJECT_OPTIONS_DEFAULT {sizeof(swiftprox_object_options), 0, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, 0, 0, 0, NULL}
 
 /**
  * Adds an object of one or more convex pieces in one local frame. All its pairs are active. The scene takes its own share of each
  * shape, so the caller may release its shares at once. Null `options` mean the defaults. On failure `*id` is null.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces. SWIFTPROX_ERROR_LIMIT: more objects or pieces than a scene holds.
+ * With options->ground and a piece_count of 0 it adds that ground. Results name the ground as piece 0, and the triangle as a
+ * feature that is a face. swiftprox_scene_set_pose moves it. Functions about pieces refuse it. Two grounds make no pair.
+ *
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces and no ground, or both. SWIFTPROX_ERROR_LIMIT: more objects or pieces than a scene holds.
  *
  * Stable.
  */
@@ -1283,7 +1288,7 @@ typedef struct swiftprox_object_info {
   size_t struct_size;
   /** The caller's number. */
   uint64_t user_data;
-  /** Number of convex pieces. */
+  /** Number of convex pieces; 0 for a ground. */
   size_t piece_count;
   /** Its pose, row-major [R|T]. */
   double pose[12];
@@ -1293,6 +1298,8 @@ typedef struct swiftprox_object_info {
   uint32_t groups;
   /** The groups it is tested against. */
   uint32_t mask;
+  /** The ground that it is, or null; experimental. The scene owns the share. */
+  const struct swiftprox_ground *ground;
 } swiftprox_object_info;
 
 /**
@@ -1310,7 +1317,8 @@ swiftprox_status swiftprox_scene_get_object_info(const struct swiftprox_scene *s
  * Sets an object's user data, pose, fixed flag, groups and mask. Fill info with swiftprox_scene_get_object_info, then change
  * members. An unchanged pose moves nothing. Pair caches are kept.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count differs from the object's; nothing has changed.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count or ground differs from the object's, and nothing has changed; or a ground is not
+ * to be fixed.
  *
  * Stable.
  */
@@ -1495,7 +1503,7 @@ swiftprox_status swiftprox_scene_query_contact(struct swiftprox_scene *scene,
                                                const struct swiftprox_scene_query *query,
                                                struct swiftprox_scene_answer *answer);
 
-/** A query of contacts returns this for a pair beside its answer. Parts not asked for are unset. */
+/** A query of contacts returns this for a pair beside its answer. Parts not asked for are unset, and all of a pair with a ground. */
 typedef struct swiftprox_contact {
   /** Depth of the two; unset if they do not intersect. */
   struct swiftprox_depth_answer depth;

@@ -422,6 +422,14 @@ static void sets()
     const swiftprox_scene_ground_contact &foot = *swiftprox::contacts(standing.value).begin();
     CHECK(foot.object == here.value && swiftprox::points(standing.value, foot).size() == swiftprox::points(standing.value).size());
     CHECK(foot.contact.manifold.normal[2] == 1 && foot.contact.manifold.point_count >= 4);
+    swiftprox::ObjectOptions lies;
+    lies.pose = under;
+    const auto ground = scene.try_add(level.value, lies);
+    const auto own = scene.try_ground_contacts(scratch.value, {}, &set);
+    CHECK(ground && own && swiftprox::contacts(own.value).size() == 1);
+    CHECK(swiftprox::contacts(own.value).begin()->ground == ground.value);
+    CHECK(scene.try_object_info(ground.value).value.ground == level.value.get());
+    CHECK(scene.try_remove_object(ground.value));
     const auto floor = scene.try_half_space_contacts({{0, 0, 1}, -0.25}, scratch.value);
     CHECK(floor && swiftprox::contacts(floor.value).size() == 2);
     const std::array<Pose, 1> few{Pose{}};

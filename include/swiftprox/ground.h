@@ -342,7 +342,10 @@ typedef struct swiftprox_scene_ground_config {
   double max_distance;
   /** Not 0: at most four points stay on each side of a body (swiftprox_pair_ground_contacts). Default: 0. */
   int32_t reduces;
-  /** The ground's groups, one bit each. An object is tested if its mask has a bit of them. Default: 0, which means the first, 1. */
+  /**
+   * The ground's groups, one bit each. An object is tested if its mask has a bit of them. Default: 0, which means the first, 1.
+   * Grounds of the scene have their own.
+   */
   uint32_t groups;
   /** An object is tested if its groups have a bit of this. Default: 0, which means all. */
   uint32_t mask;
@@ -357,6 +360,8 @@ typedef struct swiftprox_scene_ground_contact {
   struct swiftprox_object_id object;
   /** The caller's own number of the object. */
   uint64_t user_data;
+  /** The ground's object; null for what is in no scene. */
+  struct swiftprox_object_id ground;
   /** Which piece. */
   uint32_t piece;
   /** As of the pair; its points are among those of all contacts. Of a half-space all bits of the triangle are set. */
@@ -365,7 +370,7 @@ typedef struct swiftprox_scene_ground_contact {
 
 /** Contacts of objects of a scene with a ground or a half-space. Owned by the scratch and valid until its next use. */
 typedef struct swiftprox_scene_ground_answer {
-  /** Sorted by object, piece and triangle. Null if contact_count is 0. */
+  /** Sorted by object, piece, ground and triangle. Null if contact_count is 0. */
   const struct swiftprox_scene_ground_contact *contacts;
   /** Number of contacts. */
   size_t contact_count;
@@ -376,12 +381,16 @@ typedef struct swiftprox_scene_ground_answer {
 } swiftprox_scene_ground_answer;
 
 /**
- * Finds the contacts of objects of a scene with a ground (grounds belong to no scene), up to config->max_distance apart. Contacts
- * of each piece are as from swiftprox_pair_ground_contacts. Null set: all objects, in order of creation. Fixed objects are
- * skipped, unless set->poses gives their poses; set->among is not read. Activation and the scene's pair filter do not apply.
+ * Finds the contacts of objects of a scene with grounds, up to config->max_distance apart. Contacts of each piece are as from
+ * swiftprox_pair_ground_contacts. Null set: all objects, in order of creation. Fixed objects are skipped, unless set->poses gives
+ * their poses; set->among is not read.
+ *
+ * If ground.ground and ground.pose are null, the grounds are the objects of the scene that are grounds, and the pairs those that
+ * queries test. Else it is one that is in no scene: activation and the scene's pair filter do not apply.
  *
  * Threads: as for swiftprox_scene_least_distance. The scratch owns the results and must not be null. Once it is large enough, only
  * integer arithmetic allocates. On failure the answer is empty. Same errors as swiftprox_pair_manifold.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: also for a ground in the set, and for groups or a mask without a ground.
  *
  * Experimental.
  */

@@ -267,6 +267,17 @@ def test_a_ground():
     assert len(contacts) == 1 and len(points) == 4 and np.allclose(contacts["normal"][0], [0, 0, 1])
 
 
+def test_a_ground_in_a_scene():
+    scene = sp.Scene()
+    floor = scene.add(sp.Ground([[-9, -9, 0], [9, -9, 0], [0, 9, 0]], [[0, 1, 2]]), at(0, 0, -1), user_data=4)
+    box = scene.add(sp.Shape.box(1, 1, 1), at(0, 0, 3))
+    near = scene.within(4)
+    assert near["object1"].tolist() == [floor] and near["object2"].tolist() == [box] and near["user_data1"].tolist() == [4]
+    assert abs(scene.least_distance([box])["lower"] - 3) < 1e-12
+    cast = scene.cast([box], sp.Motion.between(at(0, 0, 3), at(0, 0, -1)))
+    assert cast.outcome == "hit" and cast.object2 == floor and cast.t_lower <= 0.75 <= cast.t_upper
+
+
 def test_rays_and_casts_at_a_ground():
     ground = sp.Ground([[-9, -9, 0], [9, -9, 0], [0, 9, 0], [0, 9, 5]], [[0, 1, 2], [0, 3, 1]])
     hit = ground.ray([0, 0, 8], [0, 0, -2])

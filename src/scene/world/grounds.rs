@@ -108,3 +108,41 @@ impl GroundPair<'_> {
 pub(crate) fn face(triangle: u32) -> Feature {
     Feature { kind: FeatureKind::Face, ids: [triangle, 0] }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::base::math::{Pose, Vector};
+    use crate::scene::world::rows::{grown_box, placed};
+    use crate::shape::Shape;
+    use swiftprox::random::Random;
+
+    /// However large, small, flat or far away a ground is: the box and the ball of its row hold it, and no ball is in it.
+    #[test]
+    fn what_surrounds_a_ground_holds_it() {
+        let mut random = Random::new(0x5a);
+        let mut flat = 0;
+        for round in 0..if cfg!(miri) { 4 } else { 400 } {
+            let (size, thin) = (random.power(-120, 190), [1.0, random.power(-50, 0), 0.0][round % 3]);
+            let (away, at) = (random.vector() * size * random.power(-4, 8), random.vector() * size);
+            let vertices: Vec<Vector> =
+                (0..9).map(|_| away + random.vector().component_mul(&Vector::new(size, size, size * thin))).collect();
+            let Ok(ground) = Ground::from_triangles(&vertices, &[[0, 1, 2], [3, 4, 5], [6, 7, 8]]) else { continue };
+            let shape = Shape::surrounding(&ground.bounds()).unwrap();
+            let pose = Pose::new(&random.rotation(), &at);
+            let (spheres, _) = placed(&shape, &pose, pose.rotation_defect());
+            let bounds = grown_box(&shape, &pose, &spheres, 0.0);
+            assert_eq!(spheres.inner, f32::NEG_INFINITY);
+            for vertex in &vertices {
+                let point = pose.transform(vertex);
+                let [lower, upper] = [bounds.lower, bounds.upper].map(|corner| Vector::from(corner.map(f64::from)));
+                assert!(point.inf(&lower) == lower && point.sup(&upper) == upper, "{round}: {point} {bounds:?}");
+                let way = (point - Vector::from(spheres.centre)).norm();
+                assert!(way <= f64::from(spheres.outer), "{round}: {way} {spheres:?}");
+                assert!(vertex.norm() <= shape.extent().lever, "{round}");
+            }
+            flat += usize::from(thin == 0.0);
+        }
+        assert!(cfg!(miri) || flat > 50, "{flat}");
+    }
+}
