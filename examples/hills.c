@@ -1,4 +1,4 @@
-/* Hills in a scene: boxes come down on a ground of 128 triangles, an object as they are, and each step asks once what they rest on. */
+/* Hills in a scene: boxes come down on a ground of 128 triangles, and each step asks once what they rest on. */
 #include <stdio.h>
 #include <stdlib.h>
 

@@ -7,6 +7,7 @@ use std::alloc::{GlobalAlloc, Layout, System};
 use std::cell::Cell;
 use std::sync::Arc;
 
+use swiftprox::ground::{Ground, HeightGrid};
 use swiftprox::math::{Matrix, Pose, Vector};
 use swiftprox::object::ObjectOptions;
 use swiftprox::scene::{PairResult, Scene, SceneQuery};
@@ -99,3 +100,21 @@ const MOST_OF_OBJECT: usize = 380;
 
 /// Bytes a near pair, with what it remembers.
 const MOST_OF_PAIR: usize = 200;
+
+/// An object shares its ground: what it takes does not depend on the triangles. `docs/grounds.md` has the number.
+#[test]
+fn a_ground_is_shared() {
+    let bytes = |side: usize| {
+        let heights = vec![0.0; side * side];
+        let grid = HeightGrid { rows: side, columns: side, spacing: [1.0; 2], heights: &heights };
+        let ground = Arc::new(Ground::from_heights(&grid).unwrap());
+        let mut scene = Scene::new();
+        let before = BYTES.get();
+        scene.add_ground(ground.clone(), &ObjectOptions::default()).unwrap();
+        BYTES.get() - before
+    };
+    let [small, large] = [3, 150].map(bytes);
+    println!("{small} bytes");
+    assert_eq!(small, large);
+    assert!(small < 4096, "{small}");
+}

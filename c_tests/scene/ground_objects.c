@@ -68,7 +68,8 @@ static void a_cube_and_a_ground(void)
     CHECK(answer.count == 1 && answer.pairs[0].object1.bits == level.floor.bits && answer.pairs[0].object2.bits == level.body.bits);
     CHECK(answer.pairs[0].piece1 == 0 && answer.pairs[0].user_data1 == 7 && is_face(answer.pairs[0].answer.feature1));
     CHECK_OK(swiftprox_scene_ground_contacts(level.scene, NULL, own, NULL, level.scratch, &contacts));
-    CHECK(contacts.contact_count == 1 && contacts.contacts[0].ground.bits == level.floor.bits && contacts.contacts[0].user_data == 8);
+    CHECK(contacts.contact_count == 1 && contacts.contacts[0].ground.bits == level.floor.bits);
+    CHECK(contacts.contacts[0].object.bits == level.body.bits && contacts.contacts[0].user_data == 8);
     CHECK(contacts.points[0].gap_lower <= -0.125 && -0.125 <= contacts.points[0].gap_upper);
     CHECK_OK(swiftprox_scene_cast_ray(level.scene, &ray, SWIFTPROX_RAY_HITS_ALL, UINT32_MAX, level.scratch, &hits));
     CHECK(hits.count == 1 && hits.hits[0].object.bits == level.floor.bits && is_face(hits.hits[0].answer.feature));

@@ -136,7 +136,8 @@ pub unsafe extern "C" fn swiftprox_scene_first_hit(
 
 /// Finds convex pieces and grounds that a ray meets, of objects whose groups have a bit of mask (UINT32_MAX: any group). `hits`
 /// selects the first, all in order, or any, found soonest. Each hit is as from swiftprox_shape_cast_ray, or once for each ground as
-/// from swiftprox_ground_cast_ray. Hits at the same place are in order of creation. Threads: as for swiftprox_scene_least_distance. The scratch owns the hits and must not be null.
+/// from swiftprox_ground_cast_ray. Hits at the same place are in order of creation. Threads: as for swiftprox_scene_least_distance.
+/// The scratch owns the hits and must not be null.
 ///
 /// On failure the answer is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT: a ray that swiftprox_shape_cast_ray refuses, or unknown hits.
 #[unsafe(no_mangle)]
@@ -182,7 +183,8 @@ pub struct CMotions {
 /// for swiftprox_scene_least_distance.
 ///
 /// SWIFTPROX_ERROR_INVALID_ARGUMENT: the number of motions is neither edge_count nor edge_count times set->count; the set has a
-/// ground, or config->ignores_parting is set and a body comes near one. Else same errors as swiftprox_pair_cast. The message names the edge; its answer and all later ones are SWIFTPROX_CAST_OUTCOME_NONE.
+/// ground, or config->ignores_parting is set and a body comes near one. Else same errors as swiftprox_pair_cast. The message names
+/// the edge; its answer and all later ones are SWIFTPROX_CAST_OUTCOME_NONE.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_cast(
     scene: *const SceneHandle,

@@ -124,8 +124,8 @@ impl Scene {
     ///
     /// # Errors
     /// [`Error::Handle`](crate::base::error::Error::Handle) for an id that is null, stale or another scene's;
-    /// [`Error::Argument`](crate::base::error::Error::Argument) unless there is one motion or one for each object, for a ground in the
-    /// set, and where an object comes near one while `config.ignores_parting` is set; same as for
+    /// [`Error::Argument`](crate::base::error::Error::Argument) unless there is one motion or one for each object, for a ground in
+    /// the set, and where an object comes near one while `config.ignores_parting` is set; same as for
     /// [`motion::cast`](crate::motion::cast()), and [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn cast(
         &self,
@@ -177,7 +177,8 @@ impl Scene {
     ///
     /// # Errors
     /// [`Error::Handle`](crate::base::error::Error::Handle) for an id that is null, stale or another scene's;
-    /// [`Error::Argument`](crate::base::error::Error::Argument) for a ground in the set, and unless a set with poses has one for each;
+    /// [`Error::Argument`](crate::base::error::Error::Argument) for a ground in the set, and unless a set with poses has one for
+    /// each;
     /// [`Error::Pose`](crate::base::error::Error::Pose) for a pose that is not accepted; same as for
     /// [`ground_contacts`](crate::ground::ground_contacts), and [`Error::Memory`](crate::base::error::Error::Memory).
     pub fn ground_contacts<'a>(

@@ -133,8 +133,8 @@ fn layouts() -> Vec<Layout> {
         swiftprox_scene_options = CSceneOptions {
             struct_size, worker_count, enqueue_task, finish_task, task_user
         },
-        swiftprox_object_options = CObjectOptions { struct_size, user_data, pose, fixed, groups, mask },
-        swiftprox_object_info = ObjectInfo { struct_size, user_data, piece_count, pose, fixed, groups, mask },
+        swiftprox_object_options = CObjectOptions { struct_size, user_data, pose, fixed, groups, mask, ground },
+        swiftprox_object_info = ObjectInfo { struct_size, user_data, piece_count, pose, fixed, groups, mask, ground },
         swiftprox_scene_query = CSceneQuery {
             struct_size, max_distance, absolute_error, relative_error, error_budget, step_budget,
             early_exit, tuning, detail, mask
@@ -191,7 +191,7 @@ fn layouts() -> Vec<Layout> {
         swiftprox_ground_room = CGroundRoom { contacts, contact_capacity, points, point_capacity },
         swiftprox_ground_count = GroundCount { contact_count, point_count },
         swiftprox_scene_ground_config = CSceneGroundConfig { struct_size, max_distance, reduces, groups, mask },
-        swiftprox_scene_ground_contact = SceneGroundContact { object, user_data, piece, contact },
+        swiftprox_scene_ground_contact = SceneGroundContact { object, user_data, ground, piece, contact },
         swiftprox_scene_ground_answer = CSceneGroundAnswer { contacts, contact_count, points, point_count },
         swiftprox_face = CFace { normal, offset, corner_count, label_count },
         swiftprox_face_room = CFaceRoom { corners, corner_capacity, labels, label_capacity },

@@ -26,18 +26,18 @@ pub(crate) struct Recorder {
     kept: Writer,
     /// The checksum of all that was written.
     sum: u64,
-    shapes: Written<Shape>,
-    grounds: Written<Ground>,
+    shapes: Numbered<Shape>,
+    grounds: Numbered<Ground>,
     /// Places in the order of creation of the objects that there were at first: their numbers are those in here.
     serials: Vec<u64>,
     /// The position in the order of creation of the objects that came later.
     first_new: u64,
 }
 
-/// The numbers of what is written down, by addresses, which are theirs as long as a weak share is kept.
-struct Written<T>(HashMap<usize, (Weak<T>, u32)>);
+/// The numbers of things that are written down, by addresses, which are theirs as long as a weak share is kept.
+struct Numbered<T>(HashMap<usize, (Weak<T>, u32)>);
 
-impl<T> Written<T> {
+impl<T> Numbered<T> {
     /// Its number, and whether it is new: to be written down at once.
     fn number(&mut self, thing: &Arc<T>) -> Result<(u32, bool)> {
         let (address, count) = (Arc::as_ptr(thing).addr(), self.0.len());
@@ -66,7 +66,7 @@ impl Recorder {
         kept.raw(MAGIC)?;
         kept.number(VERSION)?;
         let sum = checksum(EMPTY_CHECKSUM, &kept.bytes);
-        let (shapes, grounds) = (Written(HashMap::new()), Written(HashMap::new()));
+        let (shapes, grounds) = (Numbered(HashMap::new()), Numbered(HashMap::new()));
         Ok(Recorder { sink, name, kept, sum, shapes, grounds, serials, first_new: created })
     }
 

@@ -1,5 +1,5 @@
-//! Grounds among the objects of a scene. Each has a row as a piece has, so that all that finds, filters and orders pairs takes it for
-//! one; the row's shape is a box around the ground. What answers a pair asks here first whether one of the two is a ground.
+//! Grounds among the objects of a scene. Each has a row as a piece has, so that all that finds, filters and orders pairs takes it
+//! for one; the row's shape is a box around the ground. What answers a pair asks here first whether one of the two is a ground.
 
 use std::sync::Arc;
 
