@@ -21,7 +21,7 @@
 # make depths                 depths beside coal, MuJoCo, Jolt, parry3d, Bullet, libccd and FCL: benches/results/depths*.csv, charts
 # make casts                  casts beside parry3d, FCL, Bullet and samples, rays beside parry3d: benches/results/casts.csv, the chart and
 #                             tables of docs/motions.md
-# make grounds                contacts of 1,000 bodies with 20,000 triangles beside parry3d: benches/results/grounds.csv
+# make grounds                contacts of 1,000 bodies with 20,000 triangles, and rays, beside parry3d and Jolt: benches/results/grounds.csv, grounds-rays.csv
 # make compounds              verdicts and distances of bodies of many pieces beside parry3d: benches/results/compounds.csv
 # make python-bench           the Python package beside coal, python-fcl and MuJoCo: the table of docs/python.md
 # make hard-motions           casts MOTIONS=800000 adversarial motions and judges each: examples/hard_motions.rs, twenty minutes
@@ -224,7 +224,8 @@ casts:
 
 grounds:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++
-	cargo build --locked --release --manifest-path benches/compare/Cargo.toml
+	-@scripts/require.sh cmake=cmake curl=curl
+	. scripts/jolt.sh; export PEERS_JOLT; cargo build --locked --release --manifest-path benches/compare/Cargo.toml
 	$(TIMED) benches/compare/target/release/compare --grounds --count 10000 --passes 5 --csv $(GROUNDS)
 
 compounds:

@@ -10,7 +10,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 
 
 SPEED, BUILD, CROWDS, GROUNDS = "2026-11-22-intel-xeon.csv", "figures-build.csv", "crowds.csv", "grounds.csv"
-COMPOUNDS = "compounds.csv"
+GROUND_RAYS, COMPOUNDS = "grounds-rays.csv", "compounds.csv"
 
 
 def rows_of(name):
@@ -84,25 +84,33 @@ def speed_table():
     return "\n".join(head + [f"| {name} | " + " | ".join(times[step] for times in columns) + " |" for step, name in MOTIONS.items()])
 
 
-PEERS = {"parry": "parry", "parry-fixed": "parry, inner edges mended"}
+PEERS = {"parry": "parry", "parry-fixed": "parry, inner edges mended", "jolt": "Jolt", "jolt-removing": "Jolt, inner edges removed"}
 
 
 def ground_table():
-    """Times of a body on the height field, how many times as long peers take, and how many of their normals are steep."""
+    """Times of a body on heights, how many times as long peers take, and how many of 1,000 normals are steep."""
     scenes = {}
     for row in rows_of(GROUNDS):
-        if row["surface"] == "heights":
-            scenes.setdefault((row["body"], row["motion"]), {})[row["method"]] = row
-    lines = ["| body | motion | swiftprox, µs | " + " | ".join(f"{name}, µs (times)" for name in PEERS.values()) +
-             " | steep normals: swiftprox | " + " | ".join(PEERS.values()) + " |", "|---|---|" + "--:|" * 6]
+        if row["surface"] != "soup":
+            scenes.setdefault((row["surface"], row["body"], row["motion"]), {})[row["method"]] = row
+    lines = ["| ground | body | motion | swiftprox | " + " | ".join(PEERS.values()) + " |", "|---|---|---|" + "--:|" * 5]
     for scene, of in scenes.items():
-        def times(method):
-            ns = float(of[method]["best_ns"])
-            return f"{ns / 1000:.1f}" + ("" if method == "swiftprox" else f" ({ns / float(of['swiftprox']['best_ns']):.1f})")
+        def cell(method):
+            ns, own = (float(of[name]["best_ns"]) for name in (method, "swiftprox"))
+            steep = 1000 * int(of[method]["ghosts"]) / max(1, int(of[method]["normals"]))
+            return f"{ns / 1000:.1f}" + ("" if method == "swiftprox" else f" ({ns / own:.1f})") + f", {steep:.0f}"
 
-        methods = ["swiftprox", *PEERS]
-        steep = [f"{int(of[method]['ghosts']):,} of {int(of[method]['normals']):,}" for method in methods]
-        lines.append("| " + " | ".join([*scene, *map(times, methods), *steep]) + " |")
+        lines.append("| " + " | ".join([*scene, *map(cell, ["swiftprox", *PEERS])]) + " |")
+    return "\n".join(lines)
+
+
+def ground_rays():
+    """Times of rays by the number of triangles."""
+    times = {(row["triangles"], row["method"]): float(row["best_ns"]) for row in rows_of(GROUND_RAYS)}
+    methods = list(dict.fromkeys(method for _, method in times))
+    lines = ["| triangles | " + " | ".join(f"{method}, ns" for method in methods) + " |", "|--:|" + "--:|" * len(methods)]
+    for count in dict.fromkeys(count for count, _ in times):
+        lines.append(f"| {int(count):,} | " + " | ".join(f"{times[count, method]:,.0f}" for method in methods) + " |")
     return "\n".join(lines)
 
 
@@ -142,7 +150,8 @@ def check(page, said):
 def main():
     queries = f"<!-- table: queries -->\n{speed_table()}\n<!-- end -->"
     check("docs/benchmarks.md", (queries, *commits(), table_times(), mesh_times(), second_thread()))
-    check("docs/grounds.md", (f"<!-- table: grounds -->\n{ground_table()}\n<!-- end -->", f"at {commit_of(GROUNDS)}"))
+    check("docs/grounds.md", (f"<!-- table: grounds -->\n{ground_table()}\n<!-- end -->", f"at {commit_of(GROUNDS)}",
+                              f"<!-- table: ground rays -->\n{ground_rays()}\n<!-- end -->"))
     check("docs/compounds.md",
           (f"<!-- table: compounds -->\n{compound_table()}\n<!-- end -->", f"at {commit_of(COMPOUNDS)}"))
     check("docs/choosing.md", (f"<!-- table: queries -->\n{query_table()}\n<!-- end -->", f"<!-- table: depths -->\n{depth_table()}\n<!-- end -->"))

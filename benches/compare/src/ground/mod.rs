@@ -93,7 +93,9 @@ pub fn run(options: &Options) -> Result<(), String> {
     print(&rows);
     let rays = rays::measure(options)?;
     if let Some(path) = &options.csv {
-        report::write(path, options.passes, &(csv(&rows) + &rays))?;
+        report::write(path, options.passes, &csv(&rows))?;
+        let stem = path.file_stem().unwrap_or_default().to_string_lossy();
+        report::write(&path.with_file_name(format!("{stem}-rays.csv")), options.passes, &rays)?;
     }
     Ok(())
 }
@@ -112,7 +114,7 @@ impl Scene<'_> {
     fn measure(&self, options: &Options) -> Result<Vec<Row>, String> {
         let told = |error: swiftprox::error::Error| error.to_string();
         let ground = self.hills.ground().map_err(told)?;
-        let poses = scenes::poses(&ground, self.kind, self.slide, self.steps).map_err(told)?;
+        let poses = scenes::poses(self.hills, self.kind, self.slide, self.steps).map_err(told)?;
         let mesh = self.kind.mesh().map_err(told)?;
         let shape = Shape::from_mesh(&mesh, &ShapeOptions::default()).map_err(told)?;
         let mut methods: Vec<Box<dyn Grounded + '_>> = vec![

@@ -8,7 +8,7 @@ use parry3d_f64::shape::{Cuboid, HeightField, HeightFieldFlags, Shape, TriMesh, 
 use parry3d_f64::utils::Array2;
 use swiftprox::math::Pose;
 
-use super::scenes::{BODIES, Hills, Kind, MARGIN, SIDE, SPACING, Surface};
+use super::scenes::{BODIES, Hills, Kind, MARGIN, SIDE, Surface};
 use super::{Counted, Grounded, is_ghost};
 use crate::cast::parry::polyhedron;
 use crate::parry::pose_of;
@@ -69,7 +69,7 @@ fn ground(hills: &Hills, edges: Edges) -> Result<(Box<dyn Shape>, ParryPose), St
     }
     // Column by column; its z is minus our y.
     let by_columns = (0..SIDE).flat_map(|j| (0..SIDE).rev().map(move |i| hills.heights[i * SIDE + j])).collect();
-    let extent = (SIDE - 1) as f64 * SPACING;
+    let extent = (SIDE - 1) as f64 * hills.surface.spacing();
     let flags = if is_fixed { HeightFieldFlags::FIX_INTERNAL_EDGES } else { HeightFieldFlags::empty() };
     let scale = ParryVector::new(extent, 1.0, extent);
     let field = HeightField::with_flags(Array2::new(SIDE, SIDE, by_columns), scale, flags);

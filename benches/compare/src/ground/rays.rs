@@ -23,7 +23,7 @@ const RAYS: usize = 2_000;
 const LONG: f64 = 1e3;
 
 pub fn measure(options: &Options) -> Result<String, String> {
-    let mut text = "\nrays,triangles,method,count,hits,best_ns,median_ns,off\n".to_string();
+    let mut text = "triangles,method,count,hits,best_ns,median_ns,off\n".to_string();
     for side in SIDES {
         let mut random = Random::new(0x6a7);
         let heights: Vec<f64> = (0..side * side).map(|_| random.uniform(-0.2, 0.2)).collect();
@@ -49,7 +49,7 @@ pub fn measure(options: &Options) -> Result<String, String> {
             let off = (0..RAYS).filter(|i| !agree(method.entry(*i), entries[*i])).count();
             let hits = (0..RAYS).filter(|i| method.entry(*i).is_some()).count();
             let count = 2 * (side - 1) * (side - 1);
-            let row = format!("rays,{count},{},{RAYS},{hits},{:.1},{:.1},{off}", method.name, time.best, time.median);
+            let row = format!("{count},{},{RAYS},{hits},{:.1},{:.1},{off}", method.name, time.best, time.median);
             eprintln!("{row}");
             let _ = writeln!(text, "{row}");
         }
