@@ -1,4 +1,4 @@
-/* A small simulator: cubes fall on a floor and onto each other, and a pile of them stands. docs/tutorial-simulator.md explains it
+/* A small simulator: cubes fall on a valley's floor and onto each other, and a pile of them stands. docs/tutorial-simulator.md explains it
  * part by part. It ends with an error where the pile does not stand. */
 #include <math.h>
 #include <stdio.h>
@@ -6,9 +6,10 @@
 #include <string.h>
 
 #include <swiftprox.h>
+#include <swiftprox/ground.h>
 #include <swiftprox/replay.h>
 
-enum { ROWS = 4, BODIES = 1 + ROWS * (ROWS + 1) / 2, MOST_CONTACTS = 400, ITERATIONS = 20, STEPS = 600 };
+enum { ROWS = 4, BODIES = 1 + ROWS * (ROWS + 1) / 2, MOST_CONTACTS = 400, ITERATIONS = 20, STEPS = 600, SIDE = 41 };
 
 static const double SECONDS = 1.0 / 60, GRAVITY = -9.81, FRICTION = 0.6;
 static const double MARGIN = 0.02;            /* points up to this gap are contacts */
@@ -23,18 +24,31 @@ static void demand(swiftprox_status status)
     }
 }
 
-/* A box around the origin. */
-static const swiftprox_shape *make_box(double x, double y, double z)
+/* A cube of side 1 around the origin. */
+static const swiftprox_shape *make_cube(void)
 {
     double corners[8][3];
     for (int i = 0; i < 8; i++) {
-        corners[i][0] = i & 1 ? x / 2 : -x / 2;
-        corners[i][1] = i & 2 ? y / 2 : -y / 2;
-        corners[i][2] = i & 4 ? z / 2 : -z / 2;
+        for (int axis = 0; axis < 3; axis++) {
+            corners[i][axis] = i >> axis & 1 ? 0.5 : -0.5;
+        }
     }
-    const swiftprox_shape *box;
-    demand(swiftprox_shape_create_from_points(&corners[0][0], 8, NULL, &box));
-    return box;
+    const swiftprox_shape *cube;
+    demand(swiftprox_shape_create_from_points(&corners[0][0], 8, NULL, &cube));
+    return cube;
+}
+
+/* A valley: level where cubes stand, rising to both sides. */
+static const swiftprox_ground *make_valley(void)
+{
+    double heights[SIDE * SIDE];
+    for (int i = 0; i < SIDE * SIDE; i++) {
+        const double aside = fabs((double)(i / SIDE) - SIDE / 2);
+        heights[i] = fmax(0, aside - 4) * 0.25;
+    }
+    const swiftprox_ground *valley;
+    demand(swiftprox_ground_create_from_heights(SIDE, SIDE, 1, 1, heights, &valley));
+    return valley;
 }
 
 struct body {
@@ -44,19 +58,27 @@ struct body {
     double inverse_mass, inverse_inertia; /* both 0: it never moves; a cube's inertia is the same about all axes */
 };
 
-static void add_body(swiftprox_scene *scene, struct body *bodies, size_t index, const swiftprox_shape *shape, double x, double z)
+/* Body 0 is the valley. */
+static void add_valley(swiftprox_scene *scene, struct body *body)
+{
+    const swiftprox_ground *const valley = make_valley();
+    *body = (struct body){.pose = {1, 0, 0, -SIDE / 2, 0, 1, 0, -SIDE / 2, 0, 0, 1, 0}};
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
+    options.ground = valley;
+    memcpy(options.pose, body->pose, sizeof options.pose);
+    demand(swiftprox_scene_add_object(scene, NULL, 0, &options, &body->id));
+    swiftprox_ground_release(valley); /* the scene has its own share */
+}
+
+/* The others are cubes of mass 1. */
+static void add_cube(swiftprox_scene *scene, struct body *bodies, size_t index, const swiftprox_shape *cube, double x, double z)
 {
     struct body *const body = &bodies[index];
-    *body = (struct body){.pose = {1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, z}};
-    if (index > 0) { /* a cube of side 1 and mass 1; body 0 is the floor */
-        body->inverse_mass = 1;
-        body->inverse_inertia = 6;
-    }
+    *body = (struct body){.pose = {1, 0, 0, x, 0, 1, 0, 0, 0, 0, 1, z}, .inverse_mass = 1, .inverse_inertia = 6};
     swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     options.user_data = index; /* comes back in each result */
-    options.fixed = index == 0;
     memcpy(options.pose, body->pose, sizeof options.pose);
-    demand(swiftprox_scene_add_object(scene, &shape, 1, &options, &body->id));
+    demand(swiftprox_scene_add_object(scene, &cube, 1, &options, &body->id));
 }
 
 static double dot(const double a[3], const double b[3])
@@ -141,7 +163,15 @@ static struct contact contact_of(struct body *body1, struct body *body2, const d
     return contact;
 }
 
-/* Finds where bodies meet, or will soon. */
+static void add_points(struct contacts *found, struct body *body1, struct body *body2, const swiftprox_manifold *manifold,
+                       const swiftprox_manifold_point *points)
+{
+    for (size_t k = 0; k < manifold->point_count && found->count < MOST_CONTACTS; k++) {
+        found->list[found->count++] = contact_of(body1, body2, manifold->normal, &points[k]);
+    }
+}
+
+/* Finds where cubes meet, or will soon. */
 static void find_contacts(swiftprox_scene *scene, struct body *bodies, struct contacts *found)
 {
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
@@ -154,12 +184,27 @@ static void find_contacts(swiftprox_scene *scene, struct body *bodies, struct co
     found->count = 0;
     for (size_t i = 0; i < answer.count; i++) {
         const swiftprox_contact *const contact = &answer.contacts[i]; /* belongs to answer.pairs[i] */
-        const swiftprox_manifold_point *const points = &answer.points[contact->first_point];
         struct body *const body1 = &bodies[answer.pairs[i].user_data1];
         struct body *const body2 = &bodies[answer.pairs[i].user_data2];
-        for (size_t k = 0; k < contact->manifold.point_count && found->count < MOST_CONTACTS; k++) {
-            found->list[found->count++] = contact_of(body1, body2, contact->manifold.normal, &points[k]);
-        }
+        add_points(found, body1, body2, &contact->manifold, &answer.points[contact->first_point]);
+    }
+}
+
+/* Finds where cubes meet the valley. */
+static void find_ground_contacts(const swiftprox_scene *scene, swiftprox_scratch *scratch, struct body *bodies,
+                                 struct contacts *found)
+{
+    swiftprox_scene_ground_config config = SWIFTPROX_SCENE_GROUND_CONFIG_DEFAULT;
+    config.max_distance = MARGIN;
+    config.reduces = 1;
+
+    const swiftprox_placed_ground own = {NULL, NULL}; /* the scene's grounds */
+    swiftprox_scene_ground_answer answer;
+    demand(swiftprox_scene_ground_contacts(scene, NULL, own, &config, scratch, &answer));
+    for (size_t i = 0; i < answer.contact_count; i++) {
+        const swiftprox_scene_ground_contact *const contact = &answer.contacts[i];
+        const swiftprox_manifold_point *const points = &answer.points[contact->contact.first_point];
+        add_points(found, &bodies[contact->user_data], &bodies[0], &contact->contact.manifold, points);
     }
 }
 
@@ -230,11 +275,12 @@ static size_t carry_on(struct contacts *contacts, const struct contacts *before)
 }
 
 /* One step. Returns how many contact points were known from the step before. */
-static size_t step(swiftprox_scene *scene, struct body *bodies, struct contacts *contacts)
+static size_t step(swiftprox_scene *scene, swiftprox_scratch *scratch, struct body *bodies, struct contacts *contacts)
 {
     static struct contacts before;
     before = *contacts;
     find_contacts(scene, bodies, contacts);
+    find_ground_contacts(scene, scratch, bodies, contacts);
     for (size_t i = 1; i < BODIES; i++) {
         bodies[i].velocity[2] += SECONDS * GRAVITY;
     }
@@ -255,22 +301,23 @@ static size_t step(swiftprox_scene *scene, struct body *bodies, struct contacts 
 /* A pyramid of cubes a hundredth above where they will rest. */
 static void build(swiftprox_scene *scene, struct body *bodies)
 {
-    const swiftprox_shape *const floor = make_box(40, 40, 1), *const cube = make_box(1, 1, 1);
-    add_body(scene, bodies, 0, floor, 0, -0.5);
+    const swiftprox_shape *const cube = make_cube();
+    add_valley(scene, &bodies[0]);
     size_t index = 1;
     for (int row = 0; row < ROWS; row++) {
         for (int i = 0; i < ROWS - row; i++) {
-            add_body(scene, bodies, index++, cube, 1.05 * (i + 0.5 * row), 0.5 + row + 0.01 * (row + 1));
+            add_cube(scene, bodies, index++, cube, 1.05 * (i + 0.5 * row), 0.5 + row + 0.01 * (row + 1));
         }
     }
-    swiftprox_shape_release(floor); /* the scene has its own share */
     swiftprox_shape_release(cube);
 }
 
 int main(int argc, char **argv)
 {
     swiftprox_scene *scene;
+    swiftprox_scratch *scratch;
     demand(swiftprox_scene_create(NULL, &scene));
+    demand(swiftprox_scratch_create(&scratch));
     if (argc > 1) {
         demand(swiftprox_scene_record(scene, argv[1])); /* from here on */
     }
@@ -282,7 +329,7 @@ int main(int argc, char **argv)
 
     size_t known = 0;
     for (int i = 0; i < STEPS; i++) {
-        known = step(scene, bodies, &contacts);
+        known = step(scene, scratch, bodies, &contacts);
     }
     double moved = 0, fastest = 0;
     for (size_t i = 1; i < BODIES; i++) {
@@ -298,6 +345,7 @@ int main(int argc, char **argv)
     printf("of %zu contact points %zu were known from the step before\n", contacts.count, known);
 
     demand(swiftprox_scene_record(scene, NULL)); /* up to here */
+    swiftprox_scratch_destroy(scratch);
     demand(swiftprox_scene_destroy(scene));
     return moved < 0.06 && fastest < 0.01 && known == contacts.count ? EXIT_SUCCESS : EXIT_FAILURE;
 }
