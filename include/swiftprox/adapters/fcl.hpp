@@ -13,8 +13,8 @@
  *   tolerances     not needed: neither those of the requests nor the choice of the solver count
  *
  * A shape is made when a geometry is first seen, or is not what it was: what stands at an address is compared, so that a geometry
- * may change, or die and be followed by another. Shapes of objects' geometries stay while these live. Of geometries given by
- * pointer 1,024 are kept, then all of them are forgotten. Any number of threads may ask.
+ * may change, or die and be followed by another. Shapes of objects' geometries stay while these live. Those of
+ * geometries given by pointer are forgotten now and then, at 1,024 or later. Any number of threads may ask.
  */
 #ifndef SWIFTPROX_ADAPTERS_FCL_HPP
 #define SWIFTPROX_ADAPTERS_FCL_HPP
@@ -138,48 +138,45 @@ template <class S> class Shapes
         if (!content.is_ours()) {
             return {};
         }
-        auto &kept = owner ? owned_ : others_;
         {
             const std::shared_lock lock(mutex_);
-            const auto at = kept.find(geometry);
-            if (at != kept.end() && at->second.is(content)) {
+            const auto at = kept_.find(geometry);
+            if (at != kept_.end() && at->second.is(content)) {
                 return at->second.shape;
             }
         }
         const Shape shape = content.make();
         const std::unique_lock lock(mutex_);
         make_room();
-        kept.erase(geometry);
-        kept.try_emplace(geometry, content, shape, owner ? *owner : nullptr);
+        kept_.erase(geometry);
+        kept_.try_emplace(geometry, content, shape, owner ? *owner : nullptr);
         return shape;
     }
 
     std::size_t size() const
     {
         const std::shared_lock lock(mutex_);
-        return owned_.size() + others_.size();
+        return kept_.size();
     }
 
   private:
-    static constexpr std::size_t LEAST_ROOM = 256, MOST_OTHERS = 1024;
+    static constexpr std::size_t LEAST_ROOM = 1024;
 
+    /** Nobody tells when a geometry without an owner dies: those go, too, and are made anew where they live. */
     void make_room()
     {
-        if (owned_.size() >= most_owned_) {
-            for (auto at = owned_.begin(); at != owned_.end();) {
-                at = at->second.owner.expired() ? owned_.erase(at) : std::next(at);
-            }
-            most_owned_ = std::max(LEAST_ROOM, 2 * owned_.size());
+        if (kept_.size() < most_) {
+            return;
         }
-        // Nobody tells when these die.
-        if (others_.size() >= MOST_OTHERS) {
-            others_.clear();
+        for (auto at = kept_.begin(); at != kept_.end();) {
+            at = at->second.owner.expired() ? kept_.erase(at) : std::next(at);
         }
+        most_ = std::max(LEAST_ROOM, 2 * kept_.size());
     }
 
     mutable std::shared_mutex mutex_;
-    std::unordered_map<const Geometry<S> *, typename Content<S>::Kept> owned_, others_;
-    std::size_t most_owned_ = LEAST_ROOM;
+    std::unordered_map<const Geometry<S> *, typename Content<S>::Kept> kept_;
+    std::size_t most_ = LEAST_ROOM;
 };
 
 template <class S> ::fcl::Vector3<S> vector_of(const double *v)
