@@ -35,7 +35,7 @@
 # make release                all that a release hands out, made and tried as a dry run in build/release: scripts/release.sh; URL=FOLDER
 #                             is where its archive will be, TAG=--tag makes the tag
 # make packages               packages for Debian, Conan and cargo-c, tried as installed: scripts/debian.sh, conan.sh, cargo_c.sh
-# make cross                  the library checked for other systems, the C tests on AArch64 and i686: scripts/cross.sh
+# make cross                  the library checked for other systems, the C tests on AArch64, i686 and Windows: scripts/cross.sh
 # make build                  the libraries, tools and examples, in build/
 # make clean                  removes what was built
 

@@ -255,7 +255,7 @@ static void scenes(const swiftprox_shape *a, const swiftprox_shape *b)
         const double gap = i == 0 ? -0.0625 : 0.0078125;
         uint32_t k;
         CHECK(contact->manifold.outcome == answer.pairs[i].answer.outcome && contact->manifold.point_count == 4);
-        CHECK(isnan(contact->depth.depth) == (i == 1));
+        CHECK((isnan(contact->depth.depth) != 0) == (i == 1));
         CHECK_OK(swiftprox_scene_get_signed_distance(scene, i, &apart));
         CHECK(apart.outcome == answer.pairs[i].answer.outcome && apart.lower <= gap && gap <= apart.upper);
         CHECK(apart.upper - apart.lower < 1e-13 && fabs(apart.normal[2] + 1) < 1e-14);
