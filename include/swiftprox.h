@@ -1175,7 +1175,8 @@ typedef struct swiftprox_object_options {
  * With options->ground and a piece_count of 0 it adds that ground. Results name the ground as piece 0, and the triangle as a
  * feature that is a face. swiftprox_scene_set_pose moves it. Functions about pieces refuse it. Two grounds make no pair.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces and no ground, or both. SWIFTPROX_ERROR_LIMIT: more objects or pieces than a scene holds.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces and no ground, or both. SWIFTPROX_ERROR_LIMIT: more objects or pieces than a scene
+ * holds.
  *
  * Stable.
  */

@@ -342,7 +342,8 @@ typedef struct swiftprox_scene_ray_answer {
 /**
  * Finds convex pieces and grounds that a ray meets, of objects whose groups have a bit of mask (UINT32_MAX: any group). `hits`
  * selects the first, all in order, or any, found soonest. Each hit is as from swiftprox_shape_cast_ray, or once for each ground as
- * from swiftprox_ground_cast_ray. Hits at the same place are in order of creation. Threads: as for swiftprox_scene_least_distance. The scratch owns the hits and must not be null.
+ * from swiftprox_ground_cast_ray. Hits at the same place are in order of creation. Threads: as for swiftprox_scene_least_distance.
+ * The scratch owns the hits and must not be null.
  *
  * On failure the answer is empty. SWIFTPROX_ERROR_INVALID_ARGUMENT: a ray that swiftprox_shape_cast_ray refuses, or unknown hits.
  *

@@ -298,7 +298,8 @@ typedef struct swiftprox_motions {
  * for swiftprox_scene_least_distance.
  *
  * SWIFTPROX_ERROR_INVALID_ARGUMENT: the number of motions is neither edge_count nor edge_count times set->count; the set has a
- * ground, or config->ignores_parting is set and a body comes near one. Else same errors as swiftprox_pair_cast. The message names the edge; its answer and all later ones are SWIFTPROX_CAST_OUTCOME_NONE.
+ * ground, or config->ignores_parting is set and a body comes near one. Else same errors as swiftprox_pair_cast. The message names
+ * the edge; its answer and all later ones are SWIFTPROX_CAST_OUTCOME_NONE.
  *
  * Experimental.
  */

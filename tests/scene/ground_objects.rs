@@ -804,6 +804,33 @@ fn grounds_are_found_when_rows_are_dropped() {
     }
 }
 
+/// However large, small, flat or far away a ground is: its box holds it, and is not much larger.
+#[test]
+fn the_box_of_a_ground_holds_it() {
+    let mut random = Random::new(0x5a);
+    let mut seen = [0; 3];
+    for round in 0..400 {
+        let (size, thin) = (random.power(-90, 90), [1.0, random.power(-50, 0), 0.0][round % 3]);
+        let (away, at) = (random.vector() * size * random.power(-4, 8), random.vector() * size);
+        let mut vertex = || away + random.vector().component_mul(&Vector::new(size, size, size * thin));
+        let vertices: Vec<Vector> = (0..9).map(|_| vertex()).collect();
+        let Ok(ground) = Ground::from_triangles(&vertices, &[[0, 1, 2], [3, 4, 5], [6, 7, 8]]) else { continue };
+        let pose = Pose::new(&random.rotation(), &at);
+        let mut scene = Scene::new();
+        let id = scene.add_ground(Arc::new(ground), &ObjectOptions { pose, ..ObjectOptions::default() }).unwrap();
+        let [lower, upper] = scene.object(id).unwrap().world_box().map(Vector::from);
+        let far = 1e-5 * (size + away.norm() + at.norm());
+        for vertex in &vertices {
+            let point = pose.transform(vertex);
+            assert!(point.inf(&lower) == lower && point.sup(&upper) == upper, "{round}: {point} {lower} {upper}");
+        }
+        // A turned box is as long as its diagonal.
+        assert!((upper - lower).amax() <= 4.0 * size + far, "{round}: {lower} {upper} {size}");
+        seen[round % 3] += 1;
+    }
+    assert!(seen.iter().all(|count| *count > 50), "{seen:?}");
+}
+
 /// What a ground cannot do is refused, with the reason and a cure, and nothing has changed.
 #[test]
 fn what_grounds_cannot_do_is_refused() {
