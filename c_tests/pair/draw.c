@@ -613,6 +613,7 @@ static void bad_input(void)
 {
     const swiftprox_shape *cube = box(1, 1, 1);
     swiftprox_scene *scene = NULL;
+    swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
     swiftprox_draw draw = recorder(ALL), nobody = SWIFTPROX_DRAW_DEFAULT, unset;
     double here[12], skewed[12];
     memset(&unset, 0, sizeof unset);
@@ -631,6 +632,11 @@ static void bad_input(void)
     CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "SWIFTPROX_DRAW_DEFAULT", swiftprox_shape_draw(placed(cube, here), &unset));
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal", swiftprox_shape_draw(placed(cube, skewed), &draw));
     CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal", swiftprox_pair_draw(placed(cube, here), placed(cube, skewed), NULL, &draw));
+    draw = recorder(only(SWIFTPROX_DRAW_KIND_MARCH));
+    CHECK_FAILS(SWIFTPROX_ERROR_POSE, "orthonormal", swiftprox_pair_draw(placed(cube, here), placed(cube, skewed), NULL, &draw));
+    config.max_distance = NAN;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "max_distance",
+                swiftprox_pair_draw(placed(cube, here), placed(cube, here), &config, &draw));
     CHECK(drawn.line_count == 0 && drawn.point_count == 0 && drawn.text_count == 0);
     /* Nobody listens. */
     CHECK_OK(swiftprox_shape_draw(placed(cube, here), &nobody));

@@ -21,13 +21,17 @@ use crate::shape::Placed;
 /// As of [`manifold`](crate::manifold::manifold); nothing is drawn then.
 pub fn pair(bodies: [Placed; 2], config: &ManifoldConfig, draw: &mut dyn Draw) -> Result<()> {
     with_default(|| {
+        config.check()?;
+        bodies.iter().try_for_each(|body| body.pose.check())?;
         let (mut answer, mut points) = (SignedDistance::default(), Vec::new());
         let mut pen = Pen::new(draw);
         if pen.wants(DrawKind::Contact) {
             let mut cache = ManifoldCache::default();
             add_points(&mut points, |sink| manifold_into(bodies, &mut cache, config, sink, None))??;
         }
-        signed_distance(bodies, &mut SignedDistanceCache::default(), &PairConfig::default(), &mut answer)?;
+        if [DrawKind::Witness, DrawKind::Normal, DrawKind::Polytope].into_iter().any(|kind| pen.wants(kind)) {
+            signed_distance(bodies, &mut SignedDistanceCache::default(), &PairConfig::default(), &mut answer)?;
+        }
         bodies.iter().for_each(|body| pen.shape(*body));
         if pen.wants(DrawKind::March) || pen.wants(DrawKind::Feature) {
             pen.march(&bodies);
