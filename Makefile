@@ -223,10 +223,11 @@ casts:
 	$(DRAW) benches/casts.py $(CASTS)
 
 grounds:
-	@scripts/require.sh $(CC_PACKAGES) c++=g++
+	@scripts/require.sh $(CC_PACKAGES) c++=g++ python3=python3 $(MATPLOTLIB)
 	-@scripts/require.sh cmake=cmake curl=curl
 	. scripts/jolt.sh; export PEERS_JOLT; cargo build --locked --release --manifest-path benches/compare/Cargo.toml
 	$(TIMED) benches/compare/target/release/compare --grounds --count 10000 --passes 5 --csv $(GROUNDS)
+	$(DRAW) benches/grounds.py $(GROUNDS) $(GROUNDS:.csv=-rays.csv)
 
 compounds:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++
@@ -265,6 +266,7 @@ charts:
 	$(DRAW) benches/bodies.py --again
 	$(DRAW) benches/figures.py $(FIGURES)-*.csv
 	$(DRAW) benches/casts.py $(CASTS)
+	$(DRAW) benches/grounds.py $(GROUNDS) $(GROUNDS:.csv=-rays.csv)
 	$(DRAW) benches/engines.py $(ENGINES)
 	$(STABILITY_PAGE)
 

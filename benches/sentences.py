@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Checks that sentences and tables of docs/benchmarks.md, docs/choosing.md, docs/grounds.md and docs/compounds.md that have numbers say what the CSV files of benches/results say.
+"""Checks that sentences and tables of docs/benchmarks.md, docs/choosing.md and docs/compounds.md that have numbers say what the CSV files of benches/results say.
 Each is made anew here, and the page has to have it word for word."""
 import os
 import sys
@@ -9,8 +9,8 @@ from rows import geometric_mean, machine, read
 HERE = os.path.dirname(os.path.abspath(__file__))
 
 
-SPEED, BUILD, CROWDS, GROUNDS = "2026-11-22-intel-xeon.csv", "figures-build.csv", "crowds.csv", "grounds.csv"
-GROUND_RAYS, COMPOUNDS = "grounds-rays.csv", "compounds.csv"
+SPEED, BUILD, CROWDS = "2026-11-22-intel-xeon.csv", "figures-build.csv", "crowds.csv"
+COMPOUNDS = "compounds.csv"
 
 
 def rows_of(name):
@@ -84,36 +84,6 @@ def speed_table():
     return "\n".join(head + [f"| {name} | " + " | ".join(times[step] for times in columns) + " |" for step, name in MOTIONS.items()])
 
 
-PEERS = {"parry": "parry", "parry-fixed": "parry, inner edges mended", "jolt": "Jolt", "jolt-removing": "Jolt, inner edges removed"}
-
-
-def ground_table():
-    """Times of a body on heights, how many times as long peers take, and how many of 1,000 normals are steep."""
-    scenes = {}
-    for row in rows_of(GROUNDS):
-        if row["surface"] != "soup":
-            scenes.setdefault((row["surface"], row["body"], row["motion"]), {})[row["method"]] = row
-    lines = ["| ground | body | motion | swiftprox | " + " | ".join(PEERS.values()) + " |", "|---|---|---|" + "--:|" * 5]
-    for scene, of in scenes.items():
-        def cell(method):
-            ns, own = (float(of[name]["best_ns"]) for name in (method, "swiftprox"))
-            steep = 1000 * int(of[method]["ghosts"]) / max(1, int(of[method]["normals"]))
-            return f"{ns / 1000:.1f}" + ("" if method == "swiftprox" else f" ({ns / own:.1f})") + f", {steep:.0f}"
-
-        lines.append("| " + " | ".join([*scene, *map(cell, ["swiftprox", *PEERS])]) + " |")
-    return "\n".join(lines)
-
-
-def ground_rays():
-    """Times of rays by the number of triangles."""
-    times = {(row["triangles"], row["method"]): float(row["best_ns"]) for row in rows_of(GROUND_RAYS)}
-    methods = list(dict.fromkeys(method for _, method in times))
-    lines = ["| triangles | " + " | ".join(f"{method}, ns" for method in methods) + " |", "|--:|" + "--:|" * len(methods)]
-    for count in dict.fromkeys(count for count, _ in times):
-        lines.append(f"| {int(count):,} | " + " | ".join(f"{times[count, method]:,.0f}" for method in methods) + " |")
-    return "\n".join(lines)
-
-
 COMPOUND_MOTIONS = {"random": "random", "near": "near", "orbit": "1°", "slow": "0.1°", "far": "far", "linked": "linked"}
 
 
@@ -150,8 +120,6 @@ def check(page, said):
 def main():
     queries = f"<!-- table: queries -->\n{speed_table()}\n<!-- end -->"
     check("docs/benchmarks.md", (queries, *commits(), table_times(), mesh_times(), second_thread()))
-    check("docs/grounds.md", (f"<!-- table: grounds -->\n{ground_table()}\n<!-- end -->", f"at {commit_of(GROUNDS)}",
-                              f"<!-- table: ground rays -->\n{ground_rays()}\n<!-- end -->"))
     check("docs/compounds.md",
           (f"<!-- table: compounds -->\n{compound_table()}\n<!-- end -->", f"at {commit_of(COMPOUNDS)}"))
     check("docs/choosing.md", (f"<!-- table: queries -->\n{query_table()}\n<!-- end -->", f"<!-- table: depths -->\n{depth_table()}\n<!-- end -->"))
