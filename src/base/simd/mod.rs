@@ -34,16 +34,16 @@ mod wide_twins;
 #[cfg(target_arch = "x86_64")]
 mod wide;
 #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
-mod neon;
-#[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
 mod neon_twins;
+#[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
+mod neon;
 
 pub use lanes::{Lanes, Portable};
 pub use twins::Twins;
 
 /// The lanes of a machine that has no more than its target demands. Products are fused where that is one instruction.
 #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
-type Baseline = neon::Neon;
+use neon::Neon as Baseline;
 #[cfg(not(all(target_arch = "aarch64", target_feature = "neon")))]
 type Baseline = lanes::Plain<{ cfg!(target_feature = "fma") }>;
 

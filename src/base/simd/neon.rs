@@ -4,7 +4,9 @@
 //! depend on the order of operations and on which of two equal numbers is taken. So the lesser and the greater are chosen by
 //! comparison. NEON's own FMIN prefers −0 and passes a NaN on; x86's MINPD computes a < b ? a : b.
 
-use super::neon_twins::NeonTwins;
+use super::neon_twins::{
+    Eight, NeonTwins, chosen_of_eight, equal_ones, first_of, greater_ones, lesser_ones, load_eight, store_eight,
+};
 use super::{Lanes, Work};
 use crate::base::math::Vector;
 use std::arch::aarch64::*;
@@ -12,9 +14,6 @@ use std::arch::aarch64::*;
 /// Lanes 0 and 1, lanes 2 and 3.
 #[derive(Clone, Copy)]
 pub(super) struct Neon([float64x2_t; 2]);
-
-/// Single-precision numbers 0 to 3, 4 to 7.
-pub(super) type Eight = [float32x4_t; 2];
 
 // SAFETY of every block in this file: the module is compiled for targets alone that have NEON, and what the blocks do needs no more.
 // The pointers of loads and stores are to arrays of the size that is read or written.
@@ -48,23 +47,6 @@ impl Neon {
     }
 }
 
-#[inline(always)]
-pub(super) fn load_eight(numbers: &[f32; 8]) -> Eight {
-    // SAFETY: see above.
-    unsafe { [vld1q_f32(numbers.as_ptr()), vld1q_f32(numbers.as_ptr().add(4))] }
-}
-
-#[inline(always)]
-pub(super) fn store_eight(numbers: Eight) -> [f32; 8] {
-    let mut out = [0.0; 8];
-    // SAFETY: see above.
-    unsafe {
-        vst1q_f32(out.as_mut_ptr(), numbers[0]);
-        vst1q_f32(out.as_mut_ptr().add(4), numbers[1]);
-    }
-    out
-}
-
 /// a > b ? a : b, like VMAXPD.
 #[inline(always)]
 fn greater_one(a: float64x2_t, b: float64x2_t) -> float64x2_t {
@@ -79,20 +61,6 @@ fn lesser_one(a: float64x2_t, b: float64x2_t) -> float64x2_t {
     unsafe { vbslq_f64(vcltq_f64(a, b), a, b) }
 }
 
-/// Number by number a > b ? a : b, like VMAXPS.
-#[inline(always)]
-pub(super) fn greater_ones(a: Eight, b: Eight) -> Eight {
-    // SAFETY: see above.
-    [0, 1].map(|half| unsafe { vbslq_f32(vcgtq_f32(a[half], b[half]), a[half], b[half]) })
-}
-
-/// Number by number a < b ? a : b, like VMINPS.
-#[inline(always)]
-pub(super) fn lesser_ones(a: Eight, b: Eight) -> Eight {
-    // SAFETY: see above.
-    [0, 1].map(|half| unsafe { vbslq_f32(vcltq_f32(a[half], b[half]), a[half], b[half]) })
-}
-
 /// The results of comparing lanes, a bit each.
 #[inline(always)]
 fn bits_of_four([low, high]: [uint64x2_t; 2]) -> u32 {
@@ -101,41 +69,6 @@ fn bits_of_four([low, high]: [uint64x2_t; 2]) -> u32 {
         let all = vcombine_u32(vmovn_u64(low), vmovn_u64(high));
         vaddvq_u32(vandq_u32(all, vld1q_u32([1, 2, 4, 8].as_ptr())))
     }
-}
-
-/// The results of comparing eight numbers, a bit each.
-#[inline(always)]
-pub(super) fn bits_of_eight([low, high]: [uint32x4_t; 2]) -> u32 {
-    // SAFETY: see above.
-    unsafe {
-        let all = vcombine_u16(vmovn_u32(low), vmovn_u32(high));
-        u32::from(vaddvq_u16(vandq_u16(all, vld1q_u16([1, 2, 4, 8, 16, 32, 64, 128].as_ptr()))))
-    }
-}
-
-/// Where eight numbers equal others, a bit each.
-#[inline(always)]
-pub(super) fn equal_ones(a: Eight, b: Eight) -> u32 {
-    // SAFETY: see above.
-    bits_of_eight([0, 1].map(|half| unsafe { vceqq_f32(a[half], b[half]) }))
-}
-
-/// The number that a choice takes of all eight, in all places: both halves, both halves of these, and both of these again.
-#[inline(always)]
-pub(super) fn chosen_of_eight(numbers: Eight, choose: impl Fn(Eight, Eight) -> Eight) -> Eight {
-    // SAFETY: see above.
-    let turned = |by: Eight| by.map(|four| unsafe { vextq_f32::<2>(four, four) });
-    // SAFETY: see above.
-    let swapped = |by: Eight| by.map(|four| unsafe { vrev64q_f32(four) });
-    let four = choose(numbers, [numbers[1], numbers[0]]);
-    let two = choose(four, turned(four));
-    choose(two, swapped(two))
-}
-
-#[inline(always)]
-pub(super) fn first_of(numbers: Eight) -> f32 {
-    // SAFETY: see above.
-    unsafe { vgetq_lane_f32::<0>(numbers[0]) }
 }
 
 /// Which of eight products are greater than others, and the places of the greater ones taken over.

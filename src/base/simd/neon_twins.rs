@@ -1,10 +1,10 @@
 //! Two vectors in single precision in a register of NEON each.
 
-use super::neon::{
-    Eight, bits_of_eight, chosen_of_eight, equal_ones, first_of, greater_ones, lesser_ones, load_eight, store_eight,
-};
 use super::twins::Twins;
 use std::arch::aarch64::*;
+
+/// Single-precision numbers 0 to 3, 4 to 7.
+pub(super) type Eight = [float32x4_t; 2];
 
 /// The first vector, the second one.
 #[derive(Clone, Copy)]
@@ -18,7 +18,7 @@ impl NeonTwins {
     }
 }
 
-// SAFETY of every block below: as for `Neon`.
+// SAFETY of every block in this file: as for `Neon`.
 impl Twins for NeonTwins {
     #[inline(always)]
     fn load(first: &[f32; 4], second: &[f32; 4]) -> Self {
@@ -161,4 +161,70 @@ fn as_doubles(four: float32x4_t) -> float64x2_t {
 fn sum_of_three(products: float32x4_t) -> f32 {
     // SAFETY: see above.
     unsafe { vpadds_f32(vget_low_f32(products)) + vgetq_lane_f32::<2>(products) }
+}
+
+#[inline(always)]
+pub(super) fn load_eight(numbers: &[f32; 8]) -> Eight {
+    // SAFETY: see above.
+    unsafe { [vld1q_f32(numbers.as_ptr()), vld1q_f32(numbers.as_ptr().add(4))] }
+}
+
+#[inline(always)]
+pub(super) fn store_eight(numbers: Eight) -> [f32; 8] {
+    let mut out = [0.0; 8];
+    // SAFETY: see above.
+    unsafe {
+        vst1q_f32(out.as_mut_ptr(), numbers[0]);
+        vst1q_f32(out.as_mut_ptr().add(4), numbers[1]);
+    }
+    out
+}
+
+/// Number by number a > b ? a : b, like VMAXPS.
+#[inline(always)]
+pub(super) fn greater_ones(a: Eight, b: Eight) -> Eight {
+    // SAFETY: see above.
+    [0, 1].map(|half| unsafe { vbslq_f32(vcgtq_f32(a[half], b[half]), a[half], b[half]) })
+}
+
+/// Number by number a < b ? a : b, like VMINPS.
+#[inline(always)]
+pub(super) fn lesser_ones(a: Eight, b: Eight) -> Eight {
+    // SAFETY: see above.
+    [0, 1].map(|half| unsafe { vbslq_f32(vcltq_f32(a[half], b[half]), a[half], b[half]) })
+}
+
+/// The results of comparing eight numbers, a bit each.
+#[inline(always)]
+pub(super) fn bits_of_eight([low, high]: [uint32x4_t; 2]) -> u32 {
+    // SAFETY: see above.
+    unsafe {
+        let all = vcombine_u16(vmovn_u32(low), vmovn_u32(high));
+        u32::from(vaddvq_u16(vandq_u16(all, vld1q_u16([1, 2, 4, 8, 16, 32, 64, 128].as_ptr()))))
+    }
+}
+
+/// Where eight numbers equal others, a bit each.
+#[inline(always)]
+pub(super) fn equal_ones(a: Eight, b: Eight) -> u32 {
+    // SAFETY: see above.
+    bits_of_eight([0, 1].map(|half| unsafe { vceqq_f32(a[half], b[half]) }))
+}
+
+/// The number that a choice takes of all eight, in all places: both halves, both halves of these, and both of these again.
+#[inline(always)]
+pub(super) fn chosen_of_eight(numbers: Eight, choose: impl Fn(Eight, Eight) -> Eight) -> Eight {
+    // SAFETY: see above.
+    let turned = |by: Eight| by.map(|four| unsafe { vextq_f32::<2>(four, four) });
+    // SAFETY: see above.
+    let swapped = |by: Eight| by.map(|four| unsafe { vrev64q_f32(four) });
+    let four = choose(numbers, [numbers[1], numbers[0]]);
+    let two = choose(four, turned(four));
+    choose(two, swapped(two))
+}
+
+#[inline(always)]
+pub(super) fn first_of(numbers: Eight) -> f32 {
+    // SAFETY: see above.
+    unsafe { vgetq_lane_f32::<0>(numbers[0]) }
 }
