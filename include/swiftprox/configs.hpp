@@ -262,6 +262,7 @@ struct ObjectOptions {
         c.fixed = fixed ? 1 : 0;
         c.groups = groups;
         c.mask = mask;
+        c.ground = nullptr; // Scene::try_add sets it
         return c;
     }
 };
