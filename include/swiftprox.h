@@ -1504,7 +1504,7 @@ swiftprox_status swiftprox_scene_query_contact(struct swiftprox_scene *scene,
                                                const struct swiftprox_scene_query *query,
                                                struct swiftprox_scene_answer *answer);
 
-/** A query of contacts returns this for a pair beside its answer. Parts not asked for are unset, and all of a pair with a ground. */
+/** A query of contacts returns this for a pair beside its answer. Parts not asked for are unset; with a ground all are. */
 typedef struct swiftprox_contact {
   /** Depth of the two; unset if they do not intersect. */
   struct swiftprox_depth_answer depth;

@@ -129,7 +129,7 @@ pub struct PairResult {
     pub answer: PairAnswer,
 }
 
-/// A query of contacts returns this for a pair beside its answer. Parts not asked for are unset, and all of a pair with a ground.
+/// A query of contacts returns this for a pair beside its answer. Parts not asked for are unset; with a ground all are.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct Contact {
