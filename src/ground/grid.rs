@@ -112,6 +112,11 @@ impl GroundGrid {
         size_of_val(&self.heights[..]) + levels.sum::<usize>()
     }
 
+    /// How many columns of vertices there are, the steps between columns and rows, and the heights row by row.
+    pub fn parts(&self) -> (usize, [f64; 2], &[f64]) {
+        (self.columns, self.spacing, &self.heights)
+    }
+
     /// Whether each cell is a hole.
     pub fn is_empty(&self) -> bool {
         self.levels.last().is_none_or(|top| top.ranges == [EMPTY])

@@ -216,6 +216,17 @@ impl Ground {
         [lower, upper]
     }
 
+    /// The grid that it was made of, if any.
+    pub(crate) fn height_grid(&self) -> Option<HeightGrid<'_>> {
+        match &self.layout {
+            GroundLayout::Grid(grid) => {
+                let (columns, spacing, heights) = grid.parts();
+                Some(HeightGrid { rows: heights.len() / columns, columns, spacing, heights })
+            }
+            GroundLayout::Soup(_) => None,
+        }
+    }
+
     /// Its vertices, in their order.
     pub(crate) fn vertices(&self) -> impl ExactSizeIterator<Item = Vector> {
         (0..self.vertex_count()).map(|v| self.layout.vertex(v as u32))

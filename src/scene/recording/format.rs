@@ -7,7 +7,7 @@ use crate::base::binary::{Reader, Writer};
 use crate::base::enumerator::{Enumerator, enumerator};
 use crate::base::error::Result;
 use crate::base::math::{Pose, Vector};
-use crate::ground::Ground;
+use crate::ground::{Ground, HeightGrid};
 use crate::pair::Query;
 use crate::scene::change::{Change, RecordedNames};
 use crate::scene::recording::digest::Digest;
@@ -326,8 +326,16 @@ impl Writer {
         self.number(*mask)
     }
 
+    /// By its heights, or with 0 columns by its triangles.
     fn ground(&mut self, ground: &Ground) -> Result<()> {
         self.real(ground.thickness())?;
+        let columns = ground.height_grid().map_or(0, |grid| grid.columns);
+        self.number(columns as u32)?;
+        if let Some(HeightGrid { spacing, heights, .. }) = ground.height_grid() {
+            spacing.into_iter().try_for_each(|step| self.real(step))?;
+            self.number(heights.len() as u32)?;
+            return heights.iter().try_for_each(|height| self.real(*height));
+        }
         self.number(ground.vertex_count() as u32)?;
         ground.vertices().try_for_each(|vertex| vertex.iter().try_for_each(|x| self.real(*x)))?;
         self.number(ground.triangle_count() as u32)?;
@@ -416,6 +424,13 @@ impl Reader<'_> {
 
     fn ground(&mut self) -> Result<Ground> {
         let thickness = self.real()?;
+        let columns = self.number()? as usize;
+        if columns > 0 {
+            let spacing = [self.real()?, self.real()?];
+            let heights = self.list(8, |from| from.real())?;
+            let grid = HeightGrid { rows: heights.len() / columns, columns, spacing, heights: &heights };
+            return Ground::from_heights(&grid)?.with_thickness(thickness);
+        }
         let vertices = self.list(24, |from| Ok(Vector::new(from.real()?, from.real()?, from.real()?)))?;
         let triangles = self.list(12, |from| Ok([from.number()?, from.number()?, from.number()?]))?;
         Ground::from_triangles(&vertices, &triangles)?.with_thickness(thickness)
