@@ -30,6 +30,12 @@ fn hills(random: &mut Random, side: usize) -> Arc<Ground> {
     Arc::new(Ground::from_grounds(&[Ground::from_heights(&grid).unwrap().at(&half)]).unwrap())
 }
 
+/// Heights that stay a grid.
+fn grid(random: &mut Random) -> Arc<Ground> {
+    let heights: Vec<f64> = (0..20).map(|_| random.uniform(-0.3, 0.3)).collect();
+    Arc::new(Ground::from_heights(&HeightGrid { rows: 4, columns: 5, spacing: [0.7, 1.1], heights: &heights }).unwrap())
+}
+
 fn level(side: usize) -> Arc<Ground> {
     let heights = vec![0.0; (side + 1).pow(2)];
     let grid = HeightGrid { rows: side + 1, columns: side + 1, spacing: [1.0; 2], heights: &heights };
@@ -734,10 +740,10 @@ fn recordings_hold_grounds() {
             for number in 0..20 {
                 let options =
                     ObjectOptions { pose: anywhere(&mut random), user_data: number, ..ObjectOptions::default() };
-                let body = if number % 6 == 1 {
-                    Body::Ground(soup(&mut random))
-                } else {
-                    Body::Pieces(vec![Arc::new(cuboid([0.4; 3]))])
+                let body = match number % 6 {
+                    1 => Body::Ground(soup(&mut random)),
+                    4 => Body::Ground(grid(&mut random)),
+                    _ => Body::Pieces(vec![Arc::new(cuboid([0.4; 3]))]),
                 };
                 world.add(body, options);
             }
