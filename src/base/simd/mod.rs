@@ -1,7 +1,7 @@
 //! Four doubles at a time, dispatched once per query to AVX2 with FMA where the machine has them, and to AVX-512 where it has that.
 //!
-//! A query is written once, generic over [`Lanes`], and compiled three times: with `Baseline` for what every machine of the
-//! target has, and with `Wide` inside functions that enable the features. On AArch64 NEON is the baseline, and there is nothing
+//! A query is written once, generic over [`Lanes`], and compiled three times: with `Plain` for what every machine of the
+//! target has, and with `Wide` inside functions that enable the features. On AArch64 NEON is that, and there is nothing
 //! else. Everything on the query's path is `#[inline(always)]`, so that it is compiled with the features of its caller. AVX-512
 //! means the same operations on the same four lanes, and so the same numbers; it has twice the registers and operands broadcast
 //! from memory. On AMD's Zen 5 that saved a query whose features have not changed 6 % of its time, others 1 to 2 %, on an Intel
@@ -40,12 +40,6 @@ mod neon;
 
 pub use lanes::{Lanes, Portable};
 pub use twins::Twins;
-
-/// The lanes of a machine that has no more than its target demands. Products are fused where that is one instruction.
-#[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
-use neon::Neon as Baseline;
-#[cfg(not(all(target_arch = "aarch64", target_feature = "neon")))]
-type Baseline = lanes::Plain<{ cfg!(target_feature = "fma") }>;
 
 /// Work that can run on any [`Lanes`]; its `run` is to be `#[inline(always)]`.
 pub trait Kernel {
@@ -129,7 +123,11 @@ pub fn narrow_to(most: Features) {
 /// Out of line: inlined beside the other branch it would spill that one's arguments.
 #[inline(never)]
 fn run_on_baseline<K: Kernel>(kernel: &mut K) -> K::Output {
-    kernel.run::<Baseline>()
+    #[cfg(all(target_arch = "aarch64", target_feature = "neon"))]
+    return kernel.run::<neon::Neon>();
+    // Products are fused where that is one instruction.
+    #[cfg(not(all(target_arch = "aarch64", target_feature = "neon")))]
+    kernel.run::<lanes::Plain<{ cfg!(target_feature = "fma") }>>()
 }
 
 #[cfg(test)]
