@@ -14,6 +14,7 @@ mod witness;
 mod outline;
 mod clip;
 mod places;
+mod overlay;
 mod reduction;
 mod at_rest;
 mod swept;
@@ -34,13 +35,14 @@ use crate::shape::Placed;
 use answer::FOUR;
 pub(crate) use answer::Reference;
 pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
-use at_rest::{Answered, AtRest, Clipping, Writing};
+use at_rest::{Answered, AtRest, Writing};
 use clip::Precision;
 pub(crate) use four::four_of_points;
 pub use half_space::half_space_manifold;
 pub(crate) use half_space::half_space_manifold_into;
 pub(crate) use id::id_of;
 use outline::{Axes, Outline};
+use overlay::Overlay;
 pub(crate) use patch::{COINCIDENT, PARALLEL};
 use patch::{Patches, STICKY, STICKY_INCIDENT, choose, facing};
 use places::{CommonPoint, Origin, View};
@@ -223,21 +225,7 @@ fn make(
         return answer;
     }
     if let Some(patches) = choose_patches(bodies, contact, &last) {
-        *before = last;
-        let mut writing = Writing { reference: before, config, points };
-        let found = simd::dispatch_to_avx2(&mut Clipping {
-            bodies: &bodies,
-            contact,
-            patches: &patches,
-            writing: &mut writing,
-        });
-        let found = match found {
-            Some(found) => found,
-            None => {
-                *writing.reference = Reference::NONE;
-                sweep(bodies, contact, &patches, &last, writing)
-            }
-        };
+        let found = clip(bodies, contact, &patches, &last, Writing { reference: before, config, points });
         if found > 0 {
             answer.reference = patches.reference as u32 + 1;
             (answer.point_count, answer.found_count) = (points.written as u32, found as u32);
@@ -270,7 +258,7 @@ const LARGEST: f64 = 1e150;
 const MOST_NAMED: usize = 1024;
 
 /// Writes the points that both patches have in common, of any poses and patches; how many there are.
-fn sweep(
+fn clip(
     bodies: [Placed; 2],
     contact: &SignedDistance,
     patches: &Patches,
@@ -313,6 +301,8 @@ fn sweep(
 
     let numbers = [0, 1].map(|i| patch(i).map_or(0, |patch| patch.number(polyhedra[i])));
     *now = Reference { body: patches.reference as u32 + 1, patches: numbers, kept: [0; FOUR] };
+    let mut overlay = Overlay::NONE;
+    let are_few = overlay.fill(&view).is_some();
     // Any number of points times all features would take as long as their squares.
     let are_named = config.reduces || polyhedra.iter().all(|polyhedron| polyhedron.edges.len() <= MOST_NAMED);
     let fill = |point: &mut ManifoldPoint, place: &CommonPoint| {
@@ -325,20 +315,31 @@ fn sweep(
         }
     };
     if !config.reduces {
-        let write = |place: &CommonPoint| match place.origin {
+        let mut write = |place: &CommonPoint| match place.origin {
             Origin::Witness => points.insist(|point| fill(point, place)),
             Origin::Corner(_) => points.push(|point| fill(point, place)),
         };
-        return view.sweep(write);
+        if !are_few {
+            return view.sweep(write);
+        }
+        overlay.places().iter().for_each(&mut write);
+        return overlay.places().len();
     }
     let is_same = (last.body, last.patches) == (now.body, now.patches);
     let kept = if is_same { last.kept } else { [0; FOUR] };
+    let mut write = |places: &[CommonPoint]| {
+        for (place, key) in four_of(places, &kept, size).into_iter().zip(&mut now.kept) {
+            let Some(place) = place else { continue };
+            *key = place.key();
+            points.push(|point| fill(point, place));
+        }
+    };
+    if are_few {
+        write(overlay.places());
+        return overlay.places().len();
+    }
     let mut thinned = Thinned::new(&kept);
     let found = view.sweep(|place| thinned.add(place));
-    for (place, key) in four_of(thinned.places(), &kept, size).into_iter().zip(&mut now.kept) {
-        let Some(place) = place else { continue };
-        *key = place.key();
-        points.push(|point| fill(point, place));
-    }
+    write(thinned.places());
     found
 }
