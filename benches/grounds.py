@@ -61,7 +61,7 @@ def main():
     _, of_rays = read(rays)
     with_numbers(of_rays, ("best_ns",))
     drawn = (os.path.join(charts.FOLDER, "grounds.svg"), chart(head[0], rows))
-    claims.show(PAGE, {"ground rays": ray_table(of_rays)}, drawn, contacts, check)
+    claims.show(PAGE, {"rays": ray_table(of_rays)}, drawn, contacts, check)
 
 
 if __name__ == "__main__":

@@ -1,5 +1,5 @@
-/* A small simulator: cubes fall on a valley's floor and onto each other, and a pile of them stands. docs/tutorial-simulator.md explains it
- * part by part. It ends with an error where the pile does not stand. */
+/* A small simulator: cubes fall on a valley's floor and onto each other, and a pile of them stands. docs/tutorial-simulator.md
+ * explains it part by part. It ends with an error where the pile does not stand. */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>

@@ -249,13 +249,13 @@ fn queries_list_grounds_as_pairs_say() {
         for round in 0..12 {
             let max_distance = [0.4, f64::INFINITY, 0.0][round % 3];
             let query = SceneQuery { max_distance, ..SceneQuery::default() };
-            for again in 0..2 {
+            for seen in &mut seen {
                 let listed = world.listed(Query::Intersection, f64::INFINITY);
                 let answer = world.scene.query_intersection(&query).unwrap();
                 assert_eq!(answer.intersecting, listed.iter().any(|pair| pair.answer.outcome == Outcome::Intersecting));
                 let found = answer.pairs.to_vec();
                 // Balls inside prove verdicts of convex pairs; grounds have none.
-                seen[again] += assert_same(&world, &found, &listed);
+                *seen += assert_same(&world, &found, &listed);
                 let listed = world.listed(Query::Distance, max_distance);
                 let found = world.scene.query_distance(&query).unwrap().pairs.to_vec();
                 near += assert_same(&world, &found, &listed);

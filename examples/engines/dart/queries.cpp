@@ -126,7 +126,7 @@ int main()
     right->setTranslation(Eigen::Vector3d(2 + 0x1p-6, 0, 0));
     CHECK(!both->collide(CollisionOption(true, 100), &contacts) && !below->collide(above.get(), CollisionOption(true, 100), &contacts));
 
-    // What is refused is not tested, and nothing throws: a shape of another type, a capsule beyond the doubles, a pose that is none.
+    // What is refused is not tested, and nothing throws: another type of shape, a capsule beyond the doubles, a pose that is none.
     const auto odd = frame_of(std::make_shared<CylinderShape>(5, 5), 0), huge = frame_of(std::make_shared<CapsuleShape>(1e305, 1), 0);
     const auto untested = detector->createCollisionGroup(left.get(), odd.get(), huge.get());
     CHECK(untested->getNumShapeFrames() == 3 && !untested->collide() && untested->distance() == 0);

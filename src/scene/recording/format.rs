@@ -329,8 +329,9 @@ impl Writer {
     /// By its heights, or with 0 columns by its triangles.
     fn ground(&mut self, ground: &Ground) -> Result<()> {
         self.real(ground.thickness())?;
-        let columns = ground.height_grid().map_or(0, |grid| grid.columns);
+        let [columns, rows] = ground.height_grid().map_or([0; 2], |grid| [grid.columns, grid.rows]);
         self.number(columns as u32)?;
+        self.number(rows as u32)?;
         if let Some(HeightGrid { spacing, heights, .. }) = ground.height_grid() {
             spacing.into_iter().try_for_each(|step| self.real(step))?;
             self.number(heights.len() as u32)?;
@@ -424,11 +425,11 @@ impl Reader<'_> {
 
     fn ground(&mut self) -> Result<Ground> {
         let thickness = self.real()?;
-        let columns = self.number()? as usize;
+        let [columns, rows] = [self.number()? as usize, self.number()? as usize];
         if columns > 0 {
             let spacing = [self.real()?, self.real()?];
             let heights = self.list(8, |from| from.real())?;
-            let grid = HeightGrid { rows: heights.len() / columns, columns, spacing, heights: &heights };
+            let grid = HeightGrid { rows, columns, spacing, heights: &heights };
             return Ground::from_heights(&grid)?.with_thickness(thickness);
         }
         let vertices = self.list(24, |from| Ok(Vector::new(from.real()?, from.real()?, from.real()?)))?;
