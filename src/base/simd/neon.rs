@@ -15,7 +15,7 @@ use std::arch::aarch64::*;
 #[derive(Clone, Copy)]
 pub(super) struct Neon([float64x2_t; 2]);
 
-// SAFETY of every block in this file: the module is compiled for targets alone that have NEON, and what the blocks do needs no more.
+// SAFETY of every block in this file: the module is compiled for targets alone that have NEON, and the blocks need no more.
 // The pointers of loads and stores are to arrays of the size that is read or written.
 impl Neon {
     /// Products of eight vectors with this one.

@@ -14,8 +14,8 @@
 //! looked at before its length is believed. The last record tells that the recording was ended; without it the program was.
 //!
 //! Objects are numbered in order of creation, those that there were when the recording began first. Shapes are numbered, too, and
-//! stand in the recording as in a file of their own ([`shape::file`](crate::shape::file)); so are grounds, by their heights or triangles. A
-//! question is written and handed to the system before it is answered: one that ends the program is the last record.
+//! stand in the recording as in a file of their own ([`shape::file`](crate::shape::file)); so do grounds, as heights or triangles.
+//! A question is written and handed to the system before it is answered: one that ends the program is the last record.
 
 pub(crate) mod digest;
 pub(crate) mod format;
