@@ -116,5 +116,6 @@ fn a_ground_is_shared() {
     let [small, large] = [3, 150].map(bytes);
     println!("{small} bytes");
     assert_eq!(small, large);
-    assert!(small < 4096, "{small}");
+    // Most of it is the box that stands for it, a shape.
+    assert!(small < 8_500, "{small}");
 }
