@@ -598,14 +598,14 @@ static void scenes(void)
 static void callbacks_in_the_environment_of_the_program(void)
 {
     const swiftprox_shape *cube = box(1, 1, 1);
-    const double nearest = one_third();
     swiftprox_draw draw = recorder(ALL);
     double here[12];
     place(here, 0, 0, 0);
     fesetround(FE_UPWARD);
+    const double upward = one_third(); /* valgrind rounds to nearest all the same */
     CHECK_OK(swiftprox_shape_draw(placed(cube, here), &draw));
     fesetround(FE_TONEAREST);
-    CHECK(drawn.third > nearest && drawn.line_count == 12);
+    CHECK(drawn.third == upward && drawn.line_count == 12);
     swiftprox_shape_release(cube);
 }
 

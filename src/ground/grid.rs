@@ -399,8 +399,8 @@ fn cells_across([lower, upper]: [f64; 2], spacing: f64, count: usize) -> Option<
     if !(first <= count as f64 && last >= 0.0) {
         return None;
     }
-    // A conversion keeps to the range of the integers.
-    let cell = |x: f64| (x as usize).min(count - 1);
+    // A conversion from out of the integers' range would be an invalid operation.
+    let cell = |x: f64| x.clamp(0.0, (count - 1) as f64) as usize;
     // What begins on a vertex meets the cell before it, too.
     Some([cell(first), cell(last)])
 }

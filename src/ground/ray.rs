@@ -157,7 +157,7 @@ impl LocalRay {
         let direction = inverse * ray.direction();
         let is_placed = *ground.pose != Pose::IDENTITY;
         let off = if is_placed { [ROUNDING * from, ROUNDING * ray.direction().lp_norm(1)] } else { [0.0; 2] };
-        let over = [0, 1, 2].map(|k| 1.0 / direction[k]).map(|x| if x.is_finite() { x } else { 0.0 });
+        let over = [0, 1, 2].map(|k| if direction[k].abs() >= f64::MIN_POSITIVE { 1.0 / direction[k] } else { 0.0 });
         let point = inverse * (origin - translation);
         Ok(LocalRay { point, direction, off, is_plain, over, t_max: ray.t_max, slack, inverse })
     }

@@ -116,14 +116,14 @@ impl Ground {
         }
         if let Some(at) = heights.iter().position(|height| !height.is_nan() && height.abs() > LARGEST) {
             return Err(Error::Mesh(format!(
-                "height {at} of the ground is {}: heights must be at most 2^200, and NaN for a hole",
+                "vertex {at} of the ground has the height {}: heights must be at most 2^200, and NaN for a hole",
                 heights[at]
             )));
         }
         let grid = GroundGrid::new(columns, spacing, collected(heights.iter().map(|height| height + 0.0))?)?;
         if grid.is_empty() {
             return Err(Error::Mesh(format!(
-                "none of the {} cells of the ground has four heights",
+                "none of the {} cells of the ground has an area: each has a hole at a corner",
                 grid.triangle_count() / 2
             )));
         }

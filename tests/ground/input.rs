@@ -50,7 +50,7 @@ fn refusals_say_what_is_wrong_and_where() {
             other => panic!("{other:?}"),
         };
     assert!(message([1e60, 1.0], &[0.0; 6]).contains("column 2"));
-    assert!(message([1.0; 2], &[0.0, 0.0, 0.0, 0.0, f64::INFINITY, 0.0]).contains("height 4"));
+    assert!(message([1.0; 2], &[0.0, 0.0, 0.0, 0.0, f64::INFINITY, 0.0]).contains("vertex 4"));
     assert!(message([1.0; 2], &[0.0, f64::NAN, 0.0, 0.0, 0.0, 0.0]).contains("2 cells"));
 }
 
