@@ -222,10 +222,14 @@ impl LocalRay {
         let square = side * side;
         let off_height = 24.0 * U * square * lengths[0] + 2.0 * off * square;
         let off_fall = 24.0 * U * square * length + 2.0 * off_direction * square;
+        // False for a NaN.
+        if !((least > error || most < -error) && fall.abs() > 4.0 * off_fall) {
+            return None;
+        }
         let entry = height / fall;
         let wide = 2.0 * (off_height + entry.abs() * off_fall) / fall.abs();
         let is_narrow = wide <= NARROW * (1.0 + entry.abs() + self.slack / (8.0 * ROUNDING * length));
-        if !((least > error || most < -error) && fall.abs() > 4.0 * off_fall && is_narrow) {
+        if !is_narrow {
             return None;
         }
         if entry + wide < 0.0 || entry - wide > self.t_max {

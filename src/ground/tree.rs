@@ -303,7 +303,8 @@ impl GroundTree {
     /// Adds a node over some triangles, and those below it.
     fn grow_node(&mut self, items: &mut [TreeItem]) -> Result<u32> {
         let number = self.nodes.len();
-        let empty = [[f32::INFINITY; FOUR]; 3];
+        // Finite: a difference of infinite ends would be an invalid operation.
+        let empty = [[f32::MAX; FOUR]; 3];
         push(
             &mut self.nodes,
             GroundNode { lower: empty, upper: empty.map(|ends| ends.map(|x: f32| -x)), children: [NONE; FOUR] },
