@@ -41,6 +41,13 @@ fn widened(range: [f64; 2], by: [f64; 2]) -> [f64; 2] {
     [range[0].min(by[0]), range[1].max(by[1])]
 }
 
+/// The least and the greatest of heights. Out of line: inlined it is computed of a hole, too, before that is known, and the least of
+/// a NaN is an invalid operation.
+#[inline(never)]
+fn range_of([a, b, c, d]: [f64; 4]) -> [f64; 2] {
+    [a.min(b).min(c.min(d)), a.max(b).max(c.max(d))]
+}
+
 impl GridLevel {
     /// The level above one.
     fn above(below: &GridLevel) -> Result<GridLevel> {
@@ -209,7 +216,7 @@ impl GroundGrid {
     /// The least and the greatest height; [`EMPTY`] of a hole.
     fn range_of_cell(&self, row: usize, column: usize) -> [f64; 2] {
         let [a, b, c, d] = self.cell_heights(row, column);
-        if (a + b + c + d).is_nan() { EMPTY } else { [a.min(b).min(c.min(d)), a.max(b).max(c.max(d))] }
+        if (a + b + c + d).is_nan() { EMPTY } else { range_of([a, b, c, d]) }
     }
 
     /// The vertices of a triangle, all one of a hole.
@@ -316,21 +323,14 @@ impl GroundGrid {
             let [rows, columns] = self.cells(place);
             for i in rows[0].max(row)..rows[1].min(last_row + 1) {
                 for j in columns[0].max(column)..columns[1].min(last_column + 1) {
-                    let [a, b, c, d] = self.cell_heights(i, j);
-                    // False for a hole.
-                    let meets = |one: f64, other: f64, third: f64| {
-                        one.min(other).min(third) <= upper && lower <= one.max(other).max(third)
-                    };
-                    if (a + b + c + d).is_nan() {
+                    let [cell_least, cell_most] = self.range_of_cell(i, j);
+                    // False of a hole.
+                    if !(cell_least <= upper && lower <= cell_most) {
                         continue;
                     }
                     let first = 2 * (i * (self.columns - 1) + j) as u32;
-                    if meets(a, b, c) {
-                        visit(first)?;
-                    }
-                    if meets(a, c, d) {
-                        visit(first + 1)?;
-                    }
+                    visit(first)?;
+                    visit(first + 1)?;
                 }
             }
         }
