@@ -41,8 +41,8 @@ fn widened(range: [f64; 2], by: [f64; 2]) -> [f64; 2] {
     [range[0].min(by[0]), range[1].max(by[1])]
 }
 
-/// The least and the greatest of heights. Out of line: inlined it is computed of a hole, too, before that is known, and the least of
-/// a NaN is an invalid operation.
+/// The least and the greatest of heights. Out of line: inlined it is computed of a hole, too, and the least of a NaN is an invalid
+/// operation.
 #[inline(never)]
 fn range_of([a, b, c, d]: [f64; 4]) -> [f64; 2] {
     [a.min(b).min(c.min(d)), a.max(b).max(c.max(d))]
