@@ -132,6 +132,12 @@ struct GroundNode {
 }
 
 impl GroundNode {
+    /// The box of a child.
+    fn bounds(&self, lane: usize, units: &TreeUnits) -> NodeBounds {
+        let ends = |ends: &[[f32; FOUR]; 3]| Vector::from_fn(|k, _| units.place(k, ends[k][lane]));
+        NodeBounds { lower: ends(&self.lower), upper: ends(&self.upper) }
+    }
+
     /// The boxes of its children.
     fn boxes(&self, units: &TreeUnits) -> FourBoxes {
         let mut boxes = FourBoxes { lower: [[0.0; FOUR]; 3], upper: [[0.0; FOUR]; 3] };
@@ -274,7 +280,7 @@ impl GroundTree {
             let mut number = 0;
             if lane < FOUR {
                 let node = &self.nodes[parent as usize];
-                if !visit.goes_to(&node.boxes(&self.units).bounds(lane), key) {
+                if !visit.goes_to(&node.bounds(lane, &self.units), key) {
                     continue;
                 }
                 number = node.children[lane];
