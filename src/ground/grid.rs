@@ -381,11 +381,14 @@ impl GroundGrid {
             }
             let part = BoxPlace { level, row, column };
             let NodeBounds { lower, upper } = self.bounds_of(part);
+            // A box without triangles has infinite ends, whose differences are no numbers.
+            if lower.z > upper.z {
+                continue;
+            }
             for k in 0..3 {
                 (boxes.lower[k][at], boxes.upper[k][at]) = (lower[k], upper[k]);
             }
-            // False in a box without triangles.
-            *child = (lower.z <= upper.z).then_some(part);
+            *child = Some(part);
         }
         (children, boxes)
     }
