@@ -106,8 +106,7 @@ fn of_heights(u: &mut Unstructured, environment: Environment) -> Result<Option<S
         heights.push(any_number(u, &mut last)?);
     }
     let make = || Ground::from_heights(&HeightGrid { rows, columns, spacing, heights: &heights });
-    let is_grid =
-        rows > 1 && columns > 1 && spacing.iter().all(|&apart| (f64::MIN_POSITIVE..=LARGEST).contains(&apart));
+    let is_grid = rows > 1 && columns > 1 && spacing.iter().all(|apart| (2.0 * SMALLEST..=LARGEST).contains(apart));
     if !is_grid {
         assert!(matches!(make(), Err(Error::Argument(_))), "{spacing:?}");
         return Ok(None);
