@@ -5,11 +5,11 @@ Require Import constants lemmas.
 Open Scope R_scope.
 
 Ltac numbers := unfold u, turned_up, turned_down, offset_up, offset_down, raised_up, raised_down, product_up, product_down,
-  length_up, length_down, determinant_up, determinant_down, over_up, over_down, square_up, square_down,
+  length_up, length_down, determinant_up, determinant_down,
   difference_error_size_low, difference_error_separation_low, difference_error_length_low,
   lower_projection_low, lower_projection_high, lower_excess_high, lower_error_high, lower_distance_high,
   upper_distance_low, upper_error_low, upper_point_low, bound_LLL_low, bound_ELL_low, bound_EEL_low, bound_EEE_low,
-  far_Nhh_low, over_squared_oo_high, rigid_defect, rigid_together, rigid, end_up,
+  rigid_defect, rigid_together, rigid, end_up,
   lower_of_segments_least_low, lower_of_segments_least_high, lower_of_segments_size_high, lower_of_segments_separation_high,
   upper_of_segments_distance_low, upper_of_segments_size_low, upper_of_segments_separation_low, difference_x_p0_low, square_xx_low,
   inner_r1_high, limit_innerinner_high in *.
@@ -90,27 +90,6 @@ Proof.
   assert (D : 3 * (E*E*E) <= bound_EEE_low * (E*E*E)).
   { pose proof (square_is_positive E). apply Rmult_le_compat_r; [apply Rmult_le_pos; lra|numbers; lra]. }
   lra.
-Qed.
-
-(* Surface::is_beyond: what passes far <= over^2 proves n = N.v/|N| >= h - 10u M, for a corner no longer than M; all over |N|: sq is
-   the computed square over |N|^2, o the computed product over |N|. *)
-Lemma squares_are_far_enough : forall h n o sq kf ko M, 0 <= M -> 0 <= h <= M -> 0 < o -> 1 - square_down <= sq ->
-  far_Nhh_low <= kf -> ko <= over_squared_oo_high -> kf * sq * (h*h) <= ko * (o*o) -> o - n <= over_up * M -> h - n <= 10 * u * M.
-Proof.
-  intros h n o sq kf ko M HM Hh Ho Hs Kf Ko H E.
-  assert (A : far_Nhh_low * (1 - square_down) <= kf * sq) by (apply Rmult_le_compat; numbers; lra).
-  assert (Q : h <= (1 + 5 * u) * o).
-  { apply by_squares; [numbers; lra|].
-    pose proof (square_is_positive h). pose proof (square_is_positive o).
-    assert (B : far_Nhh_low * (1 - square_down) * (h*h) <= over_squared_oo_high * (o*o)).
-    { apply Rle_trans with (kf * sq * (h*h)); [apply Rmult_le_compat_r; assumption|].
-      apply Rle_trans with (ko * (o*o)); [assumption|apply Rmult_le_compat_r; assumption]. }
-    replace ((1 + 5*u) * o * ((1 + 5*u) * o)) with ((1 + 5*u) * (1 + 5*u) * (o*o)) by ring.
-    apply Rmult_le_reg_l with (far_Nhh_low * (1 - square_down)); [numbers; lra|].
-    apply Rle_trans with (over_squared_oo_high * (o*o)); [assumption|].
-    rewrite <- (Rmult_assoc _ ((1 + 5*u) * (1 + 5*u))). apply Rmult_le_compat_r; [assumption|numbers; lra]. }
-  destruct (Rle_dec h o); [numbers; lra|].
-  assert (o <= M) by lra. numbers. lra.
 Qed.
 
 (* RIGID_DEFECT: the form of the computed entries, and what measuring makes of them (Gappa: 2.5u on the diagonal in lanes, 3.5u in

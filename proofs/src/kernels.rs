@@ -85,14 +85,13 @@ type Named = (&'static str, fn() -> Found);
 
 /// All of them, run on a machine that fuses and on one that does not.
 pub fn all() -> Vec<Kernel> {
-    let on_lanes: [Named; 12] = [
+    let on_lanes: [Named; 11] = [
         ("difference", difference),
         ("rotate_back", rotate_back),
         ("rigid", rigid),
         ("certificate", certificate),
         ("enclosure", enclosure),
         ("planes", planes),
-        ("pyramid", pyramid),
         ("fan", fan),
         ("plane_values", plane_block),
         ("remainder", remainder),
@@ -379,63 +378,6 @@ fn edges_of(tape: &Tape, cross: [Node; 3]) -> [Node; 6] {
     let ([ey, gz], [ez, gy]) = factors(cross[0]);
     let ([_, gx], [ex, _]) = factors(cross[1]);
     [ex, ey, ez, gx, gy, gz]
-}
-
-/// [`Pyramid::prove`]: the direction of the base, and what is claimed of a side.
-fn pyramid() -> Found {
-    in_frame(|frame, _, found| {
-        let before = finished().claims.len();
-        // Of any four pairs in which the base's plane has the origin behind it: what is claimed need not hold.
-        for code in 0..4096 {
-            let [a, b, c, d, e, f] = [0, 2, 4, 6, 8, 10].map(|shift| code >> shift & 3);
-            if a == c || c == e || b == d || d == f || a == e || b == f {
-                continue;
-            }
-            let pyramid = Pyramid::new(&[[a, b], [c, d], [e, f]], [6 - a - c - e, 6 - b - d - f]);
-            let _ = pyramid.prove(frame, &PairRounding::of(frame));
-            if finished().claims.len() > before {
-                break;
-            }
-        }
-        let tape = finished();
-        let claims = &tape.claims[before..];
-        // Four of each kind; lane 1 is of a side.
-        let [positive, _least, determinant, far] = [0, 4, 8, 12].map(|first| claims[first + 1]);
-        assert_eq!((positive.relation, determinant.relation, far.relation), (">", ">", "<="));
-        found.claims = vec![positive, determinant, far];
-        let [over, _] = operands(determinant.left);
-        let [sizes, _] = operands(determinant.right);
-        let [flagged, _] = operands(far.left);
-        let [square, height] = operands(flagged);
-        let lengths = tape.operands(square).to_vec();
-        // N·N: its operands are the components of N.
-        let z = lengths[0];
-        let cross = if tape.op(square) == Op::Fma {
-            let [y, _, x] = operands(lengths[2]);
-            [operands::<2>(x)[0], y, z]
-        } else {
-            let [zz, rest] = operands(square);
-            let [yy, xx] = operands(rest);
-            [xx, yy, zz].map(|node| operands::<2>(node)[0])
-        };
-        // However the square sums them up: they were computed in the order x, y, z.
-        let mut cross = cross;
-        cross.sort_unstable();
-        let of_cross: Vec<(Node, &str)> = cross.into_iter().zip(["nx", "ny", "nz"]).collect();
-        let edges: Vec<(Node, &str)> =
-            edges_of(&tape, cross).into_iter().zip(["ex", "ey", "ez", "gx", "gy", "gz"]).collect();
-        for k in 0..3 {
-            found.value(&format!("cross{k}"), cross[k], &edges);
-        }
-        let [own, _] = operands(height);
-        found
-            .value("over", over, &with_factors(&tape, over, &of_cross))
-            .value("square", square, &of_cross)
-            .value("sizes", sizes, &edges);
-        found.value("height", height, &[(own, "h")]).value("far", far.left, &[(square, "N"), (own, "h")]);
-        found.value("over_squared", far.right, &[(over, "o")]);
-        found.value("determinant", determinant.right, &[(sizes, "s")]);
-    })
 }
 
 /// [`PlacedFan::place`]: a normal, how far the body reaches along it, a corner, and what a corner is deep below the plane.

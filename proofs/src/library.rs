@@ -16,7 +16,7 @@ pub use swiftprox::body::polyhedron::Polyhedron;
 pub use swiftprox::body::polyhedron::fan::PointBlock;
 pub use swiftprox::depth::facets::placed::PlacedFan;
 pub use swiftprox::depth::facets::{NODE, NORMAL, ON_ARC, SUPPORT};
-pub use swiftprox::depth::polytope::{HEIGHTS, PairRounding, Polytope, Pyramid, evaluate, heights, rounding};
+pub use swiftprox::depth::polytope::{HEIGHTS, PairRounding, Polytope, evaluate, heights, rounding};
 pub use swiftprox::distance::certificate::{
     DIRECTION_ERROR, Interval, REMAINDER, RIGID_MISFIT, beside, beside_one, ends, reciprocal_length,
 };

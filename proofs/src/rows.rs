@@ -77,10 +77,9 @@ pub fn rows(kernels: &[Kernel]) -> Vec<Row> {
     let distance = -to_double(&(&interval_lower[&vec!["distance".to_string()]].high / unit_roundoff()));
     let determinant = most("enclosure", &["determinant0", "determinant1", "determinant2", "determinant3"]);
     let bound = of("determinant_error", "bound");
-    let cross = most("planes", &["cross0", "cross1", "cross2"]).max(most("pyramid", &["cross0", "cross1", "cross2"]));
-    let over = most("planes", &["over"]).max(most("pyramid", &["over"]));
+    let cross = most("planes", &["cross0", "cross1", "cross2"]);
+    let over = most("planes", &["over"]);
     let unit = most("planes", &["normal"]);
-    let squares = most("pyramid", &["far"]) + most("pyramid", &["square"]) + most("pyramid", &["over_squared"]);
     let placed = most("fan", &["normal0", "normal1", "normal2"]);
     let corner = most("fan", &["corner0", "corner1", "corner2"]);
     let summed = most("fan", &["point0", "point1", "point2"]);
@@ -195,7 +194,6 @@ pub fn rows(kernels: &[Kernel]) -> Vec<Row> {
         row("enclosure", "a determinant, of W³", low(&bound, &["L", "L", "L"]), determinant * root2, "C, Coq"),
         row("polytope `plane`", "of M", of_plane / 1.02, over + unit, "C"),
         row("polytope `determinant`", "of M\\|e\\|\\|g\\|", of_plane / 1.02, (cross + 2.0) * root2 + over, "C"),
-        row("pyramid, squares", "of M", of_plane / 1.02, over + squares / 2.0, "C, Coq"),
         row("facets `NORMAL`", "of \\|n\\|", NORMAL / U, RIGID_DEFECT / U + placed * FROBENIUS + 2.5, "C"),
         row(
             "facets `NODE`",

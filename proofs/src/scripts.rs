@@ -360,8 +360,6 @@ fn constants(kernels: &[Kernel]) -> String {
             "bound",
             vec![vec!["L", "L", "L"], vec!["E", "L", "L"], vec!["E", "E", "L"], vec!["E", "E", "E"]],
         ),
-        ("pyramid_plain", "far", vec![vec!["N", "h", "h"]]),
-        ("pyramid_plain", "over_squared", vec![vec!["o", "o"]]),
         ("round_ends", "lower_of_segments", vec![vec!["least"], vec!["size"], vec!["separation"]]),
         ("round_ends", "upper_of_segments", vec![vec!["distance"], vec!["size"], vec!["separation"]]),
         ("balls", "difference_x", vec![vec!["p0"]]),
@@ -385,8 +383,6 @@ fn constants(kernels: &[Kernel]) -> String {
         ("product", "certificate", &["projection"]),
         ("length", "certificate", &["distance"]),
         ("determinant", "enclosure", &["determinant0", "determinant1", "determinant2", "determinant3"]),
-        ("over", "pyramid", &["over"]),
-        ("square", "pyramid", &["square"]),
     ] {
         let mut span: Option<[RBig; 2]> = None;
         for form in ["fused", "plain"] {

@@ -162,25 +162,6 @@ pub fn features_of_pairs(
     })
 }
 
-/// Whether a feature, which the body need not have, is one that [`features_of_pairs`] may report for three vertices: it is made
-/// of them all.
-#[inline(always)]
-pub fn is_feature_of(polyhedron: &Polyhedron, feature: FeatureId, vertices: [u32; 3]) -> bool {
-    match feature {
-        FeatureId::Vertex(v) => vertices == [v; 3],
-        FeatureId::Edge(e) => polyhedron.edges.get(e as usize).is_some_and(|edge| {
-            let ends = [edge.tail(), edge.head()];
-            let [a, b, c] = vertices.map(|v| u32::from(v == ends[0]) | u32::from(v == ends[1]) << 1);
-            (a > 0) & (b > 0) & (c > 0) & (a | b | c == 0b11)
-        }),
-        FeatureId::Face(f) => polyhedron.faces.get(f as usize).is_some_and(|face| {
-            let off = |v: u32| face.planes.value(0, &polyhedron.vertices[v as usize].position).abs();
-            let [a, b, c] = vertices.map(off);
-            a.max(b).max(c) <= rounding(polyhedron)
-        }),
-    }
-}
-
 /// The feature that holds a convex combination of vertices, as [`features_of_pairs`] has it; `towards` in the body's axes.
 pub fn feature_of_vertices(
     polyhedron: &Polyhedron,

@@ -1,14 +1,14 @@
-//! The pair's cache of its depth: the polytope that proved it, packed, or the nearest facet of two small bodies, and the pyramids
+//! The pair's cache of its depth: the polytope that proved it, packed, or the nearest facet of two small bodies, and the facet
 //! of a pair at rest. Only this module packs and unpacks it.
 
 use crate::base::math::Vector;
 use crate::base::simd::Lanes;
 use crate::body::polyhedron::Polyhedron;
 use crate::depth::facets::Facet;
-use crate::depth::polytope::{Polytope, Pyramid, SearchStart};
+use crate::depth::polytope::{Polytope, SearchStart};
 use crate::placed::exact::VertexPair;
 use crate::placed::frame::Frame;
-use crate::placed::state::{FeatureId, State};
+use crate::placed::state::State;
 
 /// Vertices of a polytope that is kept.
 const MOST_VERTICES: usize = 56;
@@ -21,19 +21,11 @@ const MOST_TRIANGLES: usize = 108;
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(C)]
 pub struct DepthCache {
-    /// In how many searches to come no pyramid is raised, unless the last one is worth it.
-    waits: u8,
-    /// How many pyramids in a row came to nothing.
-    failures: u8,
-    /// How many depths pyramids have proved since one was raised last.
-    proved: u16,
     /// Where no polytope is kept, the single-precision bits of the direction of the least overlap, in body 1's axes.
     direction: [u32; 3],
-    /// The facet of least overlap of a pair that seems to rest: its kind, 0 for none, and its indices. For swept bodies whose
+    /// The facet of least overlap of a pair that seems to rest, by its [words](Facet::words); 0 for none. For swept bodies whose
     /// polyhedra were apart, the nearest features: [`APART`] more than the kind of their state. The bodies need not have either.
     resting: [u32; 3],
-    /// The facets that proved the depth where the pair rested and no facet did, the last one that did first.
-    pyramids: [KeptPyramid; PYRAMIDS],
     /// The vertices. Coordinates are computed anew: what is stored could lie. Of a facet, the indices are the first pair, and the
     /// next two have the bits of its direction in body 2's axes.
     pairs: [VertexPair; MOST_VERTICES],
@@ -47,35 +39,6 @@ pub struct DepthCache {
 /// Vertices in no triangle that are kept all the same: to find them takes longer.
 const MOST_UNUSED: usize = 6;
 
-/// Pyramids of a pair: where it rocks from one facet to another both stay. A third is rarely of use.
-pub const PYRAMIDS: usize = 2;
-
-/// Searches of a pair that seems to rest in which no pyramid is raised after one was, or two came to nothing, as where bodies touch
-/// along edges of both …
-const WAITS: u8 = 15;
-
-/// … unless the last has proved this many depths since: raising one takes about as long as three searches.
-const WORTH: u16 = 4;
-
-/// A pyramid, and which features held the witness points when it proved a depth.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
-#[repr(C)]
-struct KeptPyramid {
-    pyramid: Pyramid,
-    /// Indices of features; [`Pyramid::mark`] tells of which kinds, and in which triangle the points were.
-    features: [u32; 2],
-}
-
-/// Kinds of features in a mark, of two bits for each body; the triangle is above them. So a mark that is made is not 0.
-const VERTEX: u8 = 1;
-const EDGE: u8 = 2;
-const FACE: u8 = 3;
-
-/// Kinds of facets: fewer than the vertices of any polytope.
-const FACE_OF_FIRST: u8 = 1;
-const FACE_OF_SECOND: u8 = 2;
-const EDGES: u8 = 3;
-
 /// Beyond all kinds of facets.
 const APART: u32 = 16;
 
@@ -88,12 +51,8 @@ type PackedTriangle = [u8; 3];
 impl Default for DepthCache {
     fn default() -> Self {
         DepthCache {
-            waits: 0,
-            failures: 0,
-            proved: 0,
             direction: [0; 3],
             resting: [0; 3],
-            pyramids: [KeptPyramid::default(); PYRAMIDS],
             pairs: [[0; 2]; MOST_VERTICES],
             triangles: [[0; 3]; MOST_TRIANGLES],
             counts: [0; 4],
@@ -167,13 +126,9 @@ impl DepthCache {
     /// The facet that was the nearest; the bodies need not have it.
     #[inline(always)]
     pub fn facet(&self) -> Option<Facet> {
-        let edges @ [first, _] = self.pairs[0];
-        match self.counts {
-            [FACE_OF_FIRST, 0, _, 0] => Some(Facet::Face(0, first)),
-            [FACE_OF_SECOND, 0, _, 0] => Some(Facet::Face(1, first)),
-            [EDGES, 0, _, 0] => Some(Facet::Edges(edges)),
-            _ => None,
-        }
+        let [first, second] = self.pairs[0];
+        let [kind, 0, _, 0] = self.counts else { return None };
+        Facet::of_words([kind.into(), first, second])
     }
 
     /// Keeps the nearest facet and its direction, and no polytope.
@@ -181,12 +136,8 @@ impl DepthCache {
     pub fn keep_facet<L: Lanes>(&mut self, frame: &Frame<L>, facet: Facet, direction: &Vector, overlap: bool) {
         self.remember(frame, direction);
         let [x, y, z] = bits(frame.bodies[1].rotate_vector_back(direction).to_vector());
-        let (kind, pair) = match facet {
-            Facet::Face(0, face) => (FACE_OF_FIRST, [face, 0]),
-            Facet::Face(_, face) => (FACE_OF_SECOND, [face, 0]),
-            Facet::Edges(edges) => (EDGES, edges),
-        };
-        (self.counts, self.pairs[0]) = ([kind, 0, u8::from(overlap), 0], pair);
+        let [kind, first, second] = facet.words();
+        (self.counts, self.pairs[0]) = ([kind as u8, 0, u8::from(overlap), 0], [first, second]);
         (self.pairs[1], self.pairs[2]) = ([x, y], [z, 0]);
     }
 
@@ -201,23 +152,13 @@ impl DepthCache {
     /// The facet of least overlap of a pair that seems to rest; the bodies need not have it.
     #[inline(always)]
     pub fn resting(&self) -> Option<Facet> {
-        let [kind, first, second] = self.resting;
-        match u8::try_from(kind) {
-            Ok(FACE_OF_FIRST) => Some(Facet::Face(0, first)),
-            Ok(FACE_OF_SECOND) => Some(Facet::Face(1, first)),
-            Ok(EDGES) => Some(Facet::Edges([first, second])),
-            _ => None,
-        }
+        Facet::of_words(self.resting)
     }
 
     /// Keeps the facet of least overlap of a pair that seems to rest.
     #[inline(always)]
     pub fn rest_on(&mut self, facet: Facet) {
-        self.resting = match facet {
-            Facet::Face(0, face) => [u32::from(FACE_OF_FIRST), face, 0],
-            Facet::Face(_, face) => [u32::from(FACE_OF_SECOND), face, 0],
-            Facet::Edges([first, second]) => [u32::from(EDGES), first, second],
-        };
+        self.resting = facet.words();
     }
 
     /// The nearest features of polyhedra that were apart; the bodies need not have them.
@@ -240,81 +181,10 @@ impl DepthCache {
         self.resting = [0; 3];
     }
 
-    /// Whether a search may raise a pyramid. It is asked once in each search of a pair that seems to rest.
-    #[inline(always)]
-    pub fn may_raise(&mut self) -> bool {
-        let may = self.waits == 0 || self.proved >= WORTH;
-        self.waits = self.waits.min(WAITS).saturating_sub(1);
-        may
-    }
-
-    /// A pyramid was raised, or the attempt failed. The other one stays behind it.
-    #[inline(always)]
-    pub fn raised(&mut self, pyramid: Option<&Pyramid>) {
-        self.failures = if pyramid.is_some() { 0 } else { self.failures.saturating_add(1) };
-        (self.waits, self.proved) = (if self.failures == 1 { 0 } else { WAITS }, 0);
-        if let Some(pyramid) = pyramid {
-            self.pyramids = [KeptPyramid { pyramid: *pyramid, features: [0; 2] }, self.pyramids[0]];
-        }
-    }
-
-    /// A kept pyramid proved a depth.
-    #[inline(always)]
-    pub fn has_proved(&mut self) {
-        self.proved = self.proved.saturating_add(1);
-    }
-
     /// Whether a polytope is kept, of these bodies or of others.
     #[inline(always)]
     pub fn has_polytope(&self) -> bool {
         self.counts[1] > 0
-    }
-
-    /// Whether a pyramid is kept, of these bodies or of others.
-    #[inline(always)]
-    pub fn has_pyramid(&self) -> bool {
-        self.pyramids[0].pyramid.is_there()
-    }
-
-    /// A kept pyramid; it need not be one of these bodies.
-    #[inline(always)]
-    pub fn pyramid(&self, place: usize) -> &Pyramid {
-        &self.pyramids[place].pyramid
-    }
-
-    /// Keeps a pyramid in the place of another.
-    pub fn replace_pyramid(&mut self, place: usize, pyramid: &Pyramid) {
-        self.pyramids[place] = KeptPyramid { pyramid: *pyramid, features: [0; 2] };
-    }
-
-    /// A kept pyramid comes first.
-    #[inline(always)]
-    pub fn put_first(&mut self, place: usize) {
-        if place > 0 {
-            self.pyramids.swap(0, place);
-        }
-    }
-
-    /// The features that held the points of the first pyramid in one of its triangles; the bodies need not have them.
-    #[inline(always)]
-    pub fn features(&self, triangle: u8) -> Option<[FeatureId; 2]> {
-        let KeptPyramid { pyramid: Pyramid { mark, .. }, features: [first, second] } = self.pyramids[0];
-        if mark >> 4 != triangle {
-            return None;
-        }
-        Some([feature(mark & 3, first)?, feature(mark >> 2 & 3, second)?])
-    }
-
-    /// Keeps the features that hold the points of the first pyramid in one of its triangles.
-    pub fn keep_features(&mut self, triangle: u8, features: [FeatureId; 2]) {
-        let [(kind1, first), (kind2, second)] = features.map(|feature| match feature {
-            FeatureId::Vertex(index) => (VERTEX, index),
-            FeatureId::Edge(index) => (EDGE, index),
-            FeatureId::Face(index) => (FACE, index),
-        });
-        let kept = &mut self.pyramids[0];
-        kept.features = [first, second];
-        kept.pyramid.mark = triangle << 4 | kind2 << 2 | kind1;
     }
 
     /// The polytope that it holds stays, with another direction of least overlap.
@@ -400,15 +270,4 @@ fn bits(direction: Vector) -> [u32; 3] {
 fn number([x, y, z]: [u32; 3]) -> Vector {
     let [x, y, z] = [f32::from_bits(x), f32::from_bits(y), f32::from_bits(z)];
     Vector::new(x.into(), y.into(), z.into())
-}
-
-/// A feature by its kind and index.
-#[inline(always)]
-fn feature(kind: u8, index: u32) -> Option<FeatureId> {
-    match kind {
-        VERTEX => Some(FeatureId::Vertex(index)),
-        EDGE => Some(FeatureId::Edge(index)),
-        FACE => Some(FeatureId::Face(index)),
-        _ => None,
-    }
 }

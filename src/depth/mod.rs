@@ -1,13 +1,13 @@
 //! How deep two objects are in each other: an interval that holds the least translation that parts them, and where.
 //!
-//! Floating point searches and proves: for pairs at rest by the earlier facet or pyramid, else for small bodies by all facets,
-//! `facets/`, else by `polytope/`. Integers decide what rounding hides at the ends: objects that touch, flat ones in
+//! Floating point searches and proves: for pairs at rest by the earlier facet, else for small bodies by all facets, `facets/`, else
+//! by `polytope/`. Integers decide what rounding hides at the ends: objects that touch, flat ones in
 //! one plane, objects that hardly overlap.
 
 #[doc(hidden)]
-pub mod facets;
-#[doc(hidden)]
 pub mod polytope;
+#[doc(hidden)]
+pub mod facets;
 mod answer;
 mod cache;
 mod scaling;
@@ -20,18 +20,17 @@ use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::simd;
 use crate::base::simd::environment::with_default;
-use crate::depth::facets::Overlap;
-use crate::depth::polytope::{Expansion, Polytope, PolytopeWitness, Pyramid};
+use crate::depth::facets::{Facet, Overlap};
+use crate::depth::polytope::{Expansion, Polytope, PolytopeWitness};
 use crate::placed::Pair;
 use crate::shape::Placed;
 pub use answer::{DepthAnswer, DepthConfig, DepthEnding, DepthStatistics};
 pub use cache::DepthCache;
-pub(crate) use cache::PYRAMIDS;
 use filling::fill;
 pub(crate) use proof::{ProofFrom, proof};
 pub(crate) use resting::{DepthPlaces, prove_at_rest};
 use scaling::Rescaled;
-pub(crate) use search::Pyramids;
+pub(crate) use search::KeptFacets;
 use search::{ClosedSurface, DepthQuery, DepthSearch, FoundPolytope};
 
 /// How deep two polyhedra are in each other.
@@ -56,9 +55,9 @@ fn answer_query(
 ) -> Result<()> {
     config.check()?;
     let pair = Pair::of(bodies);
-    let pyramids = Pyramids::AtRest;
+    let keeps = KeptFacets::AtRest;
     let mut overlap = Overlap::NONE;
-    let query = &mut DepthQuery { pair, config, cache, answer, pyramids, overlap: &mut overlap };
+    let query = &mut DepthQuery { pair, config, cache, answer, keeps, overlap: &mut overlap };
     let mut found = simd::dispatch_to_avx2(query);
     if found.is_none() {
         pair.poses.iter().try_for_each(|pose| pose.check())?;
@@ -67,12 +66,12 @@ fn answer_query(
     fill(answer, &pair, found.as_ref(), &overlap)
 }
 
-/// Along which direction two bodies that intersect overlap least, for poses that are accepted: a depth from nothing. And the
-/// pyramid that proves it with the triangle that holds its points, if one is requested and there is one.
+/// Along which direction two bodies that intersect overlap least, for poses that are accepted: a depth from nothing. And the facet
+/// that proves it alone, if one is kept.
 ///
 /// # Errors
 /// [`Error::Memory`](crate::base::error::Error::Memory) where integers get none.
-pub(crate) fn deepest(pair: &Pair, pyramids: Pyramids) -> Result<(DepthAnswer, Option<(Pyramid, u8)>)> {
+pub(crate) fn deepest(pair: &Pair, keeps: KeptFacets) -> Result<(DepthAnswer, Option<Facet>)> {
     let (mut cache, config, mut answer) = (DepthCache::default(), DepthConfig::default(), DepthAnswer::default());
     let mut overlap = Overlap::NONE;
     let mut found = simd::dispatch_to_avx2(&mut DepthQuery {
@@ -80,19 +79,15 @@ pub(crate) fn deepest(pair: &Pair, pyramids: Pyramids) -> Result<(DepthAnswer, O
         config: &config,
         cache: &mut cache,
         answer: &mut answer,
-        pyramids,
+        keeps,
         overlap: &mut overlap,
     });
-    let mut raised = None;
-    if found.is_some() && cache.has_pyramid() {
-        let pyramid = cache.pyramid(0);
-        raised = resting::triangle_of(pair, pyramid).map(|triangle| (*pyramid, triangle));
-    }
+    let facet = cache.resting();
     if found.is_none() {
         found = search_rescaled(pair, &config, &mut cache)?;
     }
     fill(&mut answer, pair, found.as_ref(), &overlap)?;
-    Ok((answer, raised))
+    Ok((answer, facet))
 }
 
 /// The triangles of the closed polytope with which a search from nothing ends: corners as differences of points of both bodies, in
@@ -117,8 +112,8 @@ fn search_rescaled(pair: &Pair, config: &DepthConfig, cache: &mut DepthCache) ->
     let config = DepthConfig { absolute_error: copies.in_unit(config.absolute_error), ..*config };
     let pair = copies.pair();
     let (mut unused, mut overlap) = (DepthAnswer::default(), Overlap::NONE);
-    let (config, answer, pyramids) = (&config, &mut unused, Pyramids::Unused);
-    let query = &mut DepthQuery { pair, config, cache, answer, pyramids, overlap: &mut overlap };
+    let (config, answer, keeps) = (&config, &mut unused, KeptFacets::None);
+    let query = &mut DepthQuery { pair, config, cache, answer, keeps, overlap: &mut overlap };
     // Copies have no fan.
     let Some(DepthSearch::Polytope(found)) = simd::dispatch_to_avx2(query) else { return Ok(None) };
     let FoundPolytope { expansion, witness, .. } = found;

@@ -13,8 +13,6 @@ use crate::placed::frame::Frame;
 /// The source of a proof of a depth.
 #[derive(Clone, Copy)]
 pub enum ProofFrom<'a> {
-    /// A pyramid that a cache holds.
-    Pyramid(&'a DepthCache, usize),
     /// The polytope that a cache holds.
     Cache(&'a DepthCache),
     /// A search like that of a query whose polytope is too large to be kept, for a lower end of at least so much.
@@ -34,7 +32,7 @@ pub fn proof(pair: &Pair, from: ProofFrom) -> Result<Vec<[VertexPair; 3]>> {
     }
     let Some(copies) = Rescaled::of(pair)? else { return Ok(Vec::new()) };
     let from = match from {
-        ProofFrom::Pyramid(..) | ProofFrom::Cache(_) => from,
+        ProofFrom::Cache(_) => from,
         ProofFrom::Search(lower) => ProofFrom::Search(copies.in_unit(lower)),
     };
     let found = simd::dispatch_to_avx2(&mut Proof { pair: copies.pair(), from });
@@ -58,7 +56,6 @@ impl Kernel for Proof<'_> {
         }
         let mut polytope = Polytope::<255, 508>::EMPTY;
         match self.from {
-            ProofFrom::Pyramid(cache, place) => return Some(cache.pyramid(place).triangles(&frame)),
             ProofFrom::Cache(cache) => {
                 cache.unpack(&frame, &mut polytope);
             }

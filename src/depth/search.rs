@@ -1,8 +1,8 @@
-//! The search in floating point: the pyramid at rest is looked at first, then all facets of small bodies, else a polytope.
+//! The search in floating point: the facet of a pair at rest is looked at first, then all facets of small bodies, else a polytope.
 
 use super::answer::{DepthAnswer, DepthConfig};
 use super::cache::DepthCache;
-use super::resting::{self, LeastFacet};
+use super::resting::{LeastFacet, look_at_facet};
 use crate::base::math::{UNIT_ROUNDOFF, Vector};
 use crate::base::simd::{Kernel, Lanes, Work};
 use crate::body::polyhedron::fan::Fan;
@@ -18,18 +18,18 @@ pub struct DepthQuery<'a> {
     pub pair: Pair<'a>,
     pub config: &'a DepthConfig,
     pub cache: &'a mut DepthCache,
-    /// Filled where a pyramid answers.
+    /// Filled where the facet of a pair at rest answers.
     pub answer: &'a mut DepthAnswer,
-    pub pyramids: Pyramids,
+    pub keeps: KeptFacets,
     /// Filled where all facets answer, or find that the bodies are apart.
     pub overlap: &'a mut Overlap,
 }
 
-/// When a pyramid is raised for later queries.
+/// Whose facets of least overlap are kept for later queries.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Pyramids {
-    /// None is raised or looked at.
-    Unused,
+pub enum KeptFacets {
+    /// None is kept or looked at.
+    None,
     /// For pairs that seem to rest.
     AtRest,
     /// For all that are hardly in each other.
@@ -73,7 +73,7 @@ const MOST_TRIANGLES: usize = 124;
 
 /// The result of one search or the other.
 pub enum DepthSearch {
-    /// An earlier pyramid: the answer is already complete.
+    /// An earlier facet: the answer is already complete.
     Answered,
     /// All facets: the query's overlap.
     Facets,
@@ -120,28 +120,19 @@ impl Kernel for DepthQuery<'_> {
         if !(frame.in_range && is_in_scale(self.pair.polyhedra)) {
             return None;
         }
-        let is_new = self.pyramids == Pyramids::Unused;
-        if !is_new
-            && (resting::look_at_facet(&frame, self.cache, self.answer)
-                || resting::look_at_pyramids(&frame, self.pair.poses, self.cache, self.answer))
-        {
+        if self.keeps != KeptFacets::None && look_at_facet(&frame, self.cache, self.answer) {
             return Some(DepthSearch::Answered);
         }
         let before = self.cache.direction(&frame);
         let found = self.search_anew(&frame)?;
-        let facet = self.facet_of(&found);
-        let rests = facet.as_ref().is_some_and(|facet| facet.rests(before, frame.size));
-        if !rests {
-            self.cache.rest_no_more();
-        }
-        if let Some(facet) = facet
-            && match self.pyramids {
-                Pyramids::Unused => false,
-                Pyramids::AtRest => rests && !self.learn(&frame, &facet) && self.cache.may_raise(),
-                Pyramids::Shallow => facet.is_shallow(frame.size),
-            }
-        {
-            resting::raise(&frame, self.cache, facet);
+        let facet = self.facet_of(&found).filter(|facet| match self.keeps {
+            KeptFacets::None => false,
+            KeptFacets::AtRest => facet.rests(before, frame.size),
+            KeptFacets::Shallow => facet.is_shallow(frame.size),
+        });
+        self.cache.rest_no_more();
+        if let Some(facet) = facet {
+            self.learn(&frame, &facet);
         }
         Some(found)
     }
@@ -197,15 +188,17 @@ impl<L: Lanes> Work for ByPolytope<'_, '_, L> {
 }
 
 impl<'a> DepthQuery<'a> {
-    /// Keeps the facet of a pair that seems to rest, if it alone proves a depth; whether it does.
+    /// Keeps a facet, if it or one near it alone proves a depth.
     #[inline(always)]
-    fn learn<L: Lanes>(&mut self, frame: &Frame<L>, found: &LeastFacet) -> bool {
-        let known = found.facet.or_else(|| facets::across(frame, &found.direction));
-        match known.map(|facet| facets::prove(frame, facet)) {
-            Some(Ok(proved)) => self.cache.rest_on(proved.facet),
-            Some(Err(_)) | None => self.cache.rest_no_more(),
+    fn learn<L: Lanes>(&mut self, frame: &Frame<L>, found: &LeastFacet) {
+        let known = match found.facet {
+            Some(facet) => Some(facet),
+            None => facets::across(frame, &found.direction, found.farthest),
+        };
+        let Some(facet) = known else { return };
+        if let Ok(proved) = facets::prove(frame, facet) {
+            self.cache.rest_on(proved.facet);
         }
-        self.cache.resting().is_some()
     }
 
     /// `None` where the search was not sure of one.
@@ -339,8 +332,8 @@ impl ClosedSurface<'_> {
     fn is_kept<L: Lanes>(&mut self, frame: &Frame<L>, relative_error: f64) -> bool {
         let config = &DepthConfig { relative_error, ..DepthConfig::default() };
         let (mut cache, mut overlap, answer) = (DepthCache::default(), Overlap::NONE, &mut DepthAnswer::default());
-        let (pair, pyramids) = (*self.pair, Pyramids::Unused);
-        let query = &mut DepthQuery { pair, config, cache: &mut cache, answer, pyramids, overlap: &mut overlap };
+        let (pair, keeps) = (*self.pair, KeptFacets::None);
+        let query = &mut DepthQuery { pair, config, cache: &mut cache, answer, keeps, overlap: &mut overlap };
         let found = L::out_of_line(&mut ByPolytope { query, frame });
         let is_proved = matches!(found, Some(DepthSearch::Polytope(found)) if found.expansion.lower > 0.0);
         is_proved && cache.unpack(frame, &mut self.polytope).triangle.is_some()

@@ -3,17 +3,17 @@
 //! facet of before proves the depth first.
 //!
 //! A corner on a side counts as inside, and no side crosses where it ends: so equal faces in line have their corners in common.
-//! Skewed rotations, many corners, corners nearly on a side and witness points that no corner is as deep as are left to the
-//! [overlay](super::overlay) and [the sweep](super::clip).
+//! Many corners, corners nearly on a side and witness points that no corner is as deep as are left to
+//! [the sweep](super::clip).
 
 use super::answer::{FOUR, Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint, Reference};
 use super::id::id_of;
 use super::outline::STEEPEST;
-use super::overlay::DOUBT;
 use super::patch::{COINCIDENT, Facing, PARALLEL, Patch, Patches, STICKY, STICKY_INCIDENT, choose, facing};
 use super::places::{key_of_crossing, key_of_vertex};
 use super::reduction::{Place, four_of};
 use super::sink::Sink;
+use super::steady::is_thin;
 use super::witness::push_witness;
 use crate::answer::{Feature, FeatureKind, Outcome};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
@@ -36,6 +36,9 @@ const MOST: usize = 32;
 const ONE: usize = 1;
 const FEW: usize = 2;
 const MANY: usize = MOST / 4;
+
+/// Within this many times what counts as one place, the sweep takes two corners for one.
+const DOUBT: f64 = 4.0;
 
 /// Corners nearer to a side than this part of what is too near to tell are on it: a quarter of what the sweep makes one.
 const ON: f64 = 0.0625;
@@ -174,6 +177,31 @@ fn is_steep<L: Lanes>(frame: &Frame<L>, i: usize, towards: L) -> bool {
     most_parallel(frame, i, towards).is_some_and(|most| most < PARALLEL)
 }
 
+/// The query of a pair whose contact and patches are known. (Thin bodies have their points named by the sweep.)
+pub struct Clipping<'a, 'b, 'c> {
+    pub bodies: &'a [Placed<'a>; 2],
+    pub contact: &'a SignedDistance,
+    pub patches: &'a Patches,
+    pub writing: &'a mut Writing<'b, 'c>,
+}
+
+impl Kernel for Clipping<'_, '_, '_> {
+    type Output = Option<usize>;
+
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> Option<usize> {
+        let [body1, body2] = self.bodies;
+        let polyhedra = [body1.shape.polyhedron(), body2.shape.polyhedron()];
+        let frame = Frame::<L>::new(&Pair { polyhedra, poses: [body1.pose, body2.pose] });
+        if !(frame.in_range && is_in_scale(polyhedra)) || is_thin(polyhedra[0]) || is_thin(polyhedra[1]) {
+            return None;
+        }
+        let direction = L::from_vector(&self.contact.normal.into()).negate();
+        let along = ContactNormal { direction, upper: self.contact.upper };
+        self.writing.clip(&frame, &along, self.patches)
+    }
+}
+
 /// The normal of a contact.
 pub struct ContactNormal<L> {
     /// The unit vector out of body 1.
@@ -244,14 +272,14 @@ impl<const F: usize> Slid<F> {
         doubt: f64,
     ) -> Option<()> {
         let (own, other) = (&frame.bodies[body], &frame.bodies[1 - body]);
-        let (normal, towards) = (L::from_vector(plane.normal), own.rotate_back(out));
+        let (normal, towards) = (L::from_vector(plane.normal), own.turn_back(out));
         let cosine = normal.dot(towards);
         if !(cosine > STEEPEST) {
             return None;
         }
         self.stretch = 1.0 / cosine;
         let [x, y, z] = other.columns();
-        let columns = [own.rotate_back(x), own.rotate_back(y), own.rotate_back(z), own.rotate_back(other.offset)];
+        let columns = [own.turn_back(x), own.turn_back(y), own.turn_back(z), own.turn_back(other.offset)];
         let per = self.stretch;
         let gap = [
             normal.dot(columns[0]) * per,
@@ -299,7 +327,11 @@ impl<const F: usize> Slid<F> {
             self.on_more |= self.on_any & masks.on;
             self.on_any |= masks.on;
         }
-        if self.on_any & !self.of_any == 0 { Some(()) } else { self.move_onto(plane, &towards.to_vector(), doubt) }
+        if self.on_any & !self.of_any == 0 {
+            Some(())
+        } else {
+            self.move_onto(plane, &own.rotate_back(out).to_vector(), doubt)
+        }
     }
 
     /// Moves places that are on sides, and may be a little outside, to those sides or their corners: no plane is taken beyond its
@@ -379,13 +411,42 @@ struct PatchCorners<'a> {
     count: usize,
 }
 
+/// Room for the corners of a face of a body that has no outlines.
+struct FourCorners {
+    block: [PointBlock; 1],
+    vertices: [[u32; 4]; 1],
+}
+
+impl FourCorners {
+    const NONE: FourCorners =
+        FourCorners { block: [PointBlock { x: [0.0; 4], y: [0.0; 4], z: [0.0; 4] }], vertices: [[0; 4]] };
+
+    #[cold]
+    fn fill(&mut self, polyhedron: &Polyhedron, face: u32, count: usize) {
+        let ([block], [vertices]) = (&mut self.block, &mut self.vertices);
+        for lane in 0..4 {
+            vertices[lane] = polyhedron.corner(face, lane.min(count - 1) as u32);
+            let position = polyhedron.vertices[vertices[lane] as usize].position;
+            (block.x[lane], block.y[lane], block.z[lane]) = (position.x, position.y, position.z);
+        }
+    }
+}
+
 impl<'a> PatchCorners<'a> {
-    /// `None` of patches of many corners, and of bodies that have no outlines.
+    /// `None` of patches of many corners, of flat bodies, and of large ones' that have more than four.
     #[inline(always)]
-    fn of(polyhedron: &'a Polyhedron, facing: Option<Facing>) -> Option<PatchCorners<'a>> {
+    fn of(polyhedron: &'a Polyhedron, facing: Option<Facing>, room: &'a mut FourCorners) -> Option<PatchCorners<'a>> {
         let patch = facing?.patch;
         let (count, normal) = (patch.corner_count(polyhedron), patch.normal(polyhedron));
-        let (blocks, vertices) = polyhedron.outlines.corners(patch.number(polyhedron));
+        let (mut blocks, mut vertices) = polyhedron.outlines.corners(patch.number(polyhedron));
+        if let Patch::Merged(face) = patch
+            && polyhedron.outlines.is_empty()
+            && polyhedron.outlines.shortest > 0.0
+            && count <= 4
+        {
+            room.fill(polyhedron, face, count);
+            (blocks, vertices) = (&room.block, &room.vertices);
+        }
         let (offset, slack, thickness) = match patch {
             Patch::Merged(face) => {
                 let record = &polyhedron.faces[face as usize];
@@ -393,7 +454,7 @@ impl<'a> PatchCorners<'a> {
             }
             Patch::Contact(face) => {
                 let record = &polyhedron.contact_faces.faces[face as usize];
-                // R makes nothing longer than by 30u.
+                // R makes nothing longer than by 30u, or as [`Seen::stretch`] has it.
                 (-record.middle, 0.0, record.slack * (1.0 + 64.0 * U))
             }
         };
@@ -527,7 +588,11 @@ impl Writing<'_, '_> {
     fn clip<L: Lanes>(&mut self, frame: &Frame<L>, along: &ContactNormal<L>, patches: &Patches) -> Option<usize> {
         let Patches { facing, reference } = *patches;
         let polyhedra = frame.polyhedra();
-        let corners = [PatchCorners::of(polyhedra[0], facing[0])?, PatchCorners::of(polyhedra[1], facing[1])?];
+        let (mut room1, mut room2) = (FourCorners::NONE, FourCorners::NONE);
+        let corners = [
+            PatchCorners::of(polyhedra[0], facing[0], &mut room1)?,
+            PatchCorners::of(polyhedra[1], facing[1], &mut room2)?,
+        ];
         let size = frame.size + frame.separation;
         let coincident = (2.0 * (corners[0].thickness + corners[1].thickness)).max(COINCIDENT * size);
         // The sweep makes one of corners that are nearer. Seen along the normal, a side is no shorter than by the cosine of its
@@ -537,7 +602,8 @@ impl Writing<'_, '_> {
             return None;
         }
         let out = if reference == 0 { along.direction } else { along.direction.negate() };
-        let seen = Seen { corners, reference, out, size, coincident, upper: along.upper };
+        let stretch = if frame.rigid { 1.0 } else { STRETCH };
+        let seen = Seen { corners, reference, out, size, coincident, upper: along.upper, stretch };
         let fours = seen.corners[0].blocks.len().max(seen.corners[1].blocks.len());
         if fours <= ONE {
             self.clip_in::<L, ONE>(frame, &seen)
@@ -554,7 +620,7 @@ impl Writing<'_, '_> {
         let (reference, incident) = (*reference, 1 - *reference);
         // The places of corners seen from the other body, and their gaps as numbers of the plane's axes: columns of both rotations
         // err by 9.2u of a radius, products with a normal by 5.2u and sums by 5u, Δ by 10u, the plane's offset by 8u; and Rᵀ is for
-        // R⁻¹ up to 29u. That is less than 64u of all lengths, which the sweep allows for as well.
+        // R⁻¹ up to 29u, or cofactors and determinant err by 25u. That is less than 64u of all lengths, which the sweep allows for as well.
         let (rounding, doubt) = (64.0 * U * size, DOUBT * seen.coincident);
         let mut slid = [Slid::<F>::NONE, Slid::NONE];
         // Slid onto the plane of a body are the other's corners.
@@ -715,7 +781,12 @@ struct Seen<'a, L> {
     coincident: f64,
     /// See [`ContactNormal`].
     upper: f64,
+    /// How many times as far a plane may be moved along the normal as in its body.
+    stretch: f64,
 }
+
+/// How many times as long lengths may become by a skewed R or its inverse: entries of RᵀR − I are at most 0.01.
+const STRETCH: f64 = 1.02;
 
 impl<L> Seen<'_, L> {
     /// By how much the gap between the plane of a body and a corner of the other, or a side that crosses one of its own, may be
@@ -724,7 +795,7 @@ impl<L> Seen<'_, L> {
     #[inline(always)]
     fn error(&self, plane: usize, stretch: f64, rounding: f64) -> f64 {
         let (own, other) = (&self.corners[plane], &self.corners[1 - plane]);
-        (2.0 * (own.slack + rounding) + own.thickness) * stretch + other.thickness + rounding
+        self.stretch * ((2.0 * (own.slack + rounding) + own.thickness) * stretch + other.thickness + rounding)
     }
 }
 
@@ -828,37 +899,12 @@ impl<L: Lanes, const F: usize> Found<'_, L, F> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{add_points, clip as sweep};
+    use super::super::{add_points, sweep};
     use super::*;
     use crate::base::math::{Matrix, Pose};
     use crate::base::simd::dispatch_to_avx2;
     use crate::random::Random;
     use crate::shape::{Shape, ShapeOptions};
-
-    /// The query of a pair whose contact and patches are known.
-    pub struct Clipping<'a, 'b> {
-        pub bodies: &'a [Placed<'a>; 2],
-        pub contact: &'a SignedDistance,
-        pub patches: &'a Patches,
-        pub writing: Writing<'a, 'b>,
-    }
-
-    impl Kernel for Clipping<'_, '_> {
-        type Output = Option<usize>;
-
-        #[inline(always)]
-        fn run<L: Lanes>(&mut self) -> Option<usize> {
-            let [body1, body2] = self.bodies;
-            let polyhedra = [body1.shape.polyhedron(), body2.shape.polyhedron()];
-            let frame = Frame::<L>::new(&Pair { polyhedra, poses: [body1.pose, body2.pose] });
-            if !(frame.in_range && frame.rigid && is_in_scale(polyhedra)) {
-                return None;
-            }
-            let direction = L::from_vector(&self.contact.normal.into()).negate();
-            let along = ContactNormal { direction, upper: self.contact.upper };
-            self.writing.clip(&frame, &along, self.patches)
-        }
-    }
 
     /// A prism over a convex polygon of this many corners, whose coordinates are off by up to a noise.
     fn prism(corners: usize, noise: f64, random: &mut Random) -> Shape {
@@ -921,7 +967,7 @@ mod tests {
             let (mut found, mut swept) = (Vec::new(), Vec::new());
             let mut reference = Reference::NONE;
             let is_found = add_points(&mut found, |points| {
-                let writing = Writing { reference: &mut reference, config: &config, points };
+                let writing = &mut Writing { reference: &mut reference, config: &config, points };
                 dispatch_to_avx2(&mut Clipping { bodies: &bodies, contact: &contact, patches: &patches, writing })
             });
             add_points(&mut swept, |points| {

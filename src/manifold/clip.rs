@@ -128,15 +128,14 @@ fn other_point(
 
 /// How high the other outline is over a corner of a body's, and by how much the gap there may be off. `None` where that outline has
 /// no height.
-#[inline(always)]
-pub fn height_over(outlines: &[Outline; 2], body: usize, place: &Vector, precision: &Precision) -> Option<(f64, f64)> {
+fn height_over(outlines: &[Outline; 2], body: usize, place: &Vector, precision: &Precision) -> Option<(f64, f64)> {
     let (height, error) = outlines[1 - body].height_at(place.x, place.y, precision.rounding)?;
     Some((height, error + outlines[body].slack + precision.rounding))
 }
 
 /// By how much the gap may be off between points of corners and sides.
 #[inline(always)]
-pub fn error_at_sides(outlines: &[Outline; 2], precision: &Precision) -> f64 {
+fn error_at_sides(outlines: &[Outline; 2], precision: &Precision) -> f64 {
     outlines[0].slack + outlines[1].slack + 2.0 * precision.rounding
 }
 

@@ -14,7 +14,6 @@ mod witness;
 mod outline;
 mod clip;
 mod places;
-mod overlay;
 mod reduction;
 mod at_rest;
 mod swept;
@@ -35,14 +34,13 @@ use crate::shape::Placed;
 use answer::FOUR;
 pub(crate) use answer::Reference;
 pub use answer::{Manifold, ManifoldCache, ManifoldConfig, ManifoldPoint};
-use at_rest::{Answered, AtRest, Writing};
+use at_rest::{Answered, AtRest, Clipping, Writing};
 use clip::Precision;
 pub(crate) use four::four_of_points;
 pub use half_space::half_space_manifold;
 pub(crate) use half_space::half_space_manifold_into;
 pub(crate) use id::id_of;
 use outline::{Axes, Outline};
-use overlay::Overlay;
 pub(crate) use patch::{COINCIDENT, PARALLEL};
 use patch::{Patches, STICKY, STICKY_INCIDENT, choose, facing};
 use places::{CommonPoint, Origin, View};
@@ -225,7 +223,21 @@ fn make(
         return answer;
     }
     if let Some(patches) = choose_patches(bodies, contact, &last) {
-        let found = clip(bodies, contact, &patches, &last, Writing { reference: before, config, points });
+        *before = last;
+        let mut writing = Writing { reference: before, config, points };
+        let found = simd::dispatch_to_avx2(&mut Clipping {
+            bodies: &bodies,
+            contact,
+            patches: &patches,
+            writing: &mut writing,
+        });
+        let found = match found {
+            Some(found) => found,
+            None => {
+                *writing.reference = Reference::NONE;
+                sweep(bodies, contact, &patches, &last, writing)
+            }
+        };
         if found > 0 {
             answer.reference = patches.reference as u32 + 1;
             (answer.point_count, answer.found_count) = (points.written as u32, found as u32);
@@ -258,7 +270,7 @@ const LARGEST: f64 = 1e150;
 const MOST_NAMED: usize = 1024;
 
 /// Writes the points that both patches have in common, of any poses and patches; how many there are.
-fn clip(
+fn sweep(
     bodies: [Placed; 2],
     contact: &SignedDistance,
     patches: &Patches,
@@ -301,8 +313,6 @@ fn clip(
 
     let numbers = [0, 1].map(|i| patch(i).map_or(0, |patch| patch.number(polyhedra[i])));
     *now = Reference { body: patches.reference as u32 + 1, patches: numbers, kept: [0; FOUR] };
-    let mut overlay = Overlay::NONE;
-    let are_few = overlay.fill(&view).is_some();
     // Any number of points times all features would take as long as their squares.
     let are_named = config.reduces || polyhedra.iter().all(|polyhedron| polyhedron.edges.len() <= MOST_NAMED);
     let fill = |point: &mut ManifoldPoint, place: &CommonPoint| {
@@ -315,31 +325,20 @@ fn clip(
         }
     };
     if !config.reduces {
-        let mut write = |place: &CommonPoint| match place.origin {
+        let write = |place: &CommonPoint| match place.origin {
             Origin::Witness => points.insist(|point| fill(point, place)),
             Origin::Corner(_) => points.push(|point| fill(point, place)),
         };
-        if !are_few {
-            return view.sweep(write);
-        }
-        overlay.places().iter().for_each(&mut write);
-        return overlay.places().len();
+        return view.sweep(write);
     }
     let is_same = (last.body, last.patches) == (now.body, now.patches);
     let kept = if is_same { last.kept } else { [0; FOUR] };
-    let mut write = |places: &[CommonPoint]| {
-        for (place, key) in four_of(places, &kept, size).into_iter().zip(&mut now.kept) {
-            let Some(place) = place else { continue };
-            *key = place.key();
-            points.push(|point| fill(point, place));
-        }
-    };
-    if are_few {
-        write(overlay.places());
-        return overlay.places().len();
-    }
     let mut thinned = Thinned::new(&kept);
     let found = view.sweep(|place| thinned.add(place));
-    write(thinned.places());
+    for (place, key) in four_of(thinned.places(), &kept, size).into_iter().zip(&mut now.kept) {
+        let Some(place) = place else { continue };
+        *key = place.key();
+        points.push(|point| fill(point, place));
+    }
     found
 }

@@ -2,7 +2,6 @@
 
 use super::patch::Patch;
 use crate::base::math::{Matrix, Pose, UNIT_ROUNDOFF, Vector, divisor, length};
-use crate::base::simd::Lanes;
 use crate::body::polyhedron::Polyhedron;
 use nalgebra::Vector2;
 
@@ -144,23 +143,6 @@ impl<'a> Outline<'a> {
             position -= face.normal * (face.normal.dot(&position) - face.middle);
         }
         self.turn * position + self.origin
-    }
-
-    /// As [`spot`](Outline::spot), of four corners: their coordinates in the body's frame make those here.
-    #[inline(always)]
-    pub fn spots<L: Lanes>(&self, [mut x, mut y, mut z]: [L; 3]) -> [L; 3] {
-        if let Some(Patch::Contact(face)) = self.patch {
-            let face = &self.polyhedron.contact_faces.faces[face as usize];
-            let [across, along, up] = [face.normal.x, face.normal.y, face.normal.z].map(L::splat);
-            let height = across.mul(x).add(along.mul(y)).add(up.mul(z)).sub(L::splat(face.middle));
-            (x, y, z) = (x.sub(across.mul(height)), y.sub(along.mul(height)), z.sub(up.mul(height)));
-        }
-        let mut spots = [x; 3];
-        for (row, spot) in spots.iter_mut().enumerate() {
-            let [a, b, c] = [self.turn[(row, 0)], self.turn[(row, 1)], self.turn[(row, 2)]].map(L::splat);
-            *spot = a.mul(x).add(b.mul(y)).add(c.mul(z)).add(L::splat(self.origin[row]));
-        }
-        spots
     }
 
     /// The caller's indices of the ends of the side from a corner to the next.

@@ -96,19 +96,17 @@ impl View<'_> {
     }
 
     /// Whether a place may have a gap of at most `max_distance`, which is then known to within something.
-    #[inline(always)]
-    pub fn is_near(&self, place: &CommonPoint) -> bool {
+    fn is_near(&self, place: &CommonPoint) -> bool {
         place.error.is_finite() && place.gap() - place.error <= self.max_distance
     }
 
     /// Whether a place may be as deep as the witness points.
-    #[inline(always)]
-    pub fn is_deep(&self, place: &CommonPoint) -> bool {
+    fn is_deep(&self, place: &CommonPoint) -> bool {
         place.gap() - place.error <= self.contact.upper + self.precision.rounding
     }
 
     /// The pair of witness points as a place.
-    pub fn witness(&self) -> CommonPoint {
+    fn witness(&self) -> CommonPoint {
         let error = 0.5 * (self.contact.upper - self.contact.lower);
         CommonPoint { origin: Origin::Witness, spots: self.witness_spots, error }
     }

@@ -6,7 +6,7 @@
 //! | nothing | 0, or any other number | | |
 //! | features | 1 to 6, the kind of state | of the features | of a separating axis, perhaps |
 //! | an enclosure | 8 and how many vertex pairs | | those that proved the last intersection |
-//! | a pyramid that proved a depth | 24 and its corners, 3 or 4; 4 more for the second triangle of its base | the apex | the base |
+//! | … and the facet that proved the last depth | 20 and how many pairs, and 4 times its kind | of the facet | as above |
 //! | features of levels | 16 and the kind of state | of the features | the levels, and the steps spent |
 //! | a direction | 40 | | a separating axis |
 //!
@@ -14,7 +14,7 @@
 
 use crate::base::math::Vector;
 use crate::body::polyhedron::Polyhedron;
-use crate::depth::polytope::Pyramid;
+use crate::depth::facets::Facet;
 use crate::distance::decide::Pairs;
 use crate::distance::separating_axis::Axis;
 use crate::pair::habit::Habit;
@@ -46,19 +46,14 @@ enum Content {
     Levels(u32),
     /// An axis without features.
     Direction,
-    /// How many corners the base has, and which triangle of it the enclosure is over.
-    Pyramid(usize, usize),
 }
 
 /// The first word of an enclosure, and of features of levels, exceeds the number in [`Content`] by this.
 const ENCLOSURE: u32 = 8;
 const LEVELS: u32 = 16;
-const PYRAMID: u32 = 24;
+const RESTING: u32 = 20;
 /// The first word of a direction alone.
 const DIRECTION: u32 = 40;
-
-/// Corners of a pyramid's base that there is room for.
-const MOST_CORNERS: usize = 4;
 
 /// Marks a separating axis beside features. If other bytes happen to look like one, no harm is done.
 const AXIS: u32 = u32::from_ne_bytes(*b"axis");
@@ -71,8 +66,7 @@ impl PairCache {
             tag @ 9..=12 => Content::Enclosure((tag - ENCLOSURE) as usize),
             tag @ 17..=22 => Content::Levels(tag - LEVELS),
             DIRECTION => Content::Direction,
-            tag @ 27..=28 => Content::Pyramid((tag - PYRAMID) as usize, 0),
-            32 => Content::Pyramid(MOST_CORNERS, 1),
+            tag @ 25..=36 => Content::Enclosure(((tag - RESTING - 1) % 4 + 1) as usize),
             _ => Content::Nothing,
         }
     }
@@ -169,42 +163,33 @@ impl PairCache {
     /// The enclosure that proved the last intersection, if the cache holds one of vertices that the polyhedra have.
     #[inline(always)]
     pub(crate) fn enclosure(&self, polyhedra: [&Polyhedron; 2]) -> Option<Pairs> {
-        let (mut tetrahedron, mut count) = (self.pairs, self.pairs.len());
-        match self.content() {
-            Content::Enclosure(pairs) => count = pairs,
-            Content::Pyramid(_, triangle) => {
-                let [first, ..] = self.pairs;
-                tetrahedron = [first, self.pairs[triangle + 1], self.pairs[triangle + 2], self.indices];
-            }
-            Content::Nothing | Content::Features(_) | Content::Levels(_) | Content::Direction => return None,
-        }
-        let pairs = &tetrahedron[..count];
+        let Content::Enclosure(count) = self.content() else { return None };
+        let pairs = &self.pairs[..count];
         let [count1, count2] = [polyhedra[0].vertices.len(), polyhedra[1].vertices.len()];
         let known = |&[v, w]: &VertexPair| (v as usize) < count1 && (w as usize) < count2;
         pairs.iter().all(known).then(|| Pairs::new(pairs))
     }
 
-    /// The pyramid that proved the last depth, whether or not the bodies have its vertices.
+    /// The facet that proved the last depth, whether or not the bodies have it.
     #[inline(always)]
-    pub(super) fn pyramid(&self) -> Option<Pyramid> {
-        let Content::Pyramid(count, _) = self.content() else { return None };
-        Some(Pyramid::new(&self.pairs[..count], self.indices))
+    pub(super) fn facet(&self) -> Option<Facet> {
+        let [first, second] = self.indices;
+        Facet::of_words([self.tag.wrapping_sub(RESTING + 1) / 4, first, second])
     }
 
-    /// A pyramid, and which triangle of its base makes an enclosure with its apex; for one of many corners nothing is kept.
-    pub(super) fn remember_pyramid(&mut self, pyramid: &Pyramid, triangle: u8) {
-        let Some((base, apex)) = pyramid.plain() else { return };
-        if base.len() <= MOST_CORNERS && usize::from(triangle) + 2 < base.len() {
-            self.pairs[..base.len()].copy_from_slice(base);
-            self.indices = apex;
-            self.tag = PYRAMID + base.len() as u32 + 4 * u32::from(triangle);
+    /// Beside an enclosure.
+    #[inline(always)]
+    pub(super) fn remember_facet(&mut self, facet: Facet) {
+        if let Content::Enclosure(count) = self.content() {
+            let [kind, first, second] = facet.words();
+            (self.tag, self.indices) = (RESTING + 4 * kind + count as u32, [first, second]);
         }
     }
 
     /// Whether it holds an enclosure, whether or not the bodies have its vertices.
     #[inline(always)]
     pub(super) fn holds_enclosure(&self) -> bool {
-        matches!(self.content(), Content::Enclosure(_) | Content::Pyramid(..))
+        matches!(self.content(), Content::Enclosure(_))
     }
 
     pub(super) fn remember_enclosure(&mut self, pairs: &[VertexPair]) {
@@ -226,7 +211,7 @@ impl PairCache {
         let (kind, levels) = match self.content() {
             Content::Levels(kind) => (kind, self.pairs[0]),
             Content::Features(kind) => (kind, [0, 0]),
-            Content::Nothing | Content::Enclosure(_) | Content::Pyramid(..) | Content::Direction => return None,
+            Content::Nothing | Content::Enclosure(_) | Content::Direction => return None,
         };
         let coarsest = bodies.coarsest();
         let levels = [u16::try_from(levels[0]).ok()?, u16::try_from(levels[1]).ok()?];

@@ -16,7 +16,7 @@ use crate::base::error::{Error, Result};
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector, clamp, length};
 use crate::base::memory::listed;
 use crate::base::scalar::determinant;
-use crate::depth::{DepthAnswer, DepthCache, PYRAMIDS, ProofFrom, proof};
+use crate::depth::{DepthAnswer, DepthCache, ProofFrom, proof};
 use crate::placed::Pair;
 use crate::placed::exact::{self, Differences, Position, SupportScope, VertexPair};
 use crate::shape::Placed;
@@ -249,12 +249,11 @@ fn check_upper(facts: &Facts, normal: &Vector, upper: f64, allowed: f64) -> Resu
 
 type PairTriangle = [VertexPair; 3];
 
-/// Proves a depth of at least `lower` by a pyramid or the polytope of the cache, or by one that is searched for, as a query does or
+/// Proves a depth of at least `lower` by the polytope of the cache, or by one that is searched for, as a query does or
 /// until it proves it; of small bodies else by all facets.
 fn prove_lower(facts: &Facts, cache: &DepthCache, lower: f64) -> Result<()> {
     let mut why = Ok(());
-    let pyramids = (0..PYRAMIDS).map(|place| ProofFrom::Pyramid(cache, place));
-    for from in pyramids.chain([ProofFrom::Cache(cache), ProofFrom::Search(0.0), ProofFrom::Search(lower)]) {
+    for from in [ProofFrom::Cache(cache), ProofFrom::Search(0.0), ProofFrom::Search(lower)] {
         let polytope = proof(&facts.pair, from)?;
         why = encloses_ball(facts, &polytope, lower);
         if why.is_ok() {

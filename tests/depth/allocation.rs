@@ -11,7 +11,7 @@ static ALLOCATOR: Counting = Counting;
 
 #[test]
 fn depth_queries_allocate_nothing() {
-    assert_eq!(size_of::<DepthCache>(), 980);
+    assert_eq!(size_of::<DepthCache>(), 800);
     let mut random = Random::new(8);
     let shapes = large(&mut random);
     let mut cache = DepthCache::default();

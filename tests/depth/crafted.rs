@@ -15,8 +15,8 @@ fn pyramid(tip: Vector, up: f64) -> Shape {
     hull(&[tip, corner(2.0, 0.0), corner(-1.0, 1.75), corner(-1.0, -1.75)])
 }
 
-/// Where a cache has its pairs, triangles and counts: behind 28 bytes and two pyramids, behind 56 pairs, and behind 108 triangles.
-const PAIRS: usize = 28 + 2 * 88;
+/// Where a cache has its pairs, triangles and counts: behind 24 bytes, behind 56 pairs, and behind 108 triangles.
+const PAIRS: usize = 24;
 const TRIANGLES: usize = PAIRS + 56 * 8;
 const COUNTS: usize = TRIANGLES + 108 * 3;
 const _: () = assert!(size_of::<DepthCache>() == COUNTS + 4);

@@ -1,4 +1,4 @@
-//! Pairs at rest, whose depth a facet or a pyramid of before proves: against the depth from nothing, the independent check, and
+//! Pairs at rest, whose depth a facet of before proves: against the depth from nothing, the independent check, and
 //! whatever bytes stand where these do.
 
 use swiftprox::math::{Matrix, Pose, Vector};
@@ -15,20 +15,10 @@ use testkit::shapes::{cuboid, hull};
 use crate::caches::{bytes_of, of_bytes};
 use crate::{Random, query};
 
-/// Whether a pyramid gave an answer: it has few triangles, and neither steps nor climbs of a search.
-pub fn is_by_pyramid(answer: &DepthAnswer) -> bool {
-    let statistics = &answer.statistics;
-    (4..=14).contains(&statistics.triangles) && (statistics.steps, statistics.supports) == (0, 1)
-}
-
 /// Whether a facet gave an answer: no triangles, and no steps of a search.
 pub fn is_by_facet(answer: &DepthAnswer) -> bool {
     let statistics = &answer.statistics;
     (1..=10).contains(&statistics.supports) && (statistics.steps, statistics.triangles) == (0, 0)
-}
-
-fn is_at_rest(answer: &DepthAnswer) -> bool {
-    is_by_facet(answer) || is_by_pyramid(answer)
 }
 
 /// Two bodies of which the second rests on the first.
@@ -111,7 +101,7 @@ fn check(shapes: [&Shape; 2], poses: &[Pose; 2], cache: &mut DepthCache) -> Dept
     assert!(answer.lower <= single.upper && single.lower <= answer.upper, "{}", told());
     verify_depth([shapes[0].at(placed[0]), shapes[1].at(placed[1])], cache, &answer)
         .unwrap_or_else(|error| panic!("{error}: {}", told()));
-    if is_at_rest(&answer) {
+    if is_by_facet(&answer) {
         let size: f64 = shapes.iter().map(|shape| shape.polyhedron().radius).sum();
         let apart = (poses[0].translation() - poses[1].translation()).norm();
         assert!(answer.upper - answer.lower <= 2e-14 * size.max(apart), "{}", told());
@@ -143,7 +133,7 @@ fn what_rests_is_proved_by_what_proved_it_before() {
             let answer = check(pair, &rest.settle(), &mut cache);
             if step > 2 && answer.outcome == Outcome::Intersecting {
                 asked[lies] += 1;
-                held[lies] += usize::from(is_at_rest(&answer));
+                held[lies] += usize::from(is_by_facet(&answer));
             }
             rest.advance(&mut random);
         }
@@ -154,7 +144,7 @@ fn what_rests_is_proved_by_what_proved_it_before() {
 }
 
 /// Boxes, drums and wedges whose coordinates were rounded to single precision, face on face, so that facets hardly lean. Where the
-/// middle is at a diagonal of a face a pyramid needs corners across it; before, a fifth of these stayed unproved for good.
+/// middle is at a diagonal of a face, the facet across it is as near; before, a fifth of these stayed unproved for good.
 #[test]
 fn what_rests_on_faces_rounded_to_single_precision_is_proved_as_well() {
     let mut random = Random::new(92);
@@ -181,7 +171,7 @@ fn what_rests_on_faces_rounded_to_single_precision_is_proved_as_well() {
             let answer = check(pair, &rest.poses(), &mut cache);
             if step > 2 && answer.outcome == Outcome::Intersecting {
                 asked[which] += 1;
-                held[which] += usize::from(is_at_rest(&answer));
+                held[which] += usize::from(is_by_facet(&answer));
             }
             // What a pile still does once it has settled.
             rest.turns[1] = rotation(&random.direction(), 1e-10 * random.signed()) * rest.turns[1];
@@ -226,7 +216,7 @@ fn facets_prove_what_stands_in_line() {
 }
 
 /// Where a cache has the facet: its kind and two indices.
-const FACET: std::ops::Range<usize> = 16..28;
+const FACET: std::ops::Range<usize> = 12..24;
 
 /// Any facets in the place of that which was the least: what is said of them, or of others near them, is as true.
 #[test]
@@ -270,47 +260,4 @@ fn corrupted_facets_prove_nothing_false() {
     }
     println!("{accepted:?}, {walked} walked to, of {all}");
     assert!(accepted[0] > 600 && accepted[1] > 250 && walked > 600, "{accepted:?} {walked} of {all}");
-}
-
-/// Numbers where the pyramids are: bits flipped, indices exchanged for others, anything.
-#[test]
-fn corrupted_pyramids_prove_nothing_false() {
-    const PYRAMIDS: std::ops::Range<usize> = 28..204;
-    let mut random = Random::new(93);
-    let shapes = bodies(&mut random);
-    let (mut accepted, mut all) = (0, 0);
-    for _ in 0..120 {
-        let pair = [&shapes[random.below(shapes.len())], &shapes[random.below(shapes.len())]];
-        let [unit, height] = sizes(pair);
-        let turns = [random.rotation(), random.rotation()];
-        let (aside, deep) = (random.vector() * (0.3 * unit), 1e-3 * unit);
-        let mut rest = Rest { shapes: pair, turns, aside, height, deep, unit };
-        let mut cache = DepthCache::default();
-        for _ in 0..3 {
-            check(pair, &rest.settle(), &mut cache);
-            rest.advance(&mut random);
-        }
-        for _ in 0..30 {
-            let mut bytes = bytes_of(&cache);
-            let place = |random: &mut Random| PYRAMIDS.start + random.below(PYRAMIDS.len());
-            match random.below(4) {
-                0 => bytes[PYRAMIDS].iter_mut().for_each(|byte| *byte = random.below(9) as u8),
-                1 => (0..1 + random.below(3)).for_each(|_| bytes[place(&mut random)] ^= 1 << random.below(8)),
-                2 => {
-                    // The pairs of the first, among each other.
-                    let [from, to] = [0, 1].map(|_| 28 + 4 * random.below(18));
-                    let word: [u8; 4] = bytes[from..from + 4].try_into().unwrap();
-                    bytes[to..to + 4].copy_from_slice(&word);
-                }
-                _ => bytes[place(&mut random)] = random.below(20) as u8,
-            }
-            bytes[FACET].fill(0);
-            let mut corrupted = of_bytes(&bytes);
-            let answer = check(pair, &rest.poses(), &mut corrupted);
-            accepted += usize::from(is_by_pyramid(&answer));
-            all += 1;
-        }
-    }
-    println!("{accepted} of {all}");
-    assert!(accepted > all / 10 && accepted < all, "{accepted} of {all}");
 }

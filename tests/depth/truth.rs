@@ -7,7 +7,7 @@ use swiftprox::pair::{DepthAnswer, DepthCache, Outcome};
 use swiftprox::shape::Shape;
 use swiftprox::verify::verify_depth;
 
-use crate::resting::is_by_pyramid;
+use crate::resting::is_by_facet;
 use crate::{Random, query};
 use testkit::random::rotation;
 use testkit::shapes::hull;
@@ -143,8 +143,8 @@ struct Seen {
     separated: usize,
     /// Pairs whose depth all facets told.
     by_facets: usize,
-    /// Answers that a pyramid of before gave.
-    by_pyramids: usize,
+    /// Answers that a facet of before gave.
+    at_rest: usize,
     widest: f64,
 }
 
@@ -180,7 +180,7 @@ impl Seen {
                 assert!(answer.upper > 0.0, "{}", told());
             }
             self.by_facets += usize::from(answer.lower > 0.0 && answer.statistics.triangles == 0);
-            self.by_pyramids += usize::from(is_by_pyramid(&answer));
+            self.at_rest += usize::from(is_by_facet(&answer));
             let truth = supports.iter().map(Support::about).fold(f64::INFINITY, f64::min);
             let near = |support: &&Support| support.about() <= truth * (1.0 + 1e-12);
             let nearest: Vec<&Support> = supports.iter().filter(near).collect();
@@ -269,7 +269,7 @@ fn depths_of_solids_hold_the_exact_ones() {
 }
 
 /// Solids on each other, some on an edge or a corner, that creep and lean from step to step by as little as the grid allows: most
-/// answers are a pyramid's.
+/// answers are a facet's.
 #[test]
 fn depths_at_rest_hold_the_exact_ones() {
     let mut random = Random::new(33);
@@ -305,7 +305,7 @@ fn depths_at_rest_hold_the_exact_ones() {
             aside += random.vector() * 1e-3;
         }
     }
-    let Seen { overlapping, by_pyramids, widest, .. } = seen;
-    println!("{overlapping} overlapping, {by_pyramids} by pyramids, {widest:e}");
-    assert!(overlapping > 120 && by_pyramids > overlapping, "{overlapping} {by_pyramids}");
+    let Seen { overlapping, at_rest, widest, .. } = seen;
+    println!("{overlapping} overlapping, {at_rest} at rest, {widest:e}");
+    assert!(overlapping > 120 && at_rest > overlapping, "{overlapping} {at_rest}");
 }

@@ -43,7 +43,7 @@ fn lying(shapes: [&Shape; 2], turns: [Matrix; 2], aside: Vector, deep: f64) -> [
 /// Puts any facet in the place of that which a cache has.
 #[allow(unsafe_code)]
 fn corrupt(cache: &mut ManifoldCache, random: &mut Random) {
-    const FACET: std::ops::Range<usize> = 108..120;
+    const FACET: std::ops::Range<usize> = 104..116;
     // SAFETY: all members of a cache are integers without gaps between them.
     let mut bytes: [u8; size_of::<ManifoldCache>()] = unsafe { std::mem::transmute(*cache) };
     let numbers = [random.below(5) as u32, random.below(60) as u32, random.below(60) as u32];

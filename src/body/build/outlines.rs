@@ -13,12 +13,15 @@ use crate::body::polyhedron::{ContactFaces, MOST_IN_BLOCKS, PlaneBlock, Polyhedr
 /// [`Error::Memory`](crate::base::error::Error::Memory).
 pub fn outlines_of(polyhedron: &Polyhedron) -> Result<Outlines> {
     let mut outlines = Outlines::default();
-    if polyhedron.dimension < 3 || polyhedron.vertices.len() > MOST_IN_BLOCKS {
+    if polyhedron.dimension < 3 {
         return Ok(outlines);
     }
     let sum: Vector = polyhedron.vertices.iter().map(|vertex| vertex.position).sum();
     outlines.middle = sum / polyhedron.vertices.len() as f64;
     outlines.shortest = polyhedron.edges.iter().map(|edge| edge.length).fold(f64::INFINITY, f64::min);
+    if polyhedron.vertices.len() > MOST_IN_BLOCKS {
+        return Ok(outlines);
+    }
     for (face, record) in (0..).zip(&polyhedron.faces) {
         push(&mut outlines.starts, outlines.vertices.len() as u32)?;
         let fours = (0..record.side_count)

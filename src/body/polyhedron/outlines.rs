@@ -6,8 +6,8 @@ use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::copied;
 
-/// The corners of the faces of a body with an interior and at most [`MOST_IN_BLOCKS`](super::MOST_IN_BLOCKS) vertices; of others
-/// nothing. About 28 bytes a corner of a face.
+/// The corners of the faces of a body with an interior and at most [`MOST_IN_BLOCKS`](super::MOST_IN_BLOCKS) vertices; of larger
+/// ones the first two numbers, of flat ones nothing. About 28 bytes a corner of a face.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Outlines {
     /// The mean of the vertices, in centred coordinates: each of its sums is rounded.

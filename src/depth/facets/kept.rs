@@ -14,6 +14,9 @@
 //! = s. The second gives (l − e)cos θ + R·sin θ ≥ l if R ≥ l·tan(θ/2) + e·cot θ, which is convex up to 90°: it holds up to there if
 //! at both ends, and beyond 90° as above. If e is no more than rounding, the second disc proves l − e alone. □
 //!
+//! The second disc is on a face that looks at the other body; or, where one side is near, on the facet and on that across the side.
+//! Of such a fold by an angle φ the condition is r ≥ t·tan(φ/2), rounding apart, and that is so wherever the facet is the least.
+//!
 //! *From above*: along m the bodies overlap by no more than both reach.
 //!
 //! Any facet and any bytes will do: indices are looked at, all else is proved anew. Where the origin's foot is beyond a side of the
@@ -23,6 +26,8 @@ use super::search::Facet;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::{Lanes, Work};
 use crate::body::polyhedron::{MergedFace, NONE, Polyhedron};
+use crate::depth::polytope::farthest;
+use crate::placed::exact::VertexPair;
 use crate::placed::frame::{Body, Frame};
 use crate::placed::state::FeatureId;
 
@@ -73,9 +78,9 @@ enum NextFacet {
 #[inline(always)]
 pub fn prove<L: Lanes>(frame: &Frame<L>, facet: Facet) -> Result<Proved<L>, Facet> {
     let [polyhedron1, polyhedron2] = frame.polyhedra();
-    let is_suited = |polyhedron: &Polyhedron| polyhedron.dimension == 3 && !polyhedron.outlines.is_empty();
+    let is_suited = |polyhedron: &Polyhedron| polyhedron.dimension == 3 && polyhedron.outlines.shortest > 0.0;
     // Bodies farther apart do not intersect.
-    let are_near = frame.rigid && frame.separation <= 2.0 * frame.size;
+    let are_near = frame.separation <= 2.0 * frame.size;
     if !(are_near && is_suited(polyhedron1) && is_suited(polyhedron2)) {
         return Err(facet);
     }
@@ -86,20 +91,18 @@ pub fn prove<L: Lanes>(frame: &Frame<L>, facet: Facet) -> Result<Proved<L>, Face
     }
 }
 
-/// The face of a body most across a direction, which is from the inside of C to its boundary: where a walk may begin.
-pub fn across<L: Lanes>(frame: &Frame<L>, direction: &Vector) -> Option<Facet> {
-    let mut best = (0.0, None);
-    for (body, sign) in [(0, 1.0), (1, -1.0)] {
-        let placed = &frame.bodies[body];
-        let towards = placed.rotate_vector_back(direction).to_vector() * sign;
-        for (face, record) in (0..).zip(&placed.polyhedron.faces) {
-            let cosine = record.normal.dot(&towards);
-            if cosine > best.0 {
-                best = (cosine, Some(Facet::Face(body, face)));
-            }
-        }
+/// The face most across a direction, which is from the inside of C to its boundary, at vertices that are farthest along it: where a
+/// walk may begin. `None` of flat bodies.
+#[inline(always)]
+pub fn across<L: Lanes>(frame: &Frame<L>, direction: &Vector, vertices: VertexPair) -> Option<Facet> {
+    let [polyhedron1, polyhedron2] = frame.polyhedra();
+    if polyhedron1.dimension < 3 || polyhedron2.dimension < 3 {
+        return None;
     }
-    best.1
+    let along = L::from_vector(direction);
+    let (face1, cosine1) = most_across(polyhedron1, vertices[0], frame.bodies[0].rotate_back(along));
+    let (face2, cosine2) = most_across(polyhedron2, vertices[1], frame.bodies[1].rotate_back(along).negate());
+    Some(if cosine1 >= cosine2 { Facet::Face(0, face1) } else { Facet::Face(1, face2) })
 }
 
 struct FacetWalk<'a, L> {
@@ -126,7 +129,15 @@ impl<L: Lanes> Work for FacetWalk<'_, L> {
 #[inline(always)]
 fn look<L: Lanes>(frame: &Frame<L>, facet: Facet) -> Result<Proved<L>, NextFacet> {
     match facet {
-        Facet::Face(body, face) => look_at_face(frame, body.min(1), face),
+        Facet::Face(body, face) => {
+            let [polyhedron1, polyhedron2] = frame.polyhedra();
+            let are_small = !polyhedron1.vertex_blocks.is_empty() & !polyhedron2.vertex_blocks.is_empty();
+            if frame.rigid & are_small {
+                look_at_face::<L, true>(frame, body.min(1), face)
+            } else {
+                L::out_of_line(&mut AtFace { frame, body: body.min(1), face })
+            }
+        }
         Facet::Edges(edges) => L::out_of_line(&mut AtEdges { frame, edges }),
     }
 }
@@ -136,8 +147,8 @@ fn look<L: Lanes>(frame: &Frame<L>, facet: Facet) -> Result<Proved<L>, NextFacet
 ///
 /// A face with the stored normal n of a body with the radius ρ is at n·v = −`offset`, up to σ and 4uρ (the heights that `offset`
 /// is the middle of err by 3u). In the world m = s·R·n as computed is off by 6.3u, and n·v = (RᵀR·n)·v up to 29u
-/// (`RIGID_DEFECT`), with s·`offset` 40.3uρ. The other body's heights take 5.3u for Rᵀm and 3u
-/// for the product: 8.3u of its radius. Δ is right to 2u|Δ|, its product to 3u; the sums to 3u of all. m's length is 1 up to 5u,
+/// (`RIGID_DEFECT`), with s·`offset` 40.3uρ. Of a skewed R the vector is R⁻ᵀ·n by cofactors, 11u, their determinant 10u, and s 6u:
+/// less. The other body's heights take 5.3u for Rᵀm and 3u for the product: 8.3u of its radius. Δ is right to 2u|Δ|, its product to 3u; the sums to 3u of all. m's length is 1 up to 5u,
 /// times the depth, at most an eighth of all: u. So 45u, 15u and 11u. With edges m is any vector, of a length right to 5u, and all
 /// of these are less.
 #[inline(always)]
@@ -155,9 +166,23 @@ fn is_good<L>(frame: &Frame<L>, lower: f64, upper: f64) -> bool {
     lower > 0.0 && upper - lower <= WIDEST * scale && upper <= SHALLOW * (frame.size + frame.separation)
 }
 
-/// The lowest vertex along a direction in the body's axes, and its height.
+/// How many times as short a length may become that a skewed R places: ‖RᵀR − I‖ is at most 0.03.
+const SHORTENED: f64 = 0.98;
+
+/// A vertex that is about the lowest along a direction in the body's axes, its height, and by how much the body may be lower; climbed
+/// to from another where there are many.
 #[inline(always)]
-fn lowest<L: Lanes>(polyhedron: &Polyhedron, along: L) -> (f64, u32) {
+fn lowest<L: Lanes>(polyhedron: &Polyhedron, along: L, start: Option<u32>) -> (f64, u32, f64) {
+    if polyhedron.vertex_blocks.is_empty() {
+        return L::out_of_line(&mut LowestOfMany { polyhedron, along, start });
+    }
+    let (height, vertex) = lowest_in_blocks(polyhedron, along);
+    (height, vertex, 0.0)
+}
+
+/// The lowest vertex of a body that has them in blocks, and its height.
+#[inline(always)]
+fn lowest_in_blocks<L: Lanes>(polyhedron: &Polyhedron, along: L) -> (f64, u32) {
     let [x, y, z] = [along.splat_x(), along.splat_y(), along.splat_z()];
     let (mut least, mut place) = (L::splat(f64::INFINITY), L::splat(0.0));
     let (mut at, four) = (L::splat(0.0), L::splat(4.0));
@@ -170,6 +195,24 @@ fn lowest<L: Lanes>(polyhedron: &Polyhedron, along: L) -> (f64, u32) {
     let (height, lane) = least.least();
     let vertex = place.to_array()[lane & 3] as usize + lane;
     (height, vertex.min(polyhedron.vertices.len() - 1) as u32)
+}
+
+struct LowestOfMany<'a, L> {
+    polyhedron: &'a Polyhedron,
+    along: L,
+    start: Option<u32>,
+}
+
+impl<L: Lanes> Work for LowestOfMany<'_, L> {
+    type Output = (f64, u32, f64);
+
+    #[inline(always)]
+    fn run(&mut self) -> Self::Output {
+        let LowestOfMany { polyhedron, along, start } = *self;
+        let (vertex, excess) = farthest(polyhedron, along.negate(), start);
+        let height = along.dot(L::from_vector(&polyhedron.vertices[vertex as usize].position));
+        (height, vertex, excess * (1.0 + 64.0 * U))
+    }
 }
 
 /// Whether the lemma's condition holds: of a disc of radius `r` at heights up to `top`, and a point `h` below the origin, `a`
@@ -194,26 +237,58 @@ fn middle<L: Lanes>(frame: &Frame<L>, own: &Body<L>, other: &Body<L>, m: L, erro
     [-height - off, aside.dot(aside).sqrt() + off]
 }
 
-/// A face of a body over the other's lowest vertex.
+/// A face of large bodies or of skewed ones.
+struct AtFace<'a, L> {
+    frame: &'a Frame<'a, L>,
+    body: usize,
+    face: u32,
+}
+
+impl<L: Lanes> Work for AtFace<'_, L> {
+    type Output = Result<Proved<L>, NextFacet>;
+
+    #[inline(always)]
+    fn run(&mut self) -> Self::Output {
+        look_at_face::<L, false>(self.frame, self.body, self.face)
+    }
+}
+
+/// A face of a body over the other's lowest vertex. `PLAIN`: of small bodies in rigid poses.
 #[inline(always)]
-fn look_at_face<L: Lanes>(frame: &Frame<L>, body: usize, face: u32) -> Result<Proved<L>, NextFacet> {
+fn look_at_face<L: Lanes, const PLAIN: bool>(frame: &Frame<L>, body: usize, face: u32) -> Result<Proved<L>, NextFacet> {
     let (own, other) = (&frame.bodies[body], &frame.bodies[1 - body]);
     let Some(record) = own.polyhedron.faces.get(face as usize) else { return Err(NextFacet::Nothing) };
     let normal = L::from_vector(&record.normal);
-    let turned = own.rotate_lanes(normal);
-    // Of unit length up to 3u: 1/√(1 + x) is 1 − x/2 for an x of 44u.
-    let scale = 1.5 - 0.5 * turned.dot(turned);
+    let turned = if PLAIN { own.rotate_lanes(normal) } else { own.lift(normal) };
+    // Of unit length up to 3u: 1/√(1 + x) is 1 − x/2 for an x of 44u, as of rigid poses.
+    let square = turned.dot(turned);
+    let scale = if PLAIN || frame.rigid { 1.5 - 0.5 * square } else { 1.0 / square.sqrt() };
     let m = turned.mul(L::splat(scale));
-    let (height, vertex) = lowest(other.polyhedron, other.rotate_back(m));
+    let down = other.rotate_back(m);
+    let (height, vertex, excess) = if PLAIN {
+        let (height, vertex) = lowest_in_blocks(other.polyhedron, down);
+        (height, vertex, 0.0)
+    } else {
+        lowest(other.polyhedron, down, None)
+    };
     let depth = m.dot(own.offset) - scale * record.planes.offset[0] - height;
     let error = rounding(frame, own.polyhedron, other.polyhedron);
-    let (lower, upper) = (depth - record.slack - error, depth + record.slack + error);
+    // |RᵀR⁻ᵀn| is 1.
+    let slack = if PLAIN { record.slack } else { record.slack * scale };
+    let (lower, upper) = (depth - slack - error, depth + slack + error + excess);
     if !is_good(frame, lower, upper) {
         return Err(NextFacet::Nothing);
     }
     let deepest = &other.polyhedron.vertices[vertex as usize].position;
-    let below = own.rotate_back(other.rotate(deepest).sub(own.offset));
-    // Sides and their offsets are right to some 10u of 3ρ, the place to less than `error`.
+    let below = other.rotate(deepest).sub(own.offset);
+    let mut below = if PLAIN { own.rotate_back(below) } else { own.turn_back(below) };
+    if !(PLAIN || frame.rigid) {
+        // On the face, in the direction of m.
+        let along = own.turn_back(m);
+        let height = (normal.dot(below) + record.planes.offset[0]) / normal.dot(along);
+        below = along.negated_mul_add(L::splat(height), below);
+    }
+    // Sides and their offsets are right to some 10u of 3ρ, the place to less than twice `error`.
     let (inside, side) = least_inside(own.polyhedron, record, below);
     // A foot on a side, rounding apart, is under faces that are parallel, or never far from the next facet.
     if !(inside > -error) {
@@ -221,25 +296,25 @@ fn look_at_face<L: Lanes>(frame: &Frame<L>, body: usize, face: u32) -> Result<Pr
         return Err(L::out_of_line(&mut GiftWrap { frame, body, edge, vertex, m, away, from: [face, NONE] }));
     }
     let around = middle(frame, own, other, m, error);
-    let small = Disc { radius: inside - 2.0 * error, lower };
+    let small = Disc { radius: (inside - 2.0 * error) * shortest_of_unit(frame), lower };
+    let facet = Facet::Face(body, face);
     let lower = if encloses(small.radius, around, upper) {
         lower
     } else {
-        let patch = most_across(other.polyhedron, vertex, other.rotate_back(m).negate());
-        let faces = [face, patch];
-        match L::out_of_line(&mut WideDisc { frame, body, faces, m, error, small, upper, around }) {
+        let (patch, _) = most_across(other.polyhedron, vertex, other.rotate_back(m).negate());
+        let (edge, away) = side_of(own, record, side);
+        let wrap = GiftWrap { frame, body, edge, vertex, m, away, from: [face, NONE] };
+        match L::out_of_line(&mut WideDisc { wrap, facet, faces: [face, patch], error, small, upper, around }) {
             Some(lower) => lower,
             None => return Err(NextFacet::Nothing),
         }
     };
-    let above = normal.negated_mul_add(L::splat(normal.dot(below) + record.planes.offset[0]), below);
     let (mut points, mut features) =
-        ([above, L::from_vector(deepest)], [FeatureId::Face(face), FeatureId::Vertex(vertex)]);
+        ([on_face(record, below), L::from_vector(deepest)], [FeatureId::Face(face), FeatureId::Vertex(vertex)]);
     let mut direction = m;
     if body == 1 {
         (points, features, direction) = ([points[1], points[0]], [features[1], features[0]], m.negate());
     }
-    let facet = Facet::Face(body, face);
     Ok(Proved { lower, upper, depth, direction, points, features, facet, steps: 0 })
 }
 
@@ -251,9 +326,9 @@ struct Disc {
     lower: f64,
 }
 
-/// The face at a vertex whose normal is most along a direction in the body's axes.
+/// The face at a vertex whose normal is most along a direction in the body's axes, and the cosine.
 #[inline(always)]
-fn most_across<L: Lanes>(polyhedron: &Polyhedron, vertex: u32, along: L) -> u32 {
+fn most_across<L: Lanes>(polyhedron: &Polyhedron, vertex: u32, along: L) -> (u32, f64) {
     let (mut best, mut most) = (0, f64::NEG_INFINITY);
     for block in polyhedron.neighbour_blocks(vertex) {
         // No closures: the compiler may leave them without the vector unit's instructions (R2).
@@ -270,18 +345,23 @@ fn most_across<L: Lanes>(polyhedron: &Polyhedron, vertex: u32, along: L) -> u32 
             }
         }
     }
-    best
+    (best, most)
 }
 
-/// The wide one of two discs: a face of a body less one low point of the other, which is on a face that looks at it.
+/// How long a vector of length 1 is at least that is placed.
+#[inline(always)]
+fn shortest_of_unit<L>(frame: &Frame<L>) -> f64 {
+    if frame.rigid { 1.0 } else { SHORTENED }
+}
+
+/// The wide one of two discs: a face of a body less one low point of the other, which is on a face that looks at it; or on the facet
+/// and the one across its nearest side.
 struct WideDisc<'a, L> {
-    frame: &'a Frame<'a, L>,
-    /// The one whose face it is.
-    body: usize,
+    /// Across the facet's nearest side; its body is the one whose face it is.
+    wrap: GiftWrap<'a, L>,
+    facet: Facet,
     /// Of this body and the other.
     faces: [u32; 2],
-    /// Out of this body.
-    m: L,
     error: f64,
     small: Disc,
     upper: f64,
@@ -295,8 +375,19 @@ impl<L: Lanes> Work for WideDisc<'_, L> {
 
     #[inline(always)]
     fn run(&mut self) -> Option<f64> {
-        let &mut WideDisc { frame, small, upper, around, .. } = self;
-        let wide = self.find()?;
+        if let Some(wide) = self.on_patch()
+            && let Some(lower) = self.prove(wide)
+        {
+            return Some(lower);
+        }
+        self.prove_by_fold()
+    }
+}
+
+impl<L: Lanes> WideDisc<'_, L> {
+    #[inline(always)]
+    fn prove(&self, wide: Disc) -> Option<f64> {
+        let &WideDisc { wrap: GiftWrap { frame, .. }, small, upper, around, .. } = self;
         if !(encloses(wide.radius, around, upper) && wide.lower > 0.0 && wide.radius > upper * (1.0 + SURELY)) {
             return None;
         }
@@ -311,19 +402,17 @@ impl<L: Lanes> Work for WideDisc<'_, L> {
         // False for a NaN.
         (wide.radius * (1.0 - SURELY) >= needed).then_some(small.lower)
     }
-}
 
-impl<L: Lanes> WideDisc<'_, L> {
     /// The place of the other body that is chosen may be any that is in it: the middle of this body's face, or where that is not
     /// below the other's, the nearest place on the way to the middle of that.
     #[inline(always)]
-    fn find(&self) -> Option<Disc> {
-        let &WideDisc { frame, body, faces: [face, patch], m, error, .. } = self;
+    fn on_patch(&self) -> Option<Disc> {
+        let &WideDisc { wrap: GiftWrap { frame, body, m, .. }, faces: [face, patch], error, .. } = self;
         let (own, other) = (&frame.bodies[body], &frame.bodies[1 - body]);
         let record = own.polyhedron.faces.get(face as usize)?;
         let patch = other.polyhedron.faces.get(patch as usize)?;
         let from = on_face(record, L::from_vector(&own.polyhedron.outlines.middle));
-        let from = on_face(patch, other.rotate_back(own.rotate_lanes(from).add(own.offset)));
+        let from = on_face(patch, other.turn_back(own.rotate_lanes(from).add(own.offset)));
         let to = on_face(patch, L::from_vector(&other.polyhedron.outlines.middle));
         let way = to.sub(from);
         let (start, _) = least_inside(other.polyhedron, patch, from);
@@ -337,9 +426,9 @@ impl<L: Lanes> WideDisc<'_, L> {
         let share = if start >= least { 0.0 } else { (least - start) / (end - start) };
         // A point of the other body up to what the face is thick: least heights of sides are concave along the way.
         let point = way.mul_add(L::splat(share), from);
-        let below = own.rotate_back(other.rotate_lanes(point).sub(own.offset));
+        let below = own.turn_back(other.rotate_lanes(point).sub(own.offset));
         // Along m the origin is over this place of the face.
-        let (normal, along) = (L::from_vector(&record.normal), own.rotate_back(m));
+        let (normal, along, up) = (L::from_vector(&record.normal), own.turn_back(m), own.rotate_back(m));
         let cosine = normal.dot(along);
         if !(cosine > 0.5) {
             return None;
@@ -347,13 +436,122 @@ impl<L: Lanes> WideDisc<'_, L> {
         let height = (-record.planes.offset[0] - normal.dot(below)) / cosine;
         let foot = along.mul_add(L::splat(height), below);
         let (inside, _) = least_inside(own.polyhedron, record, foot);
-        // Both are of length 1 up to 45u.
-        let lean = normal.negated_mul_add(L::splat(cosine), along);
+        // All are of length 1 up to 45u, or 0.02 of skewed poses, which may make slack as much more, too.
+        let lean = normal.negated_mul_add(L::splat(normal.dot(up)), up);
         let sine = lean.dot(lean).sqrt() + 64.0 * U;
-        let (aside, thick) = (4.0 * error, record.slack + patch.slack);
+        let (aside, thick) = (4.0 * error, 1.02 * (record.slack + patch.slack));
         // The point is off its plane, and the foot off its own, by less than `error` each.
         let lower = height - inside * sine - thick - 2.0 * error;
-        (inside > aside).then_some(Disc { radius: (inside - aside) * (cosine - 64.0 * U), lower })
+        let short = shortest_of_unit(frame) * shortest_of_unit(frame);
+        (inside > aside).then_some(Disc { radius: (inside - aside) * (cosine - 64.0 * U) * short, lower })
+    }
+
+    /// By the facet and that across its nearest side: seen along the normal, a disc that is inside of all other sides of both is on
+    /// them.
+    #[inline(always)]
+    fn prove_by_fold(&self) -> Option<f64> {
+        let WideDisc { wrap, facet, error, upper, .. } = self;
+        let NextFacet::Facet(next) = wrap.next() else { return None };
+        let first = FacetPolygon::of(wrap.frame, *facet, wrap.vertex)?;
+        let second = FacetPolygon::of(wrap.frame, next, wrap.vertex)?;
+        let out = if wrap.body == 0 { wrap.m } else { wrap.m.negate() }.to_vector();
+        let ([_, room1], side1) = first.rooms(&out);
+        let ([_, room2], side2) = second.rooms(&out);
+        let ([a, b], [c, d]) = (first.side(side1), second.side(side2));
+        if !((a == d && b == c) || (a == c && b == d)) {
+            return None;
+        }
+        let [p, q, r] = [0, second.count / 3, 2 * second.count / 3].map(|corner| second.corners[corner]);
+        let normal = (q - p).cross(&(r - p)).normalize();
+        let normal = if normal.dot(&out) < 0.0 { -normal } else { normal };
+        let cosine = normal.dot(&out);
+        // False for a NaN.
+        if !(cosine > 0.1) {
+            return None;
+        }
+        let corners = second.corners[..second.count].iter();
+        let least = corners.map(|corner| normal.dot(corner)).fold(f64::INFINITY, f64::min);
+        let (level, slope) = ((least - 2.0 * error) / cosine, (normal - out * cosine).norm() / cosine);
+        // Products of computed corners are right to some 10u of the lengths.
+        let room = if room1 < room2 { room1 } else { room2 } - 4.0 * error;
+        for reach in REACHES {
+            let radius = reach * upper;
+            if radius <= room
+                && let Some(lower) = self.prove(Disc { radius, lower: level - radius * (slope + 64.0 * U) })
+            {
+                return Some(lower);
+            }
+        }
+        None
+    }
+}
+
+/// Radii of a wide disc on a fold, over the depth: a larger one lies lower, a smaller one needs a point farther below.
+const REACHES: [f64; 3] = [1.1, 1.5, 2.5];
+
+/// Sides of a facet that is looked at as a polygon.
+const MOST_SIDES: usize = 32;
+
+/// The corners of a facet as computed, in order.
+struct FacetPolygon {
+    corners: [Vector; MOST_SIDES],
+    count: usize,
+}
+
+impl FacetPolygon {
+    /// A face with a vertex of the other body, or two edges. `None` of many sides.
+    #[inline(always)]
+    fn of<L: Lanes>(frame: &Frame<L>, facet: Facet, vertex: u32) -> Option<FacetPolygon> {
+        let [polyhedron1, polyhedron2] = frame.polyhedra();
+        let mut polygon = FacetPolygon { corners: [Vector::zeros(); MOST_SIDES], count: 4 };
+        let mut pairs = [[vertex; 2]; MOST_SIDES];
+        match facet {
+            Facet::Face(body, face) => {
+                let polyhedron = frame.bodies[body].polyhedron;
+                polygon.count = polyhedron.faces[face as usize].side_count as usize;
+                for (side, pair) in (0..).zip(pairs.get_mut(..polygon.count)?) {
+                    pair[body] = polyhedron.corner(face, side);
+                }
+            }
+            Facet::Edges([first, second]) => {
+                let (edge1, edge2) = (&polyhedron1.edges[first as usize], &polyhedron2.edges[second as usize]);
+                for (at, pair) in pairs[..4].iter_mut().enumerate() {
+                    *pair = [
+                        if at == 1 || at == 2 { edge1.head() } else { edge1.tail() },
+                        if at < 2 { edge2.tail() } else { edge2.head() },
+                    ];
+                }
+            }
+        }
+        for (corner, [v, w]) in polygon.corners.iter_mut().zip(&pairs[..polygon.count]) {
+            let (p, q) = (&polyhedron1.vertices[*v as usize].position, &polyhedron2.vertices[*w as usize].position);
+            *corner = frame.difference(p, q).to_vector();
+        }
+        Some(polygon)
+    }
+
+    #[inline(always)]
+    fn side(&self, side: usize) -> [Vector; 2] {
+        [self.corners[side], self.corners[if side + 1 < self.count { side + 1 } else { 0 }]]
+    }
+
+    /// How far the origin is inside the nearest two sides, seen along a direction, and which is the nearest.
+    #[inline(always)]
+    fn rooms(&self, along: &Vector) -> ([f64; 2], usize) {
+        let middle = self.corners[..self.count].iter().sum::<Vector>() / self.count as f64;
+        let (mut rooms, mut nearest) = ([f64::INFINITY; 2], 0);
+        for side in 0..self.count {
+            let [from, to] = self.side(side);
+            let across = (to - from).cross(along);
+            let sign = if across.dot(&(middle - from)) < 0.0 { 1.0 } else { -1.0 };
+            let room = sign * across.dot(&from) / across.norm();
+            if room < rooms[0] {
+                (rooms, nearest) = ([room, rooms[0]], side);
+            } else if room < rooms[1] {
+                rooms[1] = room;
+            }
+        }
+        (rooms, nearest)
     }
 }
 
@@ -414,9 +612,16 @@ struct GiftWrap<'a, L> {
 impl<L: Lanes> Work for GiftWrap<'_, L> {
     type Output = NextFacet;
 
-    /// The plane of the facet turns around the side: what it meets after the least angle is the next.
     #[inline(always)]
     fn run(&mut self) -> NextFacet {
+        self.next()
+    }
+}
+
+impl<L: Lanes> GiftWrap<'_, L> {
+    /// The plane of the facet turns around the side: what it meets after the least angle is the next.
+    #[inline(always)]
+    fn next(&self) -> NextFacet {
         let GiftWrap { frame, body, edge, vertex, m, away, from } = *self;
         let (own, other) = (&frame.bodies[body], &frame.bodies[1 - body]);
         let record = &own.polyhedron.edges[edge as usize];
@@ -497,11 +702,11 @@ impl<L: Lanes> Work for AtEdges<'_, L> {
         let unit = across.mul(L::splat(1.0 / square.sqrt()));
         let start = a.sub(c);
         let m = if unit.dot(start) < 0.0 { unit.negate() } else { unit };
-        let (top, _) = lowest(polyhedron1, body1.rotate_back(m).negate());
-        let (bottom, _) = lowest(polyhedron2, body2.rotate_back(m));
+        let (top, _, above) = lowest(polyhedron1, body1.rotate_back(m).negate(), Some(edge1.tail()));
+        let (bottom, _, below) = lowest(polyhedron2, body2.rotate_back(m), Some(edge2.tail()));
         let error = rounding(frame, polyhedron1, polyhedron2);
         // C reaches as high, and the corners of the parallelogram are as high.
-        let upper = m.dot(body1.offset) - top - bottom + error;
+        let upper = m.dot(body1.offset) - top - bottom + above + below + error;
         let heights = [m.dot(a), m.dot(b), m.dot(c), m.dot(d)];
         let mut lower = heights[0].min(heights[1]) - heights[2].max(heights[3]) - error;
         if !is_good(frame, lower, upper) {
@@ -520,13 +725,16 @@ impl<L: Lanes> Work for AtEdges<'_, L> {
             side = if inside[other] < inside[side] { other } else { side };
         }
         if !(inside[side] > 0.0) {
-            return Err(self.next_beyond(side, m, [e, g]));
+            return Err(L::out_of_line(&mut self.beyond(side, m, [e, g])));
         }
         let around = middle(frame, body1, body2, m, error);
         let small = Disc { radius: inside[side] - 4.0 * error, lower };
         if !encloses(small.radius, around, upper) {
-            let faces = [self.face_most_across(0, m), self.face_most_across(1, m.negate())];
-            match L::out_of_line(&mut WideDisc { frame, body: 0, faces, m, error, small, upper, around }) {
+            let wrap = self.beyond(side, m, [e, g]);
+            let faces =
+                [self.face_most_across(wrap.body, wrap.m), self.face_most_across(1 - wrap.body, wrap.m.negate())];
+            let facet = Facet::Edges(edges);
+            match L::out_of_line(&mut WideDisc { wrap, facet, faces, error, small, upper, around }) {
                 Some(proved) => lower = proved,
                 None => return Err(NextFacet::Nothing),
             }
@@ -571,9 +779,9 @@ impl<L: Lanes> AtEdges<'_, L> {
         best
     }
 
-    /// The facet beyond a side of the parallelogram: along e at the tail or the head of g, or along g at the tail or the head of e.
+    /// To the facet beyond a side of the parallelogram: along e at the tail or the head of g, or along g at the tail or the head of e.
     #[inline(always)]
-    fn next_beyond(&self, side: usize, m: L, [e, g]: [L; 2]) -> NextFacet {
+    fn beyond(&self, side: usize, m: L, [e, g]: [L; 2]) -> GiftWrap<'_, L> {
         let AtEdges { frame, edges: [edge1, edge2] } = *self;
         let ends = |body: usize, edge: u32| {
             let record = &frame.bodies[body].polyhedron.edges[edge as usize];
@@ -590,6 +798,6 @@ impl<L: Lanes> AtEdges<'_, L> {
         let across = m.cross(along);
         let away = if across.dot(out) < 0.0 { across.negate() } else { across };
         let away = away.mul(L::splat(1.0 / away.dot(away).sqrt()));
-        L::out_of_line(&mut GiftWrap { frame, body, edge, vertex, m: normal, away, from: [NONE, other] })
+        GiftWrap { frame, body, edge, vertex, m: normal, away, from: [NONE, other] }
     }
 }

@@ -15,6 +15,29 @@ pub enum Facet {
     Edges([u32; 2]),
 }
 
+impl Facet {
+    /// Its kind, 1 to 3, and its indices.
+    #[inline(always)]
+    pub fn words(self) -> [u32; 3] {
+        match self {
+            Facet::Face(0, face) => [1, face, 0],
+            Facet::Face(_, face) => [2, face, 0],
+            Facet::Edges([first, second]) => [3, first, second],
+        }
+    }
+
+    /// From any words; the bodies need not have it.
+    #[inline(always)]
+    pub fn of_words([kind, first, second]: [u32; 3]) -> Option<Facet> {
+        match kind {
+            1 => Some(Facet::Face(0, first)),
+            2 => Some(Facet::Face(1, first)),
+            3 => Some(Facet::Edges([first, second])),
+            _ => None,
+        }
+    }
+}
+
 /// The amount by which ties may differ, over M: a node this much below the least bound found counts as proved. Computed supports
 /// of equal facets differ by less.
 pub(super) const TIE: f64 = 12.0 * U;

@@ -13,7 +13,7 @@
 //!
 //! The polytope grows where it is nearest, by the support vertex beyond that triangle, as in the expanding polytope algorithm
 //! (van den Bergen 2001), until both bounds meet; kept from query to query it needs few new vertices, or none. Being no hull it
-//! can be moved on with the bodies: the certificate is checked anew in each query. For bodies at rest a [`Pyramid`] is enough.
+//! can be moved on with the bodies: the certificate is checked anew in each query.
 
 mod storage;
 mod planes;
@@ -25,8 +25,6 @@ mod proposal;
 mod degree;
 mod expand;
 mod witness;
-mod pyramid;
-mod raise;
 
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector, power_of_two};
 use crate::base::scalar::{Scalar, constant};
@@ -35,8 +33,6 @@ use crate::body::polyhedron::Polyhedron;
 use crate::placed::frame::{Frame, difference_error};
 pub use expand::{Ending, Expansion, SearchStart, WantedDepth, expand};
 pub use planes::evaluate;
-pub use pyramid::{ProofFailure, Pyramid, Rest};
-pub use raise::raise;
 pub use storage::Polytope;
 pub use support::{HEIGHTS, difference, farthest, heights, rough_support, support};
 pub use witness::{PolytopeWitness, witness};

@@ -4,7 +4,7 @@ use super::PairRounding;
 use crate::base::math::{UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::{Lanes, Work};
 use crate::body::polyhedron::fan::PointBlock;
-use crate::body::polyhedron::{NONE, Polyhedron, clear_slope};
+use crate::body::polyhedron::{Polyhedron, clear_slope};
 use crate::body::tables;
 use crate::distance::certificate;
 use crate::placed::exact::VertexPair;
@@ -117,61 +117,6 @@ pub fn difference<L: Lanes>(frame: &Frame<L>, vertex1: u32, vertex2: u32) -> L {
     let [body1, body2] = &frame.bodies;
     let (vertices1, vertices2) = (&body1.polyhedron.vertices, &body2.polyhedron.vertices);
     frame.difference(&vertices1[vertex1 as usize].position, &vertices2[vertex2 as usize].position)
-}
-
-/// How far a body reaches along a direction of about unit length, right to the rounding of a height: as far as the farthest of
-/// some vertices, those of one body of pairs, where none else can be farther; else as far as all vertices or a climb show.
-#[inline(always)]
-pub fn reach<L: Lanes>(polyhedron: &Polyhedron, towards: L, among: &[VertexPair], body: usize) -> f64 {
-    if !polyhedron.vertex_blocks.is_empty() {
-        let [x, y, z] = [towards.splat_x(), towards.splat_y(), towards.splat_z()];
-        let mut farthest = L::splat(f64::NEG_INFINITY);
-        for block in &polyhedron.vertex_blocks {
-            let part = x.mul_add(L::load(&block.x), y.mul_add(L::load(&block.y), z.mul(L::load(&block.z))));
-            farthest = farthest.max(part);
-        }
-        return -farthest.negate().least().0;
-    }
-    let vertices = &polyhedron.vertices;
-    if hold_farthest(polyhedron, towards, among, body) {
-        let mut farthest = f64::NEG_INFINITY;
-        for pair in among {
-            let height = towards.dot(L::from_vector(&vertices[pair[body] as usize].position));
-            farthest = if height > farthest { height } else { farthest };
-        }
-        return farthest;
-    }
-    let (vertex, excess) = farthest(polyhedron, towards, among.first().map(|pair| pair[body]));
-    towards.dot(L::from_vector(&vertices[vertex as usize].position)) + excess * (1.0 + 64.0 * U)
-}
-
-/// Whether a farthest vertex is among some: if all neighbours of theirs that are not are clearly lower. For from the farthest of
-/// them, were it not the body's, an edge would lead strictly up.
-#[inline(always)]
-fn hold_farthest<L: Lanes>(polyhedron: &Polyhedron, towards: L, among: &[VertexPair], body: usize) -> bool {
-    let clear = clear_slope(LENGTH);
-    let mut last = NONE;
-    for pair in among {
-        let vertex = pair[body];
-        let record = &polyhedron.vertices[vertex as usize];
-        let block = &record.neighbours;
-        let is_alone = (record.more == 0) & towards.products_are_below([&block.x, &block.y, &block.z], -clear);
-        if !(is_alone || vertex == last || ties_with_these(polyhedron, &towards.to_vector(), vertex, among, body)) {
-            return false;
-        }
-        last = vertex;
-    }
-    true
-}
-
-/// Whether all neighbours of a vertex that are not among some are clearly lower.
-fn ties_with_these(polyhedron: &Polyhedron, towards: &Vector, vertex: u32, among: &[VertexPair], body: usize) -> bool {
-    let (rough, clear) = (towards.map(|d| d as f32).into(), clear_slope(LENGTH));
-    polyhedron.neighbour_blocks(vertex).all(|block| {
-        let slopes = block.slopes(rough).into_iter().zip(&block.head);
-        // A NaN is not clearly lower.
-        slopes.filter(|(slope, _)| !(*slope < -clear)).all(|(_, head)| among.iter().any(|pair| pair[body] == *head))
-    })
 }
 
 /// A vertex farthest along a direction of unit length or less, and how much farther the body may reach: 0 where it is provably

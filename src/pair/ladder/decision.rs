@@ -7,11 +7,12 @@ use crate::base::error::Result;
 use crate::base::memory::in_integers;
 use crate::base::simd::{self, Kernel, Lanes, Portable};
 use crate::body::tables::tuning::TURNED_AWAY;
-use crate::depth::polytope::{PairRounding, Pyramid};
-use crate::depth::{Pyramids, deepest};
+use crate::depth::facets::{self, Proved};
+use crate::depth::{KeptFacets, deepest};
 use crate::distance::decide::{self, Decision, Pairs};
 use crate::distance::enclosure::encloses_origin;
 use crate::pair::start::policy;
+use crate::placed::exact::VertexPair;
 use crate::placed::frame::Frame;
 use crate::placed::state::State;
 
@@ -54,30 +55,10 @@ impl PairQuery<'_, NoBalls> {
         accepted
     }
 
-    /// Whether the pyramid or the tetrahedron of the last query still proves that the bodies intersect, if they are
-    /// [simple](PairQuery::is_simple).
-    #[inline(always)]
-    pub(super) fn look_at_last_proof(&mut self) -> Attempt {
-        match self.look_at_last_pyramid() {
-            Attempt::Answered => Attempt::Answered,
-            _ => self.look_at_last_enclosure(),
-        }
-    }
-
     /// Whether the tetrahedron of the last query still encloses the origin, for bodies that are [simple](PairQuery::is_simple).
     #[inline(always)]
-    fn look_at_last_enclosure(&mut self) -> Attempt {
+    pub(super) fn look_at_last_proof(&mut self) -> Attempt {
         simd::dispatch_to_avx2(&mut LastEnclosure { pair: self })
-    }
-
-    /// Whether the pyramid that proved the last depth, of which contacts are made, still does, for bodies that are
-    /// [simple](PairQuery::is_simple).
-    #[inline(always)]
-    fn look_at_last_pyramid(&mut self) -> Attempt {
-        let Some(pyramid) = self.cache.pyramid().filter(|_| self.query == Query::Contact) else {
-            return Attempt::Untried;
-        };
-        simd::dispatch_to_avx2(&mut LastPyramid { pair: self, pyramid })
     }
 
     /// Whether the tetrahedron of the last query, or what else the hint holds, encloses the origin: that is a proof.
@@ -153,10 +134,10 @@ impl PairQuery<'_, NoBalls> {
     fn fill(&mut self, decision: &Decision, statistics: Statistics, decided_by: DecidedBy) -> Result<()> {
         let pair = &self.pair();
         // A pair that intersected the last time may rest. All that may fail comes first.
-        let pyramids =
-            if self.is_simple() && self.cache.holds_enclosure() { Pyramids::Shallow } else { Pyramids::Unused };
+        let may_rest = self.is_simple() && self.cache.holds_enclosure();
+        let keeps = if may_rest { KeptFacets::Shallow } else { KeptFacets::None };
         let is_contact = self.query == Query::Contact && matches!(decision, Decision::Intersecting { .. });
-        let depth = if is_contact { Some(deepest(pair, pyramids)?) } else { None };
+        let depth = if is_contact { Some(deepest(pair, keeps)?) } else { None };
         (self.answer.statistics, self.answer.decided_by) = (statistics, decided_by);
         if let Decision::Separated { interval, .. } = decision {
             self.set_interval(interval, 0.5 * interval.lower + 0.5 * interval.upper);
@@ -187,11 +168,11 @@ impl PairQuery<'_, NoBalls> {
                 answer.lower = 0.0;
                 answer.upper = 0.0;
                 contact::fill_proof(answer, pair.polyhedra, pairs.as_slice());
-                if let Some((least, raised)) = depth {
+                if let Some((least, facet)) = depth {
                     let weights = contact::refined_weights(pair, pairs.as_slice(), *weights);
                     let points = decide::combinations(pair.polyhedra, pairs.as_slice(), &weights);
-                    if let Some((pyramid, triangle)) = raised {
-                        cache.remember_pyramid(&pyramid, triangle);
+                    if let Some(facet) = facet {
+                        cache.remember_facet(facet);
                     }
                     let contact::PlacedPoints { local, world } = contact::placed_points(pair, &points);
                     [answer.local1, answer.local2] = local;
@@ -225,6 +206,13 @@ impl Kernel for LastEnclosure<'_, '_> {
             return Attempt::Untried;
         }
         let Some(weights) = encloses_origin(&frame, pairs.as_slice()) else { return Attempt::NotEnclosed };
+        if self.pair.query == Query::Contact
+            && let Some(facet) = self.pair.cache.facet()
+            && let Ok(proved) = facets::prove(&frame, facet)
+        {
+            self.fill_at_rest(&frame, pairs.as_slice(), weights, &proved);
+            return Attempt::Answered;
+        }
         // If memory is lacking for integers, the later rungs report it.
         if self.pair.fill_enclosed(&frame, &Hint { pairs, steps: 0 }, weights).is_err() {
             return Attempt::Untried;
@@ -233,51 +221,39 @@ impl Kernel for LastEnclosure<'_, '_> {
     }
 }
 
-/// The common case of bodies in contact: the last proof of their depth still holds.
-struct LastPyramid<'a, 'b> {
-    pair: &'a mut PairQuery<'b, NoBalls>,
-    pyramid: Pyramid,
-}
-
-impl Kernel for LastPyramid<'_, '_> {
-    type Output = Attempt;
-
+impl LastEnclosure<'_, '_> {
+    /// The contact of bodies whose depth the facet of before still proves.
     #[inline(always)]
-    fn run<L: Lanes>(&mut self) -> Attempt {
-        let LastPyramid { pair, pyramid } = self;
+    fn fill_at_rest<L: Lanes>(
+        &mut self,
+        frame: &Frame<L>,
+        pairs: &[VertexPair],
+        weights: [f64; 4],
+        proved: &Proved<L>,
+    ) {
+        let pair = &mut *self.pair;
         let bodies = &pair.pair();
-        let frame = Frame::<L>::of_rigid(bodies);
-        if !frame.in_range {
-            return Attempt::Untried;
-        }
-        let rounding = PairRounding::of(&frame);
-        let Ok(rest) = pyramid.prove(&frame, &rounding) else { return Attempt::Untried };
-        let [a, b, c] = rest.pairs;
-        let pairs = [a, b, c, pyramid.apex()];
-        let Some(weights) = encloses_origin(&frame, &pairs) else { return Attempt::Untried };
-        let mut points = decide::combinations(bodies.polyhedra, &pairs, &weights);
+        let mut points = decide::combinations(bodies.polyhedra, pairs, &weights);
         // If the tetrahedron is thin, the two points do not coincide yet.
-        if frame.difference(&points[0], &points[1]).to_vector().norm() > rounding.difference {
-            let weights = contact::refined_weights(bodies, &pairs, weights);
-            points = decide::combinations(bodies.polyhedra, &pairs, &weights);
+        let error = frame.difference_error(0.0);
+        if frame.difference(&points[0], &points[1]).to_vector().norm() > error {
+            let weights = contact::refined_weights(bodies, pairs, weights);
+            points = decide::combinations(bodies.polyhedra, pairs, &weights);
         }
-        let (normal, within) = (rest.direction.negate(), rest.upper - rest.lower);
-        let deepest = [rest.points[0].to_vector(), rest.points[1].to_vector()];
-        let features = contact::features_of_pairs(bodies, &rest.pairs, &deepest, &normal.to_vector(), within);
-        pair.cache.remember_pyramid(pyramid, rest.triangle);
+        pair.cache.remember_facet(proved.facet);
         frame.mark(&mut pair.cache.marker);
         let answer = &mut *pair.answer;
         answer.statistics = Statistics::default();
         answer.decided_by = DecidedBy::Coherence;
         answer.outcome = Outcome::Intersecting;
         (answer.distance, answer.lower, answer.upper) = (0.0, 0.0, 0.0);
-        contact::fill_proof(answer, bodies.polyhedra, &pairs);
+        contact::fill_proof(answer, bodies.polyhedra, pairs);
         let contact::PlacedPoints { local, world } = contact::placed_points(bodies, &points);
         [answer.local1, answer.local2] = local;
         [answer.world1, answer.world2] = world;
-        normal.store_vector(&mut answer.normal);
-        [answer.feature1, answer.feature2] =
-            [0, 1].map(|i| contact::label(bodies.polyhedra[i], features[i], &deepest[i]));
-        Attempt::Answered
+        proved.direction.negate().store_vector(&mut answer.normal);
+        let [first, second] = proved.features;
+        answer.feature1 = contact::label(bodies.polyhedra[0], first, &proved.points[0].to_vector());
+        answer.feature2 = contact::label(bodies.polyhedra[1], second, &proved.points[1].to_vector());
     }
 }
