@@ -100,7 +100,9 @@ type Four<'a, P> = [Option<&'a P>; FOUR];
 #[inline(always)]
 pub fn four_of<'a, P: Place>(places: &'a [P], kept: &[u32; FOUR], size: f64) -> Four<'a, P> {
     if places.len() <= FOUR {
-        return std::array::from_fn(|i| places.get(i));
+        // A solver that takes four corners one after the other, around, turns the body.
+        let order = if places.len() == FOUR { [0, 2, 1, 3] } else { [0, 1, 2, 3] };
+        return order.map(|at| places.get(at));
     }
     let best = best_of(places);
     let Some(before) = these(places, kept) else { return best };

@@ -380,7 +380,7 @@ impl<L: Lanes> Work for WideDisc<'_, L> {
         {
             return Some(lower);
         }
-        self.prove_by_fold()
+        self.prove_by_contact_faces().or_else(|| self.prove_by_fold())
     }
 }
 
@@ -446,6 +446,36 @@ impl<L: Lanes> WideDisc<'_, L> {
         (inside > aside).then_some(Disc { radius: (inside - aside) * (cosine - 64.0 * U) * short, lower })
     }
 
+    /// By the corners of the contact face at the nearest side, less the middle of the other body's: a plane whose corners are rounded
+    /// to single precision is many facets, and the foot may be near a corner of some.
+    #[inline(always)]
+    fn prove_by_contact_faces(&self) -> Option<f64> {
+        let &WideDisc { wrap: GiftWrap { frame, body, edge, vertex, m, .. }, faces: [_, patch], error, .. } = self;
+        let (own, other) = (&frame.bodies[body], &frame.bodies[1 - body]);
+        let tail = own.polyhedron.edges[edge as usize].tail();
+        let corners = contact_corners(own.polyhedron, tail, own.rotate_back(m))?;
+        let middle = match contact_corners(other.polyhedron, vertex, other.rotate_back(m).negate()) {
+            Some(corners) => mean(corners.iter().map(|v| other.polyhedron.vertices[*v as usize].position)),
+            None => {
+                let sides = other.polyhedron.faces[patch as usize].side_count.min(MOST_SIDES as u32);
+                mean((0..sides).map(|side| other.polyhedron.vertices[other.polyhedron.corner(patch, side) as usize].position))
+            }
+        };
+        let mut polygon = FacetPolygon::EMPTY;
+        polygon.count = corners.len();
+        for (corner, vertex) in polygon.corners.get_mut(..polygon.count)?.iter_mut().zip(corners) {
+            let place = &own.polyhedron.vertices[*vertex as usize].position;
+            let [p, q] = if body == 0 { [place, &middle] } else { [&middle, place] };
+            *corner = frame.difference(p, q).to_vector();
+        }
+        let out = if body == 0 { m } else { m.negate() }.to_vector();
+        let places = polygon.corners[..polygon.count].iter();
+        let least = places.map(|corner| out.dot(corner)).fold(f64::INFINITY, f64::min);
+        let ([room, _], _) = polygon.rooms(&out);
+        // The mean of up to 32 corners is right to 34u of its body's radius.
+        self.prove(Disc { radius: room - 4.0 * error, lower: least - 6.0 * error })
+    }
+
     /// By the facet and that across its nearest side: seen along the normal, a disc that is inside of all other sides of both is on
     /// them.
     #[inline(always)]
@@ -498,12 +528,32 @@ struct FacetPolygon {
     count: usize,
 }
 
+/// The corners of the contact face at a vertex that looks most along a direction in the body's axes, if there is one.
+#[inline(always)]
+fn contact_corners<L: Lanes>(polyhedron: &Polyhedron, vertex: u32, along: L) -> Option<&[u32]> {
+    let contact = &polyhedron.contact_faces;
+    let cosine = |face: u32| L::from_vector(&contact.faces[face as usize].normal).dot(along);
+    let number = contact.at(vertex).max_by(|a, b| cosine(*a).total_cmp(&cosine(*b)))?;
+    let face = &contact.faces[number as usize];
+    let corners = &contact.corners[face.first_corner as usize..][..face.corner_count as usize];
+    (corners.len() <= MOST_SIDES).then_some(corners)
+}
+
+/// A convex combination of points, as computed.
+#[inline(always)]
+fn mean(points: impl ExactSizeIterator<Item = Vector>) -> Vector {
+    let count = points.len() as f64;
+    points.sum::<Vector>() / count
+}
+
 impl FacetPolygon {
+    const EMPTY: FacetPolygon = FacetPolygon { corners: [Vector::new(0.0, 0.0, 0.0); MOST_SIDES], count: 0 };
+
     /// A face with a vertex of the other body, or two edges. `None` of many sides.
     #[inline(always)]
     fn of<L: Lanes>(frame: &Frame<L>, facet: Facet, vertex: u32) -> Option<FacetPolygon> {
         let [polyhedron1, polyhedron2] = frame.polyhedra();
-        let mut polygon = FacetPolygon { corners: [Vector::zeros(); MOST_SIDES], count: 4 };
+        let mut polygon = FacetPolygon { count: 4, ..FacetPolygon::EMPTY };
         let mut pairs = [[vertex; 2]; MOST_SIDES];
         match facet {
             Facet::Face(body, face) => {
