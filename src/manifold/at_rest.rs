@@ -424,9 +424,9 @@ impl FourCorners {
     #[cold]
     fn fill(&mut self, polyhedron: &Polyhedron, face: u32, count: usize) {
         let ([block], [vertices]) = (&mut self.block, &mut self.vertices);
-        for lane in 0..4 {
-            vertices[lane] = polyhedron.corner(face, lane.min(count - 1) as u32);
-            let position = polyhedron.vertices[vertices[lane] as usize].position;
+        for (lane, vertex) in vertices.iter_mut().enumerate() {
+            *vertex = polyhedron.corner(face, lane.min(count - 1) as u32);
+            let position = polyhedron.vertices[*vertex as usize].position;
             (block.x[lane], block.y[lane], block.z[lane]) = (position.x, position.y, position.z);
         }
     }
@@ -620,7 +620,8 @@ impl Writing<'_, '_> {
         let (reference, incident) = (*reference, 1 - *reference);
         // The places of corners seen from the other body, and their gaps as numbers of the plane's axes: columns of both rotations
         // err by 9.2u of a radius, products with a normal by 5.2u and sums by 5u, Δ by 10u, the plane's offset by 8u; and Rᵀ is for
-        // R⁻¹ up to 29u, or cofactors and determinant err by 25u. That is less than 64u of all lengths, which the sweep allows for as well.
+        // R⁻¹ up to 29u, or cofactors and determinant err by 25u. That is less than 64u of all lengths, which the sweep
+        // allows for as well.
         let (rounding, doubt) = (64.0 * U * size, DOUBT * seen.coincident);
         let mut slid = [Slid::<F>::NONE, Slid::NONE];
         // Slid onto the plane of a body are the other's corners.

@@ -145,12 +145,12 @@ fn look<L: Lanes>(frame: &Frame<L>, facet: Facet) -> Result<Proved<L>, NextFacet
 /// By how much the heights of a facet and of the bodies along its normal, of unit length, may be off; also what is taken off
 /// lengths across it, twice.
 ///
-/// A face with the stored normal n of a body with the radius ρ is at n·v = −`offset`, up to σ and 4uρ (the heights that `offset`
-/// is the middle of err by 3u). In the world m = s·R·n as computed is off by 6.3u, and n·v = (RᵀR·n)·v up to 29u
-/// (`RIGID_DEFECT`), with s·`offset` 40.3uρ. Of a skewed R the vector is R⁻ᵀ·n by cofactors, 11u, their determinant 10u, and s 6u:
-/// less. The other body's heights take 5.3u for Rᵀm and 3u for the product: 8.3u of its radius. Δ is right to 2u|Δ|, its product to 3u; the sums to 3u of all. m's length is 1 up to 5u,
-/// times the depth, at most an eighth of all: u. So 45u, 15u and 11u. With edges m is any vector, of a length right to 5u, and all
-/// of these are less.
+/// A face with the stored normal n of a body with the radius ρ is at n·v = −`offset`, up to σ and 4uρ (the heights that `offset` is
+/// the middle of err by 3u). In the world m = s·R·n as computed is off by 6.3u, and n·v = (RᵀR·n)·v up to 29u (`RIGID_DEFECT`),
+/// with s·`offset` 40.3uρ. Of a skewed R the vector is R⁻ᵀ·n by cofactors, 11u, their determinant 10u, and s 6u: less. The other
+/// body's heights take 5.3u for Rᵀm and 3u for the product: 8.3u of its radius. Δ is right to 2u|Δ|, its product to 3u; the sums to
+/// 3u of all. m's length is 1 up to 5u, times the depth, at most an eighth of all: u. So 45u, 15u and 11u. With edges m is any
+/// vector, of a length right to 5u, and all of these are less.
 #[inline(always)]
 fn rounding<L>(frame: &Frame<L>, own: &Polyhedron, other: &Polyhedron) -> f64 {
     U * (45.0 * own.radius + 15.0 * other.radius + 11.0 * frame.separation)
@@ -169,8 +169,8 @@ fn is_good<L>(frame: &Frame<L>, lower: f64, upper: f64) -> bool {
 /// How many times as short a length may become that a skewed R places: ‖RᵀR − I‖ is at most 0.03.
 const SHORTENED: f64 = 0.98;
 
-/// A vertex that is about the lowest along a direction in the body's axes, its height, and by how much the body may be lower; climbed
-/// to from another where there are many.
+/// A vertex that is about the lowest along a direction in the body's axes, its height, and by how much the body may be lower;
+/// climbed to from another where there are many.
 #[inline(always)]
 fn lowest<L: Lanes>(polyhedron: &Polyhedron, along: L, start: Option<u32>) -> (f64, u32, f64) {
     if polyhedron.vertex_blocks.is_empty() {
@@ -354,8 +354,8 @@ fn shortest_of_unit<L>(frame: &Frame<L>) -> f64 {
     if frame.rigid { 1.0 } else { SHORTENED }
 }
 
-/// The wide one of two discs: a face of a body less one low point of the other, which is on a face that looks at it; or on the facet
-/// and the one across its nearest side.
+/// The wide one of two discs: a face of a body less one low point of the other, which is on a face that looks at it; or on the
+/// facet and the one across its nearest side.
 struct WideDisc<'a, L> {
     /// Across the facet's nearest side; its body is the one whose face it is.
     wrap: GiftWrap<'a, L>,
@@ -446,8 +446,8 @@ impl<L: Lanes> WideDisc<'_, L> {
         (inside > aside).then_some(Disc { radius: (inside - aside) * (cosine - 64.0 * U) * short, lower })
     }
 
-    /// By the corners of the contact face at the nearest side, less the middle of the other body's: a plane whose corners are rounded
-    /// to single precision is many facets, and the foot may be near a corner of some.
+    /// By the corners of the contact face at the nearest side, less the middle of the other body's: a plane whose corners are
+    /// rounded to single precision is many facets, and the foot may be near a corner of some.
     #[inline(always)]
     fn prove_by_contact_faces(&self) -> Option<f64> {
         let &WideDisc { wrap: GiftWrap { frame, body, edge, vertex, m, .. }, faces: [_, patch], error, .. } = self;
@@ -458,7 +458,10 @@ impl<L: Lanes> WideDisc<'_, L> {
             Some(corners) => mean(corners.iter().map(|v| other.polyhedron.vertices[*v as usize].position)),
             None => {
                 let sides = other.polyhedron.faces[patch as usize].side_count.min(MOST_SIDES as u32);
-                mean((0..sides).map(|side| other.polyhedron.vertices[other.polyhedron.corner(patch, side) as usize].position))
+                mean(
+                    (0..sides)
+                        .map(|side| other.polyhedron.vertices[other.polyhedron.corner(patch, side) as usize].position),
+                )
             }
         };
         let mut polygon = FacetPolygon::EMPTY;
@@ -829,7 +832,8 @@ impl<L: Lanes> AtEdges<'_, L> {
         best
     }
 
-    /// To the facet beyond a side of the parallelogram: along e at the tail or the head of g, or along g at the tail or the head of e.
+    /// To the facet beyond a side of the parallelogram: along e at the tail or the head of g, or along g at the tail or the head
+    /// of e.
     #[inline(always)]
     fn beyond(&self, side: usize, m: L, [e, g]: [L; 2]) -> GiftWrap<'_, L> {
         let AtEdges { frame, edges: [edge1, edge2] } = *self;
