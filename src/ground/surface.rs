@@ -244,7 +244,9 @@ impl Ground {
     ) -> Result<impl ExactSizeIterator<Item = ([u32; 3], [Vector; 3])>> {
         let total = self.triangle_count();
         let Some(end) = first.checked_add(count).filter(|end| *end <= total) else {
-            return Err(Error::Argument(format!("{count} triangles from number {first} on of a ground that has {total}")));
+            return Err(Error::Argument(format!(
+                "{count} triangles from number {first} on of a ground that has {total}"
+            )));
         };
         Ok((first as u32..end as u32).map(|t| {
             let corners = self.layout.corners(t);

@@ -9,8 +9,8 @@ use crate::scene::search::query::{PairResult, SceneAnswer};
 use crate::scene::world::testing::Testing;
 
 impl Scene {
-    /// Draws the edges and the box of each object, grounds too, and of the last query the near pairs that are tested and the listed results:
-    /// witness points, normals and contact points, as far as the query gave them.
+    /// Draws the edges and the box of each object, grounds too, and of the last query the near pairs that are tested and the listed
+    /// results: witness points, normals and contact points, as far as the query gave them.
     pub fn draw(&self, draw: &mut dyn Draw) {
         with_default(|| {
             let mut pen = Pen::new(draw);

@@ -121,8 +121,7 @@ fn all_sides_of_a_soup_are_drawn() {
     let mut random = Random::new(0xd4a2);
     for _ in 0..60 {
         let vertices: Vec<Vector> = (0..12).map(|_| random.vector()).collect();
-        let triangles: Vec<[u32; 3]> =
-            (0..20).map(|_| std::array::from_fn(|_| random.below(12) as u32)).collect();
+        let triangles: Vec<[u32; 3]> = (0..20).map(|_| std::array::from_fn(|_| random.below(12) as u32)).collect();
         let pose = anywhere(&mut random);
         let wanted = sides(&vertices, &triangles, &pose);
         let sheet = draw(Ground::from_triangles(&vertices, &triangles).unwrap(), pose);
