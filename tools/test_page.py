@@ -525,6 +525,11 @@ class Browser(Page):
             self.assertGreater(len(self.around(tab, spot, 40)), 1)
             tab.click(*spot)
             self.assertEqual(tab.run("page.state.body"), 1)
+            self.open(tab, self.make(self.recording("ground")))
+            tab.key("End")
+            tab.frame()
+            edge = tab.run("projector(page.camera)([-0.75, 0.1, -0.25])")  # on a rim of the ground, at its hole
+            self.assertGreater(len(self.around(tab, [round(x) for x in edge])), 1)
 
 
 if __name__ == "__main__":

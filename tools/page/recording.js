@@ -51,8 +51,14 @@ function findEdges(vertices, triangles) {
   return new Uint32Array(edges);
 }
 
-/* All edges of a ground, as pairs of vertices, and their mean length. A map of them would take seconds of a large one. */
+/* Without a graphics card the lines of a larger ground would take seconds a frame. */
+const MOST_EDGED_TRIANGLES = 50000;
+
+/* All edges of a ground, as pairs of vertices, and their mean length; none of a large one. */
 function findGroundEdges(vertices, triangles) {
+  if (triangles.length > 3 * MOST_EDGED_TRIANGLES) {
+    return { edges: new Uint32Array(0), edgeLength: 0 };
+  }
   const count = vertices.length / 3;
   const keys = new Float64Array(triangles.length);
   for (let i = 0; i < triangles.length; i++) {
