@@ -27,7 +27,8 @@ static void move(swiftprox_scene *scene, swiftprox_object_id id, double x)
 static void record_ground(const char *path)
 {
     static const double CUBE[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
-    static const double AWAY[12] = {1, 0, 0, 20, 0, 1, 0, 0, 0, 0, 1, 0}, THERE[12] = {1, 0, 0, -4.25, 0, 1, 0, -6.5, 0, 0, 1, 0.25};
+    static const double AWAY[12] = {1, 0, 0, 20, 0, 1, 0, 0, 0, 0, 1, 0};
+    static const double THERE[12] = {1, 0, 0, -4.25, 0, 1, 0, -6.5, 0, 0, 1, 0.25};
     const double heights[12] = {0, 0, 0, 0, 0, 0, 0, 0, NAN, 0, 0, 0.5};
     swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
