@@ -3,6 +3,7 @@
 
 use std::sync::Arc;
 
+use swiftprox::draw::{Draw, DrawKind};
 use swiftprox::ground::{Ground, GroundContacts, HeightGrid, ground_contacts};
 use swiftprox::hierarchy::{HierarchyKind, HierarchyOptions};
 use swiftprox::manifold::ManifoldConfig;
@@ -173,4 +174,42 @@ fn contacts_with_grounds_allocate_nothing_once_there_is_room() {
     }
     assert!(counts[0].iter().all(|count| *count > 0), "room is made when it is needed");
     assert_eq!(counts[1], [0; 2]);
+}
+
+/// Counts the edges alone.
+struct EdgeCount(usize);
+
+impl Draw for EdgeCount {
+    fn wants(&self, kind: DrawKind) -> bool {
+        kind == DrawKind::Edge
+    }
+
+    fn line(&mut self, _: DrawKind, _: [f64; 3], _: [f64; 3]) {
+        self.0 += 1;
+    }
+
+    fn point(&mut self, _: DrawKind, _: [f64; 3]) {}
+
+    fn text(&mut self, _: DrawKind, _: [f64; 3], _: &str) {}
+}
+
+/// A million triangles go to the drawer edge by edge, and to an array part by part.
+#[test]
+fn reading_a_large_ground_allocates_nothing() {
+    const ROWS: usize = 501;
+    const COLUMNS: usize = 1_001;
+    let heights = vec![0.0; ROWS * COLUMNS];
+    let grid = HeightGrid { rows: ROWS, columns: COLUMNS, spacing: [1.0; 2], heights: &heights };
+    let ground = Arc::new(Ground::from_heights(&grid).unwrap());
+    let mut scene = Scene::new();
+    scene.add_ground(ground.clone(), &ObjectOptions::default()).unwrap();
+    let mut count = EdgeCount(0);
+    assert_eq!(allocations(|| scene.draw(&mut count)), 0);
+    let (cells, rims) = ((ROWS - 1) * (COLUMNS - 1), ROWS - 1 + COLUMNS - 1);
+    assert_eq!((ground.triangle_count(), count.0), (1_000_000, 3 * cells + rims));
+    let sum = |first| ground.triangles(first, 1_000).unwrap().map(|(_, corners)| corners[2].x).sum::<f64>();
+    let mut total = 0.0;
+    assert_eq!(allocations(|| total = (0..1_000_000).step_by(1_000).map(sum).sum()), 0);
+    assert_eq!(total, (ROWS - 1) as f64 * (1..COLUMNS).map(|x| (2 * x - 1) as f64).sum::<f64>());
+    assert!(ground.triangles(999_999, 2).is_err() && ground.triangles(usize::MAX, 2).is_err());
 }

@@ -56,6 +56,7 @@ void page_data_free(struct page_data *data)
 {
     for (size_t i = 0; i < data->shape_count; i++) {
         swiftprox_shape_release(data->shapes[i].shape);
+        swiftprox_ground_release(data->shapes[i].ground);
     }
     for (size_t i = 0; i < data->step_count; i++) {
         free(data->steps[i].pairs);
@@ -72,11 +73,11 @@ void page_data_free(struct page_data *data)
 
 /* ---- bodies ---- */
 
-/* The number of the shape, which joins the page if it is new; PAGE_NO_BODY after a message. Scenes have few shapes. */
-static uint32_t number_shape(struct page_data *data, const swiftprox_shape *shape)
+/* The number of the shape or the ground, which joins the page if it is new; PAGE_NO_BODY after a message. Scenes have few. */
+static uint32_t number_shape(struct page_data *data, const swiftprox_shape *shape, const swiftprox_ground *ground)
 {
     for (size_t i = data->shape_count; i > 0; i--) {
-        if (data->shapes[i - 1].shape == shape) {
+        if (data->shapes[i - 1].shape == shape && data->shapes[i - 1].ground == ground) {
             return (uint32_t)(i - 1);
         }
     }
@@ -88,12 +89,15 @@ static uint32_t number_shape(struct page_data *data, const swiftprox_shape *shap
     }
     data->shapes = shapes;
     struct page_shape *const added = &shapes[data->shape_count];
-    added->info.struct_size = sizeof added->info;
-    if (swiftprox_shape_get_info(shape, &added->info) != SWIFTPROX_OK) {
+    added->info = (swiftprox_shape_info){.struct_size = sizeof added->info};
+    const swiftprox_status status =
+        ground ? page_ground_measure(ground, &added->info) : swiftprox_shape_get_info(shape, &added->info);
+    if (status != SWIFTPROX_OK) {
         player_failed();
         return PAGE_NO_BODY;
     }
     added->shape = swiftprox_shape_retain(shape);
+    added->ground = swiftprox_ground_retain(ground);
     return (uint32_t)data->shape_count++;
 }
 
@@ -104,20 +108,26 @@ static int add_bodies(struct page_data *data, const struct player *player, uint3
     if (swiftprox_scene_get_object_info(player->scene, id, &info) != SWIFTPROX_OK) {
         return player_failed();
     }
+    swiftprox_ground_info of_ground = {0};
+    if (info.ground && swiftprox_ground_get_info(info.ground, &of_ground) != SWIFTPROX_OK) {
+        return player_failed();
+    }
+    const bool is_ground = info.ground && of_ground.triangle_count <= PAGE_MOST_GROUND_TRIANGLES;
+    const size_t count = is_ground ? 1 : info.piece_count;
     struct page_body *const bodies =
-        with_room(data->bodies, &data->body_capacity, data->body_count + info.piece_count, sizeof *data->bodies);
+        with_room(data->bodies, &data->body_capacity, data->body_count + count, sizeof *data->bodies);
     if (!bodies) {
         return out_of_memory();
     }
     data->bodies = bodies;
     struct page_object *const object = &data->objects[number];
     *object = (struct page_object){.id = id, .first_body = (uint32_t)data->body_count};
-    for (uint32_t piece = 0; piece < info.piece_count; piece++) {
-        const swiftprox_shape *shape;
-        if (swiftprox_scene_get_piece(player->scene, id, piece, &shape) != SWIFTPROX_OK) {
+    for (uint32_t piece = 0; piece < count; piece++) {
+        const swiftprox_shape *shape = NULL;
+        if (!is_ground && swiftprox_scene_get_piece(player->scene, id, piece, &shape) != SWIFTPROX_OK) {
             return player_failed();
         }
-        const uint32_t shape_number = number_shape(data, shape);
+        const uint32_t shape_number = number_shape(data, shape, is_ground ? info.ground : NULL);
         if (shape_number == PAGE_NO_BODY) {
             return FAILED;
         }
@@ -205,6 +215,20 @@ static int add_move(struct page_data *data, uint32_t body, bool is_there)
     return GOOD;
 }
 
+/* Where a body is: a ground has no pieces. */
+static swiftprox_status get_pose(const struct page_data *data, const struct player *player, uint32_t body, double pose[12])
+{
+    const struct page_body *const asked = &data->bodies[body];
+    const swiftprox_object_id id = data->objects[asked->object].id;
+    if (!data->shapes[asked->shape].ground) {
+        return swiftprox_scene_get_piece_pose(player->scene, id, asked->piece, pose);
+    }
+    swiftprox_object_info info = {.struct_size = sizeof info};
+    const swiftprox_status status = swiftprox_scene_get_object_info(player->scene, id, &info);
+    memcpy(pose, info.pose, sizeof info.pose);
+    return status;
+}
+
 /* Whether one of the object's bodies is elsewhere is told by all bits of its pose. */
 static int see_poses(struct page_data *data, const struct player *player, uint32_t number)
 {
@@ -212,7 +236,7 @@ static int see_poses(struct page_data *data, const struct player *player, uint32
     for (uint32_t piece = 0; piece < object->piece_count; piece++) {
         const uint32_t at = object->first_body + piece;
         double pose[12];
-        if (swiftprox_scene_get_piece_pose(player->scene, object->id, piece, pose) != SWIFTPROX_OK) {
+        if (get_pose(data, player, at, pose) != SWIFTPROX_OK) {
             return player_failed();
         }
         if (object->is_there && memcmp(pose, data->bodies[at].pose, sizeof pose) == 0) {
@@ -228,14 +252,20 @@ static int see_poses(struct page_data *data, const struct player *player, uint32
     return GOOD;
 }
 
-/* The first step that has bodies says where the page's origin is: floats are finest there. */
+/* The first step that has bodies says where the page's origin is: floats are finest there. A ground may reach far beyond all
+ * others; it counts where there are no others. */
 static int place_origin(struct page_data *data)
 {
+    size_t count = 0;
+    for (size_t i = 0; i < data->body_count; i++) {
+        count += !data->shapes[data->bodies[i].shape].ground;
+    }
     for (size_t i = 0; i < data->body_count; i++) {
         double centre[3];
         find_centre(data, &data->bodies[i], centre);
-        for (int k = 0; k < 3; k++) {
-            data->origin[k] += centre[k] / (double)data->body_count;
+        const double share = count == 0 ? 1 / (double)data->body_count : 1 / (double)count;
+        for (int k = 0; k < 3 && (count == 0 || !data->shapes[data->bodies[i].shape].ground); k++) {
+            data->origin[k] += share * centre[k];
         }
     }
     data->has_origin = true;
@@ -290,7 +320,7 @@ static size_t bytes_of_pair(const struct page_pair *pair)
            (size_t)pair->line_count * LINE_BYTES;
 }
 
-/* A ground has none: the page shows its pairs alone. */
+/* None of a ground that is too large to be drawn: the page shows its pairs alone. */
 static uint32_t find_body(const struct page_data *data, const struct player *player, swiftprox_object_id id, uint32_t piece)
 {
     uint32_t number;
@@ -370,25 +400,82 @@ static void set_contact(struct page_contact *contact, const struct page_data *da
     contact->gap[1] = point->gap_upper;
 }
 
-/* The points of the pair's manifold, from all points of the query. `capacity` is that of the step's contacts. */
-static bool add_contacts(struct page_step *step, size_t *capacity, const struct page_data *data, struct page_pair *pair,
-                         const swiftprox_contact *contact, const swiftprox_manifold_point *points)
+/* The points of the pair's manifold, and where they go. */
+struct found_points {
+    struct page_step *step;
+    size_t *capacity; /* of the step's contacts */
+    const swiftprox_manifold_point *points;
+    size_t count;
+};
+
+static bool add_contacts(const struct page_data *data, struct page_pair *pair, const struct found_points *found)
 {
-    const uint32_t found = contact->manifold.point_count;
-    pair->contact_count = (uint16_t)(found < UINT16_MAX ? found : UINT16_MAX);
+    struct page_step *const step = found->step;
+    pair->contact_count = (uint16_t)(found->count < UINT16_MAX ? found->count : UINT16_MAX);
     if (pair->contact_count == 0) {
         return true;
     }
     struct page_contact *const contacts =
-        with_room(step->contacts, capacity, step->contact_count + pair->contact_count, sizeof *contacts);
+        with_room(step->contacts, found->capacity, step->contact_count + pair->contact_count, sizeof *contacts);
     if (!contacts) {
         return false;
     }
     step->contacts = contacts;
     for (size_t i = 0; i < pair->contact_count; i++) {
-        set_contact(&contacts[step->contact_count++], data, &points[contact->first_point + i]);
+        set_contact(&contacts[step->contact_count++], data, &found->points[i]);
     }
     return true;
+}
+
+static void swap_points(swiftprox_manifold_point *point)
+{
+    double world[3];
+    memcpy(world, point->world1, sizeof world);
+    memcpy(point->world1, point->world2, sizeof world);
+    memcpy(point->world2, world, sizeof world);
+}
+
+/* The points where a body meets a ground, asked anew: a scene's contact query finds none. Up to the largest gap that is asked of
+ * all, or as far as the pair is apart. `points` receives them; 0 where the pair is none with a ground. */
+static size_t find_ground_points(const struct page_data *data, const struct player *player, const struct page_pair *pair,
+                                 swiftprox_manifold_point points[PAGE_GROUND_POINTS])
+{
+    const double asked = player->options->max_distance;
+    const double least = pair->outcome == SWIFTPROX_OUTCOME_INTERSECTING ? 0 : pair->interval[2];
+    const double max_distance = isfinite(asked) && asked > least ? asked : least;
+    for (int side = 0; side < 2; side++) {
+        const uint32_t on = pair->bodies[side], of = pair->bodies[1 - side];
+        if (on == PAGE_NO_BODY || of == PAGE_NO_BODY || !data->shapes[data->bodies[on].shape].ground) {
+            continue;
+        }
+        size_t count = 0;
+        const swiftprox_placed body = {data->shapes[data->bodies[of].shape].shape, data->bodies[of].pose};
+        const swiftprox_placed_ground ground = {data->shapes[data->bodies[on].shape].ground, data->bodies[on].pose};
+        /* Curved bodies have none, which is no failure of the page. */
+        if (page_ground_find_points(body, ground, max_distance, points, &count) != SWIFTPROX_OK) {
+            return 0;
+        }
+        for (size_t i = 0; side == 0 && i < count; i++) {
+            swap_points(&points[i]);
+        }
+        return count;
+    }
+    return 0;
+}
+
+/* Of a pair without a contact, such as of a query for distances, none. */
+static bool add_points(const struct page_data *data, const struct player *player, struct page_pair *pair,
+                       struct found_points found, const swiftprox_contact *contact)
+{
+    swiftprox_manifold_point of_ground[PAGE_GROUND_POINTS];
+    if (contact && contact->manifold.point_count > 0) {
+        found.points += contact->first_point;
+        found.count = contact->manifold.point_count;
+    } else if (contact) {
+        found.points = of_ground;
+        found.count = find_ground_points(data, player, pair, of_ground);
+    }
+    return !contact || add_contacts(data, pair, &found);
 }
 
 /* Where the lines of a pair's march go. */
@@ -473,7 +560,8 @@ static int add_pairs(struct page_data *data, const struct player *player, const 
         const swiftprox_contact *const contact = at < answer->contact_count ? &answer->contacts[at] : NULL;
         struct page_pair *const pair = &step->pairs[step->pair_count++];
         *pair = make_pair(data, player, &pairs[at], contact);
-        has_memory = !contact || add_contacts(step, &capacity, data, pair, contact, answer->points);
+        const struct found_points found = {step, &capacity, answer->points, 0};
+        has_memory = add_points(data, player, pair, found, contact);
         if (has_memory && step->pair_count <= LEAST_PAIRS) {
             struct march march = {data, step, pair, &line_capacity, true};
             has_memory = add_march(&march, player, &pairs[at]);

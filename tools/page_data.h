@@ -1,7 +1,7 @@
 /* What a page of a scene shows (tools/page/): its shapes, where its bodies are in each step, and what its pairs were answered.
  *
- * A body is a convex piece of an object. Bodies are drawn, so that their places are rounded: see struct page_move. What is said of
- * pairs are the doubles of the answers. */
+ * A body is a convex piece of an object, or a ground. Bodies are drawn, so that their places are rounded: see struct page_move. What
+ * is said of pairs are the doubles of the answers. */
 #ifndef SWIFTPROX_TOOLS_PAGE_DATA_H
 #define SWIFTPROX_TOOLS_PAGE_DATA_H
 
@@ -11,6 +11,7 @@
 
 #include <swiftprox.h>
 
+#include "page_ground.h"
 #include "player.h"
 
 /* Stands for the body of an object that is in no scene. */
@@ -20,8 +21,9 @@
 enum { PAGE_DECISIONS = 9, PAGE_LEVELS = 8 };
 
 struct page_shape {
-    const swiftprox_shape *shape; /* a share */
-    swiftprox_shape_info info;
+    const swiftprox_shape *shape;   /* a share; null of a ground */
+    const swiftprox_ground *ground; /* a share; null of a shape */
+    swiftprox_shape_info info;      /* of a ground what page_ground_measure sets */
 };
 
 struct page_body {

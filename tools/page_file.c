@@ -45,8 +45,8 @@ static void write_head(FILE *file, const struct page_data *data, const struct pa
     fprintf(file, ",\"turnScale\":%d,\"shapes\":[", PAGE_TURN_SCALE);
     for (size_t i = 0; i < data->shape_count; i++) {
         const swiftprox_shape_info *const info = &data->shapes[i].info;
-        fprintf(file, "%s{\"vertices\":%zu,\"triangles\":%zu,\"radius\":%.17g,\"centre\":", i ? "," : "", info->vertex_count,
-                info->triangle_count, info->radius);
+        fprintf(file, "%s{\"vertices\":%zu,\"triangles\":%zu,\"isGround\":%s,\"radius\":%.17g,\"centre\":", i ? "," : "",
+                info->vertex_count, info->triangle_count, data->shapes[i].ground ? "true" : "false", info->radius);
         write_point(file, info->centre_of_mass);
         fputc('}', file);
     }
@@ -73,6 +73,9 @@ static int write_shapes(FILE *file, const struct page_data *data)
     size_t most = 1;
     for (size_t i = 0; i < data->shape_count; i++) {
         const swiftprox_shape_info *const info = &data->shapes[i].info;
+        if (data->shapes[i].ground) {
+            continue; /* it is read part by part */
+        }
         most = info->vertex_count > most ? info->vertex_count : most;
         most = info->triangle_count > most ? info->triangle_count : most;
     }
@@ -82,6 +85,10 @@ static int write_shapes(FILE *file, const struct page_data *data)
     struct base64 block = start_block(file, "shape.vertices");
     for (size_t i = 0; i < data->shape_count && status == SWIFTPROX_OK; i++) {
         const swiftprox_shape_info *const info = &data->shapes[i].info;
+        if (data->shapes[i].ground) {
+            status = page_ground_write_vertices(data->shapes[i].ground, info, &block);
+            continue;
+        }
         status = swiftprox_shape_copy_vertices(data->shapes[i].shape, vertices[0], NULL, most);
         for (size_t v = 0; v < info->vertex_count; v++) {
             for (int k = 0; k < 3; k++) {
@@ -92,6 +99,10 @@ static int write_shapes(FILE *file, const struct page_data *data)
     end_block(&block);
     block = start_block(file, "shape.triangles");
     for (size_t i = 0; i < data->shape_count && status == SWIFTPROX_OK; i++) {
+        if (data->shapes[i].ground) {
+            status = page_ground_write_triangles(data->shapes[i].ground, &block);
+            continue;
+        }
         status = swiftprox_shape_copy_triangles(data->shapes[i].shape, triangles[0], most);
         for (size_t t = 0; t < data->shapes[i].info.triangle_count; t++) {
             for (int k = 0; k < 3; k++) {
@@ -100,7 +111,7 @@ static int write_shapes(FILE *file, const struct page_data *data)
         }
     }
     end_block(&block);
-    const bool has_memory = vertices && triangles;
+    const bool has_memory = status != SWIFTPROX_ERROR_MEMORY;
     free(vertices);
     free(triangles);
     if (!has_memory) {

@@ -1,8 +1,11 @@
-/* Records a short scene for test_replay.py:  record_scene FILE */
+/* Records a short scene for test_replay.py, or one with a ground for test_page.py:  record_scene FILE [ground] */
+#include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
+#include <string.h>
 
 #include <swiftprox.h>
+#include <swiftprox/ground.h>
 #include <swiftprox/replay.h>
 #include <swiftprox/scene.h>
 
@@ -20,6 +23,38 @@ static void move(swiftprox_scene *scene, swiftprox_object_id id, double x)
     demand(swiftprox_scene_set_pose(scene, id, pose));
 }
 
+/* A ground of six cells, of which one is a hole, is moved to where a cube sinks into it by a quarter. */
+static void record_ground(const char *path)
+{
+    static const double CUBE[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
+    static const double AWAY[12] = {1, 0, 0, 20, 0, 1, 0, 0, 0, 0, 1, 0};
+    static const double THERE[12] = {1, 0, 0, -4.25, 0, 1, 0, -6.5, 0, 0, 1, 0.25};
+    const double heights[12] = {0, 0, 0, 0, 0, 0, 0, 0, NAN, 0, 0, 0.5};
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
+    const swiftprox_ground *ground;
+    const swiftprox_shape *cube;
+    swiftprox_object_id ids[2];
+    swiftprox_scene *scene;
+    swiftprox_scene_answer answer;
+    demand(swiftprox_ground_create_from_heights(3, 4, 4, 4, heights, &ground));
+    demand(swiftprox_shape_create_from_points(CUBE, 8, NULL, &cube));
+    demand(swiftprox_scene_create(NULL, &scene));
+    demand(swiftprox_scene_record(scene, path));
+    options.ground = ground;
+    memcpy(options.pose, AWAY, sizeof options.pose);
+    demand(swiftprox_scene_add_object(scene, NULL, 0, &options, &ids[0]));
+    demand(swiftprox_scene_add_object(scene, &cube, 1, NULL, &ids[1]));
+    query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
+    demand(swiftprox_scene_query_contact(scene, &query, &answer));
+    demand(swiftprox_scene_set_pose(scene, ids[0], THERE));
+    demand(swiftprox_scene_query_contact(scene, &query, &answer));
+    demand(swiftprox_scene_record(scene, NULL));
+    demand(swiftprox_scene_destroy(scene));
+    swiftprox_shape_release(cube);
+    swiftprox_ground_release(ground);
+}
+
 int main(int argc, char **argv)
 {
     static const double CUBE[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
@@ -31,6 +66,10 @@ int main(int argc, char **argv)
     swiftprox_scene_answer answer;
     if (argc < 2) {
         return EXIT_FAILURE;
+    }
+    if (argc > 2) {
+        record_ground(argv[1]);
+        return EXIT_SUCCESS;
     }
     demand(swiftprox_shape_create_from_points(CUBE, 8, NULL, &cube));
     demand(swiftprox_scene_create(NULL, &scene));

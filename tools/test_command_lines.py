@@ -24,7 +24,7 @@ OPTIONS = {"swiftprox-query": ("--query", "--max-distance", "--error", "--start"
            "swiftprox-tune": ("--query", "--max-distance", "--error", "--input", "--workers", "--passes"),
            "swiftprox-sweep": ("--out", "--share", "--max-distance", "--input", "--times"), "certified_edge": ("--svg",),
            "demo": ("--orbit", "--svg", "--record"),
-           "tower": ("--svg", "--record", "--seconds"), "crowd": ("--svg",)}
+           "tower": ("--svg", "--record", "--seconds"), "pile": ("--record",), "crowd": ("--svg",)}
 CHOICES = {"--query", "--start", "--levels", "--input"}
 NUMBERS = {"--error": ("-1", "x", "nan", ""), "--budget": ("-1", "x", "nan", ""),
            "--max-distance": ("-1", "x", "nan", ""), "--share": ("0", "x", "1048577"), "--orbit": ("-1", "0", "x", "1e6"),
@@ -118,7 +118,7 @@ class CommandLines(unittest.TestCase):
 
     def test_files_to_be_written_are_tried_first(self):
         for name, option in (("demo", "--svg"), ("demo", "--record"), ("certified_edge", "--svg"), ("tower", "--svg"),
-                             ("tower", "--record"), ("crowd", "--svg"), ("swiftprox-replay", "--html")):
+                             ("tower", "--record"), ("pile", "--record"), ("crowd", "--svg"), ("swiftprox-replay", "--html")):
             for path in (os.path.join(self.folder, "none", "a.svg"), self.folder):
                 self.refused(name, path, option, path)
         # The trial leaves no file behind, and none changed, where the program goes on to refuse something else.

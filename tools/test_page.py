@@ -60,8 +60,8 @@ class Page(unittest.TestCase):
             out.write(content)
         return self.path(name)
 
-    def recording(self):
-        subprocess.run([RECORDER, self.path("scene.swiftprox")], check=True, timeout=60)
+    def recording(self, *options):
+        subprocess.run([RECORDER, self.path("scene.swiftprox"), *options], check=True, timeout=60)
         return self.path("scene.swiftprox")
 
     def run_tool(self, *arguments, **options):
@@ -201,6 +201,35 @@ class Data(Page):
         pairs = groups(numbers(data["pair.bodies"], "I"), 2)
         self.assertEqual(sorted(pairs), [[0, 1], [0, 1], [0, 2], [0, 3], [1, 2], [2, 0xffffffff]])
 
+    def test_a_ground_is_drawn_and_touched(self):
+        """Four by three heights with a hole at the corner of one of six cells: ten triangles are left. A cube is 0.25 in them."""
+        head, data = blocks(self.make(self.recording("ground"), "--verify"))
+        self.assertEqual([shape["isGround"] for shape in head["shapes"]], [True, False])
+        shape, cube = head["shapes"]
+        self.assertEqual((shape["vertices"], shape["triangles"], shape["centre"]), (12, 10, [6, 4, 0.25]))
+        self.assertGreaterEqual(shape["radius"], math.hypot(6, 4))
+        vertices = groups(numbers(data["shape.vertices"], "f"), 3)[:12]
+        heights = [0.5 if v == 11 else 0 for v in range(12)]
+        for v in set(range(12)) - {8}:
+            self.assertEqual(vertices[v], [4 * (v % 4) - 6, 4 * (v // 4) - 4, heights[v] - 0.25])
+        triangles = groups(numbers(data["shape.triangles"], "I"), 3)
+        cells = [(row, column) for row in range(2) for column in range(3) if (row, column) != (1, 0)]
+        wanted = [[a, *pair] for row, column in cells for a in (4 * row + column,) for pair in ((a + 1, a + 5), (a + 5, a + 4))]
+        self.assertEqual(triangles[:len(wanted)], wanted)
+        self.assertEqual(len(triangles), len(wanted) + cube["triangles"])
+        self.assertEqual(groups(numbers(data["bodies"], "I"), 4), [[0, 0, 0, 1], [1, 0, 1, 0]])
+        self.assertEqual(head["origin"], cube["centre"])  # a ground may reach far beyond the others
+        moves = list(zip(numbers(data["move.bodies"], "I"), groups(numbers(data["move.places"], "f"), 3)))
+        self.assertEqual(moves, [(0, [25.5, 3.5, -0.25]), (1, [0, 0, 0]), (0, [1.25, -3, 0])])
+        self.assertEqual(groups(numbers(data["pair.bodies"], "I"), 2), [[0, 1]])
+        codes = list(data["pair.codes"])
+        self.assertEqual((codes[0], codes[7] + 256 * codes[8]), (INTERSECTING, 4))
+        for on_ground, on_cube in ((point[:3], point[3:]) for point in groups(numbers(data["contact.points"], "f"), 6)):
+            self.assertEqual((on_ground[2], on_cube[2]), (-0.25, -0.5))  # seen from the cube's centre
+            self.assertEqual((abs(on_cube[0]), abs(on_cube[1])), (0.5, 0.5))
+        gaps = groups(numbers(data["contact.gaps"], "d"), 2)
+        self.assertTrue(all(lower <= -0.25 <= upper for lower, upper in gaps))
+
     def test_the_nearest_pairs_are_kept_where_all_have_no_room(self):
         count, steps = 340, 7
         draw = random.Random(1)
@@ -300,6 +329,7 @@ class Browser(Page):
             self.a_grid_and_shadows_are_below_the_bodies(tab)
             self.a_crowd_is_drawn_once_and_without_edges_that_nobody_sees(tab)
             self.a_large_scene_waits_and_throws_no_shadows(tab)
+            self.a_ground_is_lit_and_picked(tab)
 
     def boxes(self):
         """Three boxes beside each other; the third moves over the second, then into it."""
@@ -457,6 +487,34 @@ class Browser(Page):
         self.assertEqual(tab.run("drawn"), {"frames": 1, "lines": 0, "triangles": bodies, "shadows": 0})
         self.assertFalse(tab.run("page.state.isPlaying"))
 
+    def a_ground_is_lit_and_picked(self, tab):
+        """Under the cube and in its shadow, instead of the grid. A click finds it, and with the cube its pair."""
+        self.open(tab, self.make(self.recording("ground"), "--query", "contact"))
+        tab.key("End")
+        tab.frame()
+        light = tab.run("lightOf(page.camera)")
+        shade = [0.6, 0.15, -0.25]  # beside the cube, whose half sides are 0.5; the ray to the light leaves through its top
+        self.assertTrue(all(abs(shade[k] + 0.75 * light[k] / light[2]) < 0.45 for k in range(2)))
+        spots = {"shade": shade, "ground": [0.9, -0.9, -0.25]}
+        spots = {name: [int(x) for x in tab.run(f"projector(page.camera)({spot})")] for name, spot in spots.items()}
+        seen = {name: max(map(sum, self.around(tab, spot, 1))) for name, spot in spots.items()}
+        paper = tab.run("partsOf(readColours().paper).slice(0, 3)")
+        self.assertLess(seen["ground"], sum(paper) - 20)
+        self.assertEqual(tab.run("placeOfPair(pairOf(page.recording, 0)).map(x => Math.round(1e6 * x) / 1e6)"), [0, 0, -0.375])
+        self.assertLess(seen["shade"], seen["ground"] - 40)
+        tab.click(*spots["ground"])
+        self.assertEqual(tab.run("page.state.body"), 0)
+        tab.click(*tab.run("page.spotOfBody(1)"))
+        self.assertEqual(tab.run("page.state.picked"), [0, 1])
+        self.assertIn("4 points", tab.run("document.getElementById('pair').textContent"))
+        tab.key("Escape")
+        tab.key("g")
+        tab.frame()
+        self.assertEqual(self.around(tab, spots["ground"], 1), {tuple(paper)})
+        tab.click(*spots["ground"])
+        self.assertEqual(tab.run("page.state.body"), 0xffffffff)
+        tab.key("g")
+
     def test_without_webgl_edges_are_drawn_and_words_say_so(self):
         with browser.Browser(1000, 700, ["--disable-3d-apis"]) as tab:
             self.open(tab, self.make(self.boxes()))
@@ -467,6 +525,11 @@ class Browser(Page):
             self.assertGreater(len(self.around(tab, spot, 40)), 1)
             tab.click(*spot)
             self.assertEqual(tab.run("page.state.body"), 1)
+            self.open(tab, self.make(self.recording("ground")))
+            tab.key("End")
+            tab.frame()
+            edge = tab.run("projector(page.camera)([-0.75, 0.1, -0.25])")  # on a rim of the ground, at its hole
+            self.assertGreater(len(self.around(tab, [round(x) for x in edge])), 1)
 
 
 if __name__ == "__main__":

@@ -203,6 +203,11 @@ static void pairs()
     const std::array<double, 4> heights{0.25, 0.25, 0.25, 0.25};
     const auto level = swiftprox::Ground::try_from_heights(swiftprox::Range<const double>(heights), 2, 9, 9);
     CHECK(level && level.value.try_info().value.triangle_count == 2);
+    std::array<double, 18> triangles;
+    std::array<std::uint32_t, 6> corners;
+    CHECK(level.value.try_copy_triangles(0, triangles, corners) && triangles[17] == 0.25 && corners[5] == 2);
+    CHECK(level.value.try_copy_triangles(1, triangles).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
+    CHECK(level.value.try_copy_triangles(0, triangles, {corners.data(), 3}).status == SWIFTPROX_ERROR_INVALID_ARGUMENT);
     const Pose on_ground = Pose::at(4, 4, 1);
     const auto gap =
         swiftprox::try_ground_distance(SWIFTPROX_QUERY_KIND_DISTANCE, {box, on_ground}, {level.value, here});

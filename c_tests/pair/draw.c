@@ -9,6 +9,7 @@
 #include "bodies.h"
 #include "swiftprox/curved.h"
 #include "swiftprox/draw.h"
+#include "swiftprox/ground.h"
 #include "swiftprox/scene.h"
 #include "swiftprox/tuning.h"
 
@@ -594,6 +595,38 @@ static void scenes(void)
     swiftprox_shape_release(cube);
 }
 
+/* A ground on its side: the edges of its triangles, 7 along the grid and 2 diagonals, where its pose puts them. */
+static void grounds(void)
+{
+    const double heights[6] = {0, 1, 2, 3, 4, 5}, pose[12] = {0, 0, 1, 7, 1, 0, 0, 0, 0, 1, 0, 0};
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
+    const swiftprox_ground *ground = NULL;
+    swiftprox_scene *scene = NULL;
+    swiftprox_object_id id;
+    swiftprox_draw draw = recorder(ALL);
+    size_t i, diagonals = 0;
+    CHECK_OK(swiftprox_ground_create_from_heights(2, 3, 1, 1, heights, &ground));
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
+    options.ground = ground;
+    memcpy(options.pose, pose, sizeof pose);
+    CHECK_OK(swiftprox_scene_add_object(scene, NULL, 0, &options, &id));
+    CHECK_OK(swiftprox_scene_draw(scene, &draw));
+    CHECK(pick(SWIFTPROX_DRAW_KIND_BOX) == 12 && pick(SWIFTPROX_DRAW_KIND_EDGE) == 9 && drawn.line_count == 21);
+    for (i = 0; i < 9; ++i) {
+        const double *const start = picked[i].start, *const end = picked[i].end;
+        const double along = fabs(end[1] - start[1]), across = fabs(end[2] - start[2]);
+        CHECK(start[0] == 7 + start[1] + 3 * start[2] && end[0] == 7 + end[1] + 3 * end[2]);
+        CHECK(along + across == 1 || (along == 1 && across == 1));
+        diagonals += along + across == 2;
+    }
+    CHECK(diagonals == 2);
+    draw = recorder(ALL & ~only(SWIFTPROX_DRAW_KIND_EDGE));
+    CHECK_OK(swiftprox_scene_draw(scene, &draw));
+    CHECK(drawn.line_count == 12);
+    CHECK_OK(swiftprox_scene_destroy(scene));
+    swiftprox_ground_release(ground);
+}
+
 /* Callbacks run as the program has set its processor. */
 static void callbacks_in_the_environment_of_the_program(void)
 {
@@ -659,6 +692,7 @@ int main(void)
     all_sorts();
     contacts();
     scenes();
+    grounds();
     callbacks_in_the_environment_of_the_program();
     bad_input();
     return check_report("draw");

@@ -105,6 +105,36 @@ static void casts(void)
     swiftprox_shape_release(body);
 }
 
+/* Triangles of a grid in two parts, one of them skipped; and what may be wrong with a part. */
+static void triangles_are_read(void)
+{
+    const double heights[6] = {0, 0.5, NAN, 2, 1, 3};
+    const double wanted[18] = {0, 0, 0, 1, 0, 0.5, 1, 2, 1, 0, 0, 0, 1, 2, 1, 0, 2, 2};
+    const uint32_t wanted_corners[12] = {0, 1, 4, 0, 4, 3, 1, 1, 1, 1, 1, 1};
+    const swiftprox_ground *ground = NULL;
+    double points[36];
+    uint32_t corners[12];
+    CHECK_OK(swiftprox_ground_create_from_heights(2, 3, 2, 1, heights, &ground));
+    CHECK_OK(swiftprox_ground_copy_triangles(ground, 0, 1, points, corners));
+    CHECK_OK(swiftprox_ground_copy_triangles(ground, 1, 3, points + 9, corners + 3));
+    CHECK(memcmp(points, wanted, sizeof wanted) == 0 && memcmp(corners, wanted_corners, sizeof corners) == 0);
+    CHECK(points[18] == 1 && points[20] == 0.5 && points[35] == 0.5);
+    corners[0] = 77;
+    CHECK_OK(swiftprox_ground_copy_triangles(ground, 0, 4, points, NULL));
+    CHECK_OK(swiftprox_ground_copy_triangles(ground, 4, 0, points, corners));
+    CHECK(corners[0] == 77);
+    points[0] = 77;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "2 triangles from number 3 on",
+                swiftprox_ground_copy_triangles(ground, 3, 2, points, corners));
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "of a ground that has 4",
+                swiftprox_ground_copy_triangles(ground, SIZE_MAX, SIZE_MAX, points, corners));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "ground", swiftprox_ground_copy_triangles(NULL, 0, 1, points, corners));
+    CHECK(points[0] == 77 && corners[0] == 77);
+    CHECK_OK(swiftprox_ground_copy_triangles(ground, 3, 1, NULL, corners));
+    CHECK(corners[0] == 1);
+    swiftprox_ground_release(ground);
+}
+
 /* Two tiles as one ground, and that as a solid: it pushes out a cube that is wholly below. */
 static void tiles_and_solids(void)
 {
@@ -303,6 +333,7 @@ int main(void)
     objects_of_a_scene();
     rays();
     casts();
+    triangles_are_read();
     tiles_and_solids();
     what_a_program_may_do_wrong();
     return check_report("ground");

@@ -66,6 +66,7 @@ static void released_grounds_and_compounds(void)
     CHECK_OK(swiftprox_ground_create_from_heights(2, 2, 1, 1, heights, &ground));
     swiftprox_ground_release(ground);
     CHECK_FAILS(SWIFTPROX_ERROR_HANDLE, "`ground` is no living ground", swiftprox_ground_create_solid(ground, 1, &solid));
+    CHECK_FAILS(SWIFTPROX_ERROR_HANDLE, "`ground` is no living ground", swiftprox_ground_copy_triangles(ground, 0, 0, NULL, NULL));
     CHECK(swiftprox_ground_retain(ground) == NULL);
     swiftprox_ground_release(ground);
     CHECK(is_told("is no living ground"));

@@ -1,5 +1,6 @@
 #include "rigid_bodies.h"
 #include <swiftprox/replay.h>
+#include <swiftprox/sets.h>
 
 #include <math.h>
 #include <stdio.h>
@@ -8,7 +9,7 @@
 
 #include "vectors.h"
 
-enum { MOST_BODIES = 64, MOST_PAIRS = MOST_BODIES * (MOST_BODIES - 1) / 2, ITERATIONS = 30 };
+enum { MOST_BODIES = 64, MOST_PAIRS = MOST_BODIES * (MOST_BODIES - 1) / 2, MOST_FEET = 4 * MOST_BODIES, ITERATIONS = 30 };
 
 static const double GRAVITY = -9.81, FRICTION = 0.6, MARGIN = 0.02, SLOP = 1e-3, PUSH = 0.2;
 
@@ -36,6 +37,10 @@ struct world {
     struct body bodies[MOST_BODIES];
     size_t count;
     struct pair pairs[MOST_PAIRS]; /* of bodies a < b at b·(b − 1)/2 + a */
+    struct body ground;            /* it never moves */
+    struct pair feet[MOST_FEET];   /* of a body and the ground, one for each contact */
+    size_t foot_count;
+    swiftprox_scratch *scratch; /* null without a ground */
     double depth;
 };
 
@@ -67,6 +72,7 @@ void world_destroy(struct world *world)
     for (size_t i = 0; i < world->count; i++) {
         swiftprox_shape_release(world->bodies[i].shape);
     }
+    swiftprox_scratch_destroy(world->scratch);
     free(world);
 }
 
@@ -155,6 +161,17 @@ void world_add(struct world *world, const swiftprox_shape *shape, const double p
     world->count++;
 }
 
+void world_add_ground(struct world *world, const swiftprox_ground *ground)
+{
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
+    options.ground = ground;
+    demand(swiftprox_scratch_create(&world->scratch));
+    demand(swiftprox_scene_add_object(world->scene, NULL, 0, &options, &world->ground.id));
+    swiftprox_ground_release(ground);
+    world->ground.quaternion[0] = 1;
+    place_body(&world->ground);
+}
+
 /* ---- contacts ---- */
 
 static struct pair *pair_of(struct world *world, size_t a, size_t b)
@@ -162,7 +179,31 @@ static struct pair *pair_of(struct world *world, size_t a, size_t b)
     return &world->pairs[b * (b - 1) / 2 + a];
 }
 
-/* Asks for the pair's manifold; impulses of points that are still there are carried on. */
+/* Makes the contacts of a manifold; impulses of points that were there before are carried on. */
+static void set_contacts(struct pair *pair, const swiftprox_manifold *manifold, const swiftprox_manifold_point *points,
+                         const struct pair *before)
+{
+    struct body *const *const bodies = pair->bodies;
+    pair->count = manifold->point_count < 4 ? manifold->point_count : 4;
+    memcpy(pair->axes[0], manifold->normal, sizeof pair->axes[0]);
+    tangents(pair->axes[0], pair->axes[1], pair->axes[2]);
+    for (size_t i = 0; i < pair->count; i++) {
+        struct contact *const contact = &pair->contacts[i];
+        *contact = (struct contact){.id = points[i].id, .gap = 0.5 * (points[i].gap_lower + points[i].gap_upper)};
+        for (int k = 0; k < 3; k++) {
+            contact->arm1[k] = points[i].world1[k] - bodies[0]->place[k];
+            contact->arm2[k] = points[i].world2[k] - bodies[1]->place[k];
+        }
+        for (size_t j = 0; before && j < before->count; j++) {
+            if (before->contacts[j].id == contact->id) {
+                memcpy(contact->impulse, before->contacts[j].impulse, sizeof contact->impulse);
+                contact->is_known = true;
+            }
+        }
+    }
+}
+
+/* Asks for the pair's manifold. */
 static void find_contacts(struct world *world, struct pair *pair)
 {
     swiftprox_manifold_config config = SWIFTPROX_MANIFOLD_CONFIG_DEFAULT;
@@ -176,25 +217,38 @@ static void find_contacts(struct world *world, struct pair *pair)
                                    (swiftprox_manifold_room){points, 4, NULL}, &manifold));
     const struct pair before = *pair;
     pair->count = manifold.point_count;
-    if (pair->count == 0) {
-        return;
+    if (pair->count > 0) {
+        world->depth = fmax(world->depth, -manifold.lower);
+        set_contacts(pair, &manifold, points, &before);
     }
-    world->depth = fmax(world->depth, -manifold.lower);
-    memcpy(pair->axes[0], manifold.normal, sizeof pair->axes[0]);
-    tangents(pair->axes[0], pair->axes[1], pair->axes[2]);
-    for (size_t i = 0; i < pair->count; i++) {
-        struct contact *const contact = &pair->contacts[i];
-        *contact = (struct contact){.id = points[i].id, .gap = 0.5 * (points[i].gap_lower + points[i].gap_upper)};
-        for (int k = 0; k < 3; k++) {
-            contact->arm1[k] = points[i].world1[k] - bodies[0]->place[k];
-            contact->arm2[k] = points[i].world2[k] - bodies[1]->place[k];
-        }
-        for (size_t j = 0; j < before.count; j++) {
-            if (before.contacts[j].id == contact->id) {
-                memcpy(contact->impulse, before.contacts[j].impulse, sizeof contact->impulse);
-                contact->is_known = true;
+}
+
+/* Asks once where bodies stand on the scene's ground. A body has a contact for each side that it meets. */
+static void find_feet(struct world *world)
+{
+    static struct pair before[MOST_FEET];
+    const size_t count = world->foot_count;
+    memcpy(before, world->feet, count * sizeof *before);
+    swiftprox_scene_ground_config config = SWIFTPROX_SCENE_GROUND_CONFIG_DEFAULT;
+    config.max_distance = MARGIN;
+    config.reduces = 1;
+    const swiftprox_placed_ground own = {NULL, NULL};
+    swiftprox_scene_ground_answer answer;
+    demand(swiftprox_scene_ground_contacts(world->scene, NULL, own, &config, world->scratch, &answer));
+    world->foot_count = answer.contact_count < MOST_FEET ? answer.contact_count : MOST_FEET;
+    for (size_t i = 0; i < world->foot_count; i++) {
+        const swiftprox_scene_ground_contact *const found = &answer.contacts[i];
+        const swiftprox_manifold *const manifold = &found->contact.manifold;
+        struct pair *const foot = &world->feet[i];
+        const struct pair *known = NULL;
+        *foot = (struct pair){.bodies = {&world->bodies[found->user_data], &world->ground}};
+        for (size_t j = 0; j < count; j++) {
+            if (before[j].bodies[0] == foot->bodies[0] && dot(before[j].axes[0], manifold->normal) > 0.99) {
+                known = &before[j];
             }
         }
+        world->depth = fmax(world->depth, -manifold->lower);
+        set_contacts(foot, manifold, &answer.points[found->contact.first_point], known);
     }
 }
 
@@ -224,6 +278,9 @@ static void find_all_contacts(struct world *world)
     }
     for (size_t i = 0; i < answer.count; i++) {
         const size_t a = (size_t)answer.pairs[i].user_data1, b = (size_t)answer.pairs[i].user_data2;
+        if (answer.pairs[i].object1.bits == world->ground.id.bits || answer.pairs[i].object2.bits == world->ground.id.bits) {
+            continue; /* its contacts are asked for below */
+        }
         struct pair *const pair = pair_of(world, a, b);
         pair->bodies[0] = &world->bodies[a];
         pair->bodies[1] = &world->bodies[b];
@@ -233,6 +290,15 @@ static void find_all_contacts(struct world *world)
     for (size_t i = 0; i < MOST_PAIRS; i++) {
         world->pairs[i].count = world->pairs[i].is_near ? world->pairs[i].count : 0;
     }
+    if (world->scratch) {
+        find_feet(world);
+    }
+}
+
+/* Pairs of bodies, then those with the ground. */
+static struct pair *pair_at(struct world *world, size_t index)
+{
+    return index < MOST_PAIRS ? &world->pairs[index] : &world->feet[index - MOST_PAIRS];
 }
 
 /* Pushes the bodies apart at a contact, along one of the pair's axes. */
@@ -306,8 +372,9 @@ void world_step(struct world *world, double seconds)
     for (size_t i = 0; i < world->count; i++) {
         world->bodies[i].velocity[2] += world->bodies[i].inverse_mass > 0 ? seconds * GRAVITY : 0;
     }
-    for (size_t i = 0; i < MOST_PAIRS; i++) {
-        struct pair *const pair = &world->pairs[i];
+    const size_t pair_count = MOST_PAIRS + world->foot_count;
+    for (size_t i = 0; i < pair_count; i++) {
+        struct pair *const pair = pair_at(world, i);
         for (size_t c = 0; c < pair->count; c++) {
             for (int axis = 0; axis < 3; axis++) {
                 push(pair, &pair->contacts[c], axis, pair->contacts[c].impulse[axis]);
@@ -315,9 +382,10 @@ void world_step(struct world *world, double seconds)
         }
     }
     for (int iteration = 0; iteration < ITERATIONS; iteration++) {
-        for (size_t i = 0; i < MOST_PAIRS; i++) {
-            for (size_t c = 0; c < world->pairs[i].count; c++) {
-                solve_contact(&world->pairs[i], &world->pairs[i].contacts[c], seconds);
+        for (size_t i = 0; i < pair_count; i++) {
+            struct pair *const pair = pair_at(world, i);
+            for (size_t c = 0; c < pair->count; c++) {
+                solve_contact(pair, &pair->contacts[c], seconds);
             }
         }
     }

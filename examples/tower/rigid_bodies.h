@@ -7,6 +7,7 @@
 #include <stddef.h>
 
 #include <swiftprox.h>
+#include <swiftprox/ground.h>
 
 struct body {
     const swiftprox_shape *shape; /* its local origin is its centre of mass */
@@ -30,6 +31,9 @@ void world_destroy(struct world *world);
 /* Adds a body of density 1, or one that never moves. The world takes the share of the shape. Ends the program where a call of
  * the library fails. */
 void world_add(struct world *world, const swiftprox_shape *shape, const double place[3], bool fixed);
+
+/* Puts a ground under all bodies, at the origin. The world takes the share of the ground. */
+void world_add_ground(struct world *world, const swiftprox_ground *ground);
 
 /* Writes down what happens from here on, for swiftprox-replay. Ends the program where the file cannot be written. */
 void world_record(struct world *world, const char *path);

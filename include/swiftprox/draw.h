@@ -23,7 +23,8 @@ extern "C" {
 typedef enum swiftprox_draw_kind SWIFTPROX_INT32 {
   /**
    * An edge of a shape, each once; a point that a shape is. With a swept radius r: the edges of its faces, moved outwards by r,
-   * and circles about the ends of spheres and capsules.
+   * and circles about the ends of spheres and capsules. Of a ground: the edges of its triangles, each once where two triangles
+   * are neighbours.
    */
   SWIFTPROX_DRAW_KIND_EDGE = 0,
   /** An edge of the box around an object of a scene. */
@@ -119,7 +120,7 @@ swiftprox_status swiftprox_pair_draw(struct swiftprox_placed object1,
 /**
  * Draws a scene, for debugging: edges and boxes of its objects, the pairs that its last query found near, and the results that it
  * listed, each with what the query gave: witness points, normal, points of the manifold. Results stay where they were found, even
- * if objects have moved since.
+ * if objects have moved since. Grounds are drawn as all their triangles, one edge after the other.
  *
  * Experimental.
  */

@@ -181,6 +181,23 @@ SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_ground_get_info(const struct swiftprox_ground *ground,
                                            struct swiftprox_ground_info *info);
 
+/**
+ * Copies `count` triangles of a ground, beginning with number `first`, in the ground's frame. A large ground is read in parts.
+ *
+ * `points` receives 9 coordinates of each triangle, corner by corner, and `corners` its 3 vertex numbers. Either may be null. The
+ * corners of a skipped triangle are one vertex; at a hole of a grid its height is 0.
+ *
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: the ground has no such triangles; nothing is written.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_ground_copy_triangles(const struct swiftprox_ground *ground,
+                                                 size_t first,
+                                                 size_t count,
+                                                 double *points,
+                                                 uint32_t *corners);
+
 /** A ground at a pose, an argument by value. Both pointers are only read during the call. */
 typedef struct swiftprox_placed_ground {
   /** The ground. */

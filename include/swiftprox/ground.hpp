@@ -72,6 +72,15 @@ class Ground
         result.status = swiftprox_ground_get_info(ground_, &result.value);
         return result;
     }
+    /** Triangles from number `first` on: 9 coordinates each to `points`, and 3 vertex numbers each to `corners` unless it is empty. */
+    Result<void> try_copy_triangles(std::size_t first, Range<double> points, Range<std::uint32_t> corners = {}) const noexcept
+    {
+        const std::size_t count = points.size() / 9;
+        if (points.size() % 9 != 0 || (!corners.empty() && corners.size() != 3 * count)) {
+            return detail::refused<void>("each triangle needs room for 9 coordinates and 3 corners");
+        }
+        return detail::status(swiftprox_ground_copy_triangles(ground_, first, count, points.data(), corners.data()));
+    }
 
 #if SWIFTPROX_HAS_EXCEPTIONS
     static Ground from_triangles(Range<const double> vertices, Range<const std::uint32_t> corners)
@@ -88,6 +97,10 @@ class Ground
     }
     Ground solid(double thickness) const { return take(try_solid(thickness)); }
     swiftprox_ground_info info() const { return take(try_info()); }
+    void copy_triangles(std::size_t first, Range<double> points, Range<std::uint32_t> corners = {}) const
+    {
+        take(try_copy_triangles(first, points, corners));
+    }
 #endif
 
   private:

@@ -247,6 +247,13 @@ void make_ground(Ground *self, nb::handle vertices, nb::handle triangles)
     new (self) Ground{made, shape[0]};
 }
 
+nb::object ground_triangles(const Ground &ground)
+{
+    std::vector<double> points(9 * ground.triangle_count);
+    run([&] { return swiftprox_ground_copy_triangles(ground.ground, 0, ground.triangle_count, points.data(), nullptr); });
+    return make_array(points.data(), ground.triangle_count, 9).attr("reshape")(-1, 3, 3);
+}
+
 swiftprox_pair_answer ground_distance(const Ground &ground, const Shape &shape, nb::handle pose, double max_distance)
 {
     const Pose a = read_pose(pose, "pose"), still;
@@ -398,6 +405,8 @@ void bind_scene(nb::module_ &m)
         .def("__init__", &make_ground, nb::arg("vertices"), nb::arg("triangles"),
              nb::sig("def __init__(self, vertices: " ARRAY ", triangles: " ARRAY ") -> None"),
              "vertices: shape (n, 3). triangles: vertex numbers from 0, shape (m, 3), counter-clockwise seen from the front.")
+        .def_prop_ro("triangles", &ground_triangles, nb::sig("def triangles(self) -> numpy.typing.NDArray[numpy.float64]"),
+                     "Where the corners of each triangle are, shape (m, 3, 3).")
         .def("distance", &ground_distance, nb::arg("shape"), nb::arg("pose"), nb::arg("max_distance") = infinity,
              nb::sig("def distance(self, shape: Shape, pose: Pose | " ARRAY ", max_distance: float = ...) -> Distance"),
              "The distance of a shape at a pose from the surface. The shape is body 1.")

@@ -263,6 +263,7 @@ def test_a_ground():
     ground = sp.Ground([[-9, -9, 0], [9, -9, 0], [0, 9, 0]], [[0, 1, 2]])
     box = sp.Shape.box(1, 1, 1)
     assert abs(ground.distance(box, at(0, 0, 3)).distance - 2) < 1e-12
+    assert ground.triangles.tolist() == [[[-9, -9, 0], [9, -9, 0], [0, 9, 0]]]
     contacts, points = ground.contacts(box, at(0, 0, 0.9))
     assert len(contacts) == 1 and len(points) == 4 and np.allclose(contacts["normal"][0], [0, 0, 1])
 

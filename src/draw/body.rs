@@ -1,8 +1,9 @@
-//! The edges of a body, and its features.
+//! The edges of a body or a ground, and features.
 
 use super::target::{DrawKind, Pen};
 use crate::base::math::Vector;
 use crate::body::polyhedron::Polyhedron;
+use crate::ground::PlacedGround;
 use crate::placed::state::FeatureId;
 use crate::shape::Placed;
 
@@ -28,6 +29,14 @@ impl Pen<'_> {
         }
         if polyhedron.edges.is_empty() {
             self.point(DrawKind::Edge, place(body, 0));
+        }
+    }
+
+    /// A ground where it is: edge by edge, with no memory for all of them.
+    pub fn ground(&mut self, placed: PlacedGround) {
+        for edge in placed.ground.edges() {
+            let [tail, head] = edge.map(|end| placed.pose.transform(&end));
+            self.line(DrawKind::Edge, tail, head);
         }
     }
 

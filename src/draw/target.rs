@@ -7,7 +7,8 @@ use crate::base::math::Vector;
 #[repr(i32)]
 pub enum DrawKind {
     /// An edge of a shape, each once; a point that a shape is. With a swept radius r: the edges of its faces, moved outwards by r,
-    /// and circles about the ends of spheres and capsules.
+    /// and circles about the ends of spheres and capsules. Of a ground: the edges of its triangles, each once where two triangles
+    /// are neighbours.
     Edge = 0,
     /// An edge of the box around an object of a scene.
     Box = 1,

@@ -127,7 +127,7 @@ pub unsafe extern "C" fn swiftprox_pair_draw(
 
 /// Draws a scene, for debugging: edges and boxes of its objects, the pairs that its last query found near, and the results that it
 /// listed, each with what the query gave: witness points, normal, points of the manifold. Results stay where they were found, even
-/// if objects have moved since.
+/// if objects have moved since. Grounds are drawn as all their triangles, one edge after the other.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_draw(scene: *const SceneHandle, draw: *const CDraw) -> StatusCode {
     // SAFETY: the header's pointer rules.

@@ -173,6 +173,38 @@ pub unsafe extern "C" fn swiftprox_ground_get_info(ground: *const Ground, info: 
     })
 }
 
+/// Copies `count` triangles of a ground, beginning with number `first`, in the ground's frame. A large ground is read in parts.
+///
+/// `points` receives 9 coordinates of each triangle, corner by corner, and `corners` its 3 vertex numbers. Either may be null. The
+/// corners of a skipped triangle are one vertex; at a hole of a grid its height is 0.
+///
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: the ground has no such triangles; nothing is written.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_ground_copy_triangles(
+    ground: *const Ground,
+    first: usize,
+    count: usize,
+    points: *mut f64,
+    corners: *mut u32,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules.
+        let ground = unsafe { handle(ground, "ground") }?;
+        let triangles = ground.triangles(first, count)?;
+        for (k, (vertices, places)) in triangles.enumerate() {
+            if !points.is_null() {
+                // SAFETY: not null, room for `count` triangles, and the caller's array is not ours.
+                unsafe { points.cast::<[[f64; 3]; 3]>().add(k).write(places.map(Into::into)) };
+            }
+            if !corners.is_null() {
+                // SAFETY: as above.
+                unsafe { corners.cast::<[u32; 3]>().add(k).write(vertices) };
+            }
+        }
+        Ok(())
+    })
+}
+
 /// Returns the distance of a shape (object 1) to a ground, or only whether they intersect. `kind` is SWIFTPROX_QUERY_KIND_DISTANCE
 /// or SWIFTPROX_QUERY_KIND_INTERSECTION. The ground counts as a set of points. Guarantees and `config` are as for
 /// swiftprox_pair_distance and swiftprox_pair_intersection. There is no cache.

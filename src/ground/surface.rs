@@ -232,6 +232,35 @@ impl Ground {
         (0..self.vertex_count()).map(|v| self.layout.vertex(v as u32))
     }
 
+    /// `count` triangles from number `first` on: their vertices and where these are. The corners of one that is left out are one
+    /// vertex; at a hole its height is 0.
+    ///
+    /// # Errors
+    /// [`Error::Argument`]: there are no such triangles.
+    pub fn triangles(
+        &self,
+        first: usize,
+        count: usize,
+    ) -> Result<impl ExactSizeIterator<Item = ([u32; 3], [Vector; 3])>> {
+        let total = self.triangle_count();
+        let Some(end) = first.checked_add(count).filter(|end| *end <= total) else {
+            return Err(Error::Argument(format!(
+                "{count} triangles from number {first} on of a ground that has {total}"
+            )));
+        };
+        Ok((first as u32..end as u32).map(|t| {
+            let corners = self.layout.corners(t);
+            (corners, corners.map(|v| self.layout.vertex(v)))
+        }))
+    }
+
+    /// The ends of each edge: once for the two triangles beside it, and once for a triangle that has no neighbour there.
+    pub(crate) fn edges(&self) -> impl Iterator<Item = [Vector; 2]> {
+        let layout = &self.layout;
+        let is_first = |half_edge: &u32| !layout.is_left_out(half_edge / 3) && *half_edge < layout.twin(*half_edge);
+        (0..3 * self.triangle_count() as u32).filter(is_first).map(|half_edge| layout.ends(half_edge))
+    }
+
     /// The vertices of each triangle; of one that is left out they have no area.
     pub(crate) fn corners(&self) -> impl ExactSizeIterator<Item = [u32; 3]> {
         (0..self.triangle_count()).map(|t| self.layout.corners(t as u32))

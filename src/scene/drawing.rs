@@ -9,8 +9,8 @@ use crate::scene::search::query::{PairResult, SceneAnswer};
 use crate::scene::world::testing::Testing;
 
 impl Scene {
-    /// Draws the edges and the box of each object, and of the last query the near pairs that are tested and the listed results:
-    /// witness points, normals and contact points, as far as the query gave them.
+    /// Draws the edges and the box of each object, grounds too, and of the last query the near pairs that are tested and the listed
+    /// results: witness points, normals and contact points, as far as the query gave them.
     pub fn draw(&self, draw: &mut dyn Draw) {
         with_default(|| {
             let mut pen = Pen::new(draw);
@@ -23,6 +23,9 @@ impl Scene {
     fn draw_objects(&self, pen: &mut Pen) {
         for object in self.objects() {
             if pen.wants(DrawKind::Edge) {
+                if let Some(ground) = object.ground() {
+                    pen.ground(ground.at(object.pose()));
+                }
                 for (piece, shape) in object.pieces().iter().enumerate() {
                     pen.shape(shape.at(&object.piece_pose_in_world(piece)));
                 }

@@ -4,6 +4,7 @@ mod bulk;
 mod casts;
 mod contacts;
 mod counts;
+mod drawing;
 mod events;
 mod few;
 mod ground_objects;

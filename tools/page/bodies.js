@@ -14,8 +14,9 @@ const MOST_TRIANGLES = 500000;
 const VERTEX_SHADER = `#version 300 es
 uniform mat4 view;
 uniform float pixels; /* of a length of 1 at a distance of 1 */
-uniform float radius;
+uniform float radius; /* of a ground the length of an edge */
 uniform int mode;     /* 0: faces, 1: edges, 2: numbers, 3: shadows */
+uniform bool isGround;
 uniform vec4 plane;   /* the ground: upwards, and how high */
 uniform vec3 light;   /* towards it */
 uniform float extent; /* of the scene */
@@ -32,7 +33,7 @@ void main() {
   gl_Position = view * vec4(world, 1.0);
   float size = radius * pixels / max(gl_Position.w, 1e-30);
   float share = clamp(size / ${LEAST_EDGED}.0 - 1.0, 0.0, 1.0);
-  paint = mode == 2 ? number : mode == 1 ? vec4(colour.rgb * 0.5, share * colour.a) : colour;
+  paint = mode == 2 ? number : mode == 1 ? vec4(colour.rgb * 0.5, share * colour.a * (isGround ? 0.22 : 1.0)) : colour;
   if (mode == 3) { /* fainter from above; what is below throws none */
     float high = max(dot(plane.xyz, world) - plane.w, 0.0);
     gl_Position = dot(plane.xyz, place) < plane.w ? vec4(2.0) : view * vec4(world - light * high / dot(plane.xyz, light), 1.0);
@@ -40,16 +41,36 @@ void main() {
   }
 }`;
 
+/* How dark shadows are at a place of their picture: a disc of samples on a spiral. */
+const SHADOW_AT = `
+float shadowAt(sampler2D shadows, vec2 at) {
+  float dark = 0.0;
+  for (int i = 0; i < 16; i++) {
+    float r = 0.006 * sqrt((float(i) + 0.5) / 16.0), turn = 2.4 * float(i);
+    dark += textureLod(shadows, 0.5 + 0.5 * at + r * vec2(cos(turn), sin(turn)), 1.0).r / 16.0;
+  }
+  return dark;
+}`;
+
 const FRAGMENT_SHADER = `#version 300 es
 precision highp float;
 precision highp int;
+${SHADOW_AT}
 uniform int mode;
+uniform bool isGround;
 uniform vec3 eye;
 uniform vec3 light;
 uniform vec4 plane;
+uniform mat4 above;       /* the plane of the shadows as the whole picture */
+uniform sampler2D shadows;
+uniform float shadow;     /* how dark */
 in vec3 world;
 in vec4 paint;
 out vec4 result;
+float lightOn() { /* of a place on a ground: what stands towards the light was thrown on the plane, and so is the place */
+  vec2 at = (above * vec4(world - light * (dot(plane.xyz, world) - plane.w) / dot(plane.xyz, light), 1.0)).xy;
+  return 1.0 - (1.0 - smoothstep(0.8, 1.0, length(at))) * shadow * shadowAt(shadows, at);
+}
 void main() {
   result = paint;
   if (mode == 0) {
@@ -57,9 +78,11 @@ void main() {
     if (dot(normal, eye - world) < 0.0) { normal = -normal; }
     vec3 back = normalize(eye - world);
     float sky = 0.5 + 0.5 * dot(normal, plane.xyz);
-    float shade = 0.56 + 0.18 * sky + 0.32 * max(dot(normal, light), 0.0) + 0.08 * max(dot(normal, back), 0.0);
+    vec4 share = isGround ? vec4(0.28, 0.2, 0.53, 0.0) : vec4(0.56, 0.18, 0.32, 0.08); /* slopes are to be told apart */
+    float shade = dot(share, vec4(1.0, sky, max(dot(normal, light), 0.0), max(dot(normal, back), 0.0)));
     float gloss = 0.1 * pow(max(dot(normal, normalize(light + back)), 0.0), 24.0);
-    result.rgb = min(result.rgb * shade + gloss, 1.0);
+    result.rgb = min(result.rgb * shade + (isGround ? 0.0 : gloss), 1.0);
+    result.rgb *= isGround && shadow > 0.0 ? lightOn() : 1.0;
   }
 }`;
 
@@ -121,7 +144,8 @@ function makeSolids(canvas, recording) {
     return null;
   }
   const program = makeProgram(gl, VERTEX_SHADER, FRAGMENT_SHADER);
-  const uniforms = uniformsOf(gl, program, ["view", "pixels", "radius", "mode", "eye", "light", "plane", "extent"]);
+  const uniforms = uniformsOf(gl, program, ["view", "pixels", "radius", "mode", "isGround", "eye", "light", "plane",
+    "extent", "above", "shadow"]);
   const merged = mergeShapes(recording.shapes);
   const vertices = makeBuffer(gl, gl.ARRAY_BUFFER, merged.vertices);
   const bodies = gl.createBuffer(), edged = gl.createBuffer();
@@ -139,7 +163,7 @@ function makeSolids(canvas, recording) {
   });
   gl.bindVertexArray(null);
   return { gl, canvas, recording, uniforms, program, parts: merged.parts, bodies, edged, arrays, words: new Float32Array(0), groups: [],
-    picking: null, ground: makeGround(gl) };
+    picking: null, ground: makeGround(gl), hidesGrounds: false };
 }
 
 /* The bodies of a step, by shape; those that are picked come last and are drawn over the others. `paintOf` gives the colour of a
@@ -205,9 +229,9 @@ function drawGroup(solids, group, mode) {
   gl.bindBuffer(gl.ARRAY_BUFFER, mode === EDGES ? solids.edged : solids.bodies);
   gl.uniform1i(uniforms.mode, mode);
   for (const { shape, first, count } of group) {
-    const part = parts[shape];
+    const part = parts[shape], { isGround, edgeLength } = recording.shapes[shape];
     const [kind, from, length] = mode === EDGES ? [gl.LINES, part.end, part.ends] : [gl.TRIANGLES, part.corner, part.corners];
-    if (count === 0 || length === 0) {
+    if (count === 0 || length === 0 || (isGround && solids.hidesGrounds)) {
       continue;
     }
     const stride = 4 * BODY_WORDS, offset = stride * first;
@@ -215,7 +239,8 @@ function drawGroup(solids, group, mode) {
     gl.vertexAttribPointer(2, 4, gl.FLOAT, false, stride, offset + 12);
     gl.vertexAttribPointer(3, 4, gl.UNSIGNED_BYTE, true, stride, offset + 28);
     gl.vertexAttribPointer(4, 4, gl.UNSIGNED_BYTE, true, stride, offset + 32);
-    gl.uniform1f(uniforms.radius, recording.shapes[shape].radius);
+    gl.uniform1f(uniforms.radius, edgeLength);
+    gl.uniform1i(uniforms.isGround, isGround);
     gl.drawElementsInstanced(kind, length, gl.UNSIGNED_INT, 4 * from, count);
   }
 }
@@ -233,18 +258,22 @@ function setView(solids, camera) {
   gl.uniform3fv(uniforms.eye, eyeOf(camera));
   gl.uniform3fv(uniforms.light, lightOf(camera));
   gl.uniform4f(uniforms.plane, ...up, dot(up, camera.ground));
+  gl.uniformMatrix4fv(uniforms.above, false, shadowMatrix(camera));
+  gl.bindTexture(gl.TEXTURE_2D, solids.ground.shadows);
   gl.enable(gl.DEPTH_TEST);
 }
 
 /* Faces before their edges, which would else fight with them. Of bodies that are picked one sees through the faces. `ink`: of the
- * grid, or null for no ground. */
+ * grid, which is drawn where the scene has no ground of its own, or null for neither. */
 function drawSolids(solids, camera, paper, ink) {
-  const { gl } = solids;
-  const hasShadows = ink && !isLarge(solids.recording);
+  const { gl, uniforms } = solids;
+  const hasShadows = ink && !isLarge(solids.recording), hasGrid = ink && !hasGrounds(solids.recording);
+  solids.hidesGrounds = !ink;
   if (hasShadows && solids.ground.isShadowDue) {
     drawShadows(solids, camera);
   }
   setView(solids, camera);
+  gl.uniform1f(uniforms.shadow, hasShadows ? SHADOW : 0);
   gl.clearColor(...paper.map(part => part / 255), 1);
   gl.clear(gl.COLOR_BUFFER_BIT | gl.DEPTH_BUFFER_BIT);
   gl.enable(gl.BLEND);
@@ -260,7 +289,7 @@ function drawSolids(solids, camera, paper, ink) {
     drawGroup(solids, group, FACES);
     gl.depthMask(true);
     drawGroup(solids, edged[isPicked], EDGES);
-    if (ink && !isPicked) {
+    if (hasGrid && !isPicked) {
       drawGround(solids, camera, ink, hasShadows);
       gl.useProgram(solids.program);
     }
@@ -298,9 +327,11 @@ function bodyAt(solids, camera, x, y) {
 function drawOutlines(context, recording, step, camera, paintOf) {
   const MOST = 60000;
   const project = projector(camera);
+  const bodies = Array.from({ length: recording.bodyCount }, (_, body) => body);
+  const order = [false, true].flatMap(isLast => bodies.filter(body => isGround(recording, body) === isLast));
   let drawn = 0;
   context.lineWidth = 1;
-  for (let body = 0; body < recording.bodyCount && drawn < MOST; body++) {
+  for (const body of order) {
     const move = moveOf(recording, body, step);
     if (move < 0) {
       continue;
@@ -310,7 +341,7 @@ function drawOutlines(context, recording, step, camera, paintOf) {
     const spot = v => project(add(place, turned(turn, Array.from(vertices.subarray(3 * v, 3 * v + 3)))));
     context.strokeStyle = `rgb(${paintOf(body).slice(0, 3)})`;
     context.beginPath();
-    for (let i = 0; i < edges.length; i += 2) {
+    for (let i = 0; i < edges.length && drawn < MOST; i += 2, drawn++) {
       const from = spot(edges[i]), to = spot(edges[i + 1]);
       if (from && to) {
         context.moveTo(...from);
@@ -318,7 +349,6 @@ function drawOutlines(context, recording, step, camera, paintOf) {
       }
     }
     context.stroke();
-    drawn += edges.length / 2;
   }
 }
 

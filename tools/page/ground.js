@@ -3,6 +3,9 @@
 
 const SHADOW_PIXELS = 1024;
 
+/* How dark shadows are. */
+const SHADOW = 0.42;
+
 const GROUND_VERTEX_SHADER = `#version 300 es
 uniform mat4 view;
 uniform vec3 eye, centre, first, second;
@@ -24,6 +27,7 @@ uniform vec3 ink;
 uniform float shadow; /* how dark */
 in vec2 at;
 out vec4 result;
+${SHADOW_AT}
 float lines(vec2 place) {
   vec2 width = fwidth(place), off = abs(fract(place - 0.5) - 0.5);
   vec2 cover = clamp(1.0 - off / width, 0.0, 1.0) * (1.0 - smoothstep(0.2, 0.6, width));
@@ -33,12 +37,7 @@ void main() {
   vec2 place = at * cells + offset;
   float fade = 1.0 - smoothstep(0.35, 1.0, length(at));
   float line = fade * max(0.22 * lines(place), 0.5 * lines(place / 5.0));
-  float dark = 0.0;
-  for (int i = 0; shadow > 0.0 && i < 16; i++) { /* a disc of samples on a spiral */
-    float r = 0.006 * sqrt((float(i) + 0.5) / 16.0), turn = 2.4 * float(i);
-    dark += textureLod(shadows, 0.5 + 0.5 * at + r * vec2(cos(turn), sin(turn)), 1.0).r / 16.0;
-  }
-  dark *= shadow * fade;
+  float dark = shadow > 0.0 ? shadow * fade * shadowAt(shadows, at) : 0.0;
   result = vec4(ink * line * (1.0 - dark), 1.0 - (1.0 - line) * (1.0 - dark)); /* times its opacity */
 }`;
 
@@ -68,11 +67,12 @@ function shadowMatrix(camera) {
   return Float32Array.from({ length: 16 }, (_, i) => rows[i % 4][i >> 2]);
 }
 
-/* The shadows from above. Of several the darkest counts; a body larger than the scene is the floor and throws none. */
+/* The shadows from above. Of several the darkest counts; a body larger than the scene is the floor and throws none, and no ground does. */
 function drawShadows(solids, camera) {
   const { gl, uniforms, ground, recording } = solids;
   const up = worldAxes(camera.up)[2];
   gl.useProgram(solids.program);
+  gl.bindTexture(gl.TEXTURE_2D, null); /* what is drawn into cannot be read */
   gl.bindFramebuffer(gl.FRAMEBUFFER, ground.frame);
   gl.viewport(0, 0, SHADOW_PIXELS, SHADOW_PIXELS);
   gl.uniformMatrix4fv(uniforms.view, false, shadowMatrix(camera));
@@ -84,7 +84,7 @@ function drawShadows(solids, camera) {
   gl.blendEquation(gl.MAX);
   gl.clearColor(0, 0, 0, 0);
   gl.clear(gl.COLOR_BUFFER_BIT);
-  const throwsOne = ({ shape }) => recording.shapes[shape].radius <= camera.extent;
+  const throwsOne = ({ shape }) => !recording.shapes[shape].isGround && recording.shapes[shape].radius <= camera.extent;
   solids.groups.forEach(group => drawGroup(solids, group.filter(throwsOne), SHADOWS));
   gl.blendEquation(gl.FUNC_ADD);
   gl.bindFramebuffer(gl.FRAMEBUFFER, null);
@@ -109,7 +109,7 @@ function drawGround(solids, camera, ink, hasShadows) {
   gl.uniform1f(uniforms.cells, reach / cell);
   gl.uniform2fv(uniforms.offset, offset);
   gl.uniform3fv(uniforms.ink, ink.slice(0, 3).map(part => part / 255));
-  gl.uniform1f(uniforms.shadow, hasShadows ? 0.42 : 0);
+  gl.uniform1f(uniforms.shadow, hasShadows ? SHADOW : 0);
   gl.bindTexture(gl.TEXTURE_2D, ground.shadows);
   gl.bindVertexArray(null);
   gl.depthMask(false);

@@ -42,9 +42,19 @@ function label(context, words, spot, colours, colour = colours.ink) {
   context.fillText(words, ...spot);
 }
 
-/* Where a pair is drawn: the middle between its witness points, or null. */
+/* Where a pair is: the middle between its witness points, or without these that of its manifold, as of a body in a ground; or null. */
+function placeOfPair(answer) {
+  if (answer.drawn && !Number.isNaN(answer.drawn[0][0])) {
+    return middle(...answer.drawn);
+  }
+  const points = answer.manifold.map(point => middle(...point.drawn));
+  return points.length > 0 ? points.reduce((sum, point) => add(sum, point, 1 / points.length), [0, 0, 0]) : null;
+}
+
+/* Where a pair is drawn, or null. */
 function spotOf(answer, project) {
-  return answer.drawn && !Number.isNaN(answer.drawn[0][0]) ? project(middle(...answer.drawn)) : null;
+  const place = placeOfPair(answer);
+  return place ? project(place) : null;
 }
 
 /* A dot that is seen on whatever is behind, filled or, of a pair that does not touch, hollow. */
@@ -136,14 +146,13 @@ function drawMarch(context, answer, project, colours) {
 function drawPicked(context, recording, answer, size, project, colours) {
   drawMarch(context, answer, project, colours);
   drawManifold(context, answer, project, colours);
-  const spot = spotOf(answer, project);
+  const spot = answer.drawn ? spotOf(answer, project) : null;
   if (spot && !Number.isNaN(answer.normal[0])) {
-    const start = middle(...answer.drawn);
     context.strokeStyle = context.fillStyle = colours.normal;
     context.lineWidth = 1.5;
-    arrow(context, spot, project(add(start, answer.normal, size)));
+    arrow(context, spot, project(add(placeOfPair(answer), answer.normal, size)));
   }
-  if (spot) {
+  if (spot && !Number.isNaN(answer.drawn[0][0])) {
     context.strokeStyle = answer.isIntersecting ? colours.touching : colours.near;
     context.lineWidth = 2.5;
     line(context, ...answer.drawn.map(project));

@@ -5,7 +5,7 @@ const element = id => document.getElementById(id);
 
 function readColours() {
   const style = getComputedStyle(document.documentElement);
-  const names = ["paper", "ink", "quiet", "alone", "fixed", "near", "touching", "undecided", "one", "two", "normal", "manifold", "march"];
+  const names = ["paper", "ink", "quiet", "alone", "fixed", "earth", "near", "touching", "undecided", "one", "two", "normal", "manifold", "march"];
   return Object.fromEntries(names.map(name => [name, style.getPropertyValue("--" + name).trim()]));
 }
 
@@ -29,7 +29,7 @@ function startPage(recording) {
 
   const paintOf = body => {
     const own = BODY_COLOURS[objectOf(recording, body) % BODY_COLOURS.length];
-    const parts = partsOf(isFixed(recording, body) ? colours.fixed : own);
+    const parts = partsOf(isGround(recording, body) ? colours.earth : isFixed(recording, body) ? colours.fixed : own);
     if (!state.picked || !answer) {
       return state.body === NO_BODY || near.has(body) ? parts : mixed(parts, partsOf(colours.paper), 0.75);
     }
@@ -239,9 +239,11 @@ function startPage(recording) {
   };
 
   const lookAtPair = () => {
-    if (answer && spotOf(answer, () => true)) {
-      camera.target = middle(...answer.drawn);
-      camera.distance = 5 * Math.max(pairSize(), Math.hypot(...add(answer.drawn[0], answer.drawn[1], -1)));
+    const place = answer ? placeOfPair(answer) : null;
+    if (place) {
+      const apart = answer.drawn ? Math.hypot(...add(answer.drawn[0], answer.drawn[1], -1)) || 0 : 0;
+      camera.target = place;
+      camera.distance = 5 * Math.max(pairSize(), apart);
       drawSoon();
     }
   };
@@ -340,7 +342,9 @@ function describe(recording, isSolid) {
   document.title = head.scene + " – swiftprox";
   element("title").textContent = head.scene;
   const bounds = head.maxDistance === undefined ? "" : ", max distance " + head.maxDistance;
-  element("about").textContent = `${counted(recording.stepCount, "step")}, ${counted(recording.bodyCount, "convex body").replace("bodys", "bodies")}, ` +
+  const grounds = Array.from({ length: recording.bodyCount }, (_, body) => isGround(recording, body)).filter(Boolean).length;
+  const bodies = counted(recording.bodyCount - grounds, "convex body").replace("bodys", "bodies");
+  element("about").textContent = `${counted(recording.stepCount, "step")}, ${bodies}, ` + (grounds ? counted(grounds, "ground") + ", " : "") +
     `${counted(recording.pairCount, "pair")}${bounds}; swiftprox ${head.version}`;
   if (head.cutOff) {
     element("caution").hidden = false;
@@ -350,8 +354,9 @@ function describe(recording, isSolid) {
     element("notice").hidden = false;
     element("notice").textContent = "This browser gives no WebGL 2, so that bodies are drawn as their edges alone, and of a large scene not all.";
   }
-  const entries = [["touching", "intersecting"], ["near", "near"], ["undecided", "undecided"], ["fixed", "fixed"]];
-  const used = entries.filter(([name]) => name !== "undecided" || hasUndecided(recording));
+  const entries = [["touching", "intersecting"], ["near", "near"], ["undecided", "undecided"], ["fixed", "fixed"],
+    ["earth", "ground"]];
+  const used = entries.filter(([name]) => (name !== "undecided" || hasUndecided(recording)) && (name !== "earth" || hasGrounds(recording)));
   element("legend").replaceChildren(...used.map(([name, words]) => {
     const dot = make("i", {});
     dot.style.background = `var(--${name})`;

@@ -51,17 +51,43 @@ function findEdges(vertices, triangles) {
   return new Uint32Array(edges);
 }
 
-/* Shapes share two arrays; each says where its part begins. */
+/* Without a graphics card the lines of a larger ground would take seconds a frame. */
+const MOST_EDGED_TRIANGLES = 50000;
+
+/* All edges of a ground, as pairs of vertices, and their mean length; none of a large one. */
+function findGroundEdges(vertices, triangles) {
+  if (triangles.length > 3 * MOST_EDGED_TRIANGLES) {
+    return { edges: new Uint32Array(0), edgeLength: 0 };
+  }
+  const count = vertices.length / 3;
+  const keys = new Float64Array(triangles.length);
+  for (let i = 0; i < triangles.length; i++) {
+    const [a, b] = [triangles[i], triangles[i % 3 === 2 ? i - 2 : i + 1]];
+    keys[i] = Math.min(a, b) * count + Math.max(a, b);
+  }
+  const ends = keys.sort().filter((key, i) => i === 0 || key !== keys[i - 1]);
+  const edges = new Uint32Array(2 * ends.length);
+  let sum = 0;
+  ends.forEach((key, i) => {
+    const [a, b] = [Math.floor(key / count), key % count];
+    edges.set([a, b], 2 * i);
+    sum += Math.hypot(...[0, 1, 2].map(k => vertices[3 * a + k] - vertices[3 * b + k]));
+  });
+  return { edges, edgeLength: sum / ends.length };
+}
+
+/* Shapes and grounds share two arrays; each says where its part begins. */
 function readShapes(head) {
   const vertices = takeArray("shape.vertices", Float32Array), triangles = takeArray("shape.triangles", Uint32Array);
   let vertex = 0, corner = 0;
-  return head.shapes.map(({ vertices: count, triangles: faces, radius }) => {
+  return head.shapes.map(({ vertices: count, triangles: faces, radius, isGround }) => {
     const shape = {
-      radius: Math.max(radius, 1e-30),
+      isGround, radius: Math.max(radius, 1e-30),
       vertices: vertices.subarray(3 * vertex, 3 * (vertex + count)),
       triangles: triangles.subarray(corner, corner + 3 * faces),
     };
-    shape.edges = findEdges(shape.vertices, shape.triangles);
+    Object.assign(shape, isGround ? findGroundEdges(shape.vertices, shape.triangles) :
+      { edges: findEdges(shape.vertices, shape.triangles), edgeLength: shape.radius });
     vertex += count;
     corner += 3 * faces;
     return shape;
@@ -116,6 +142,8 @@ function readRecording() {
 /* ---- bodies ---- */
 
 const objectOf = (recording, body) => recording.bodies[4 * body];
+const isGround = (recording, body) => recording.shapes[shapeOf(recording, body)].isGround;
+const hasGrounds = recording => recording.shapes.some(shape => shape.isGround);
 const pieceOf = (recording, body) => recording.bodies[4 * body + 1];
 const shapeOf = (recording, body) => recording.bodies[4 * body + 2];
 const isFixed = (recording, body) => recording.bodies[4 * body + 3] !== 0;
