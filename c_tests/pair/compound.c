@@ -70,6 +70,34 @@ static void answers_that_are_known(void)
     swiftprox_compound_release(body);
 }
 
+static void a_translation_that_frees(void)
+{
+    const swiftprox_compound *body = dumbbell();
+    const swiftprox_placed_compound still = at(body, identity);
+    swiftprox_compound_depth_answer deep;
+    swiftprox_depth_config config = SWIFTPROX_DEPTH_CONFIG_DEFAULT;
+    double pose[12];
+    int unknown = 99;
+    /* Each cube 0.5 deep in one above it. */
+    place(pose, 0, 0, 1.5);
+    CHECK_OK(swiftprox_compound_depth(still, at(body, pose), NULL, &deep));
+    CHECK(deep.deepest.distance.outcome == SWIFTPROX_OUTCOME_INTERSECTING && deep.deepest.piece1 == deep.deepest.piece2);
+    CHECK(deep.lower <= 0.5 + 1e-12 && 0.5 <= deep.upper && deep.upper < 0.5 + 1e-12);
+    CHECK(fabs(deep.translation[2] + 0.5) < 1e-12 && fabs(deep.translation[1]) < 1e-12);
+    CHECK_OK(swiftprox_compound_depth_verify(still, at(body, pose), &deep));
+    deep.translation[2] = -0.25;
+    CHECK_FAILS(SWIFTPROX_ERROR_UNVERIFIED, "pieces", swiftprox_compound_depth_verify(still, at(body, pose), &deep));
+    memcpy(&deep.deepest.distance.outcome, &unknown, sizeof unknown);
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "deepest.distance.outcome",
+                swiftprox_compound_depth_verify(still, at(body, pose), &deep));
+    config.step_budget = 0;
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "step_budget", swiftprox_compound_depth(still, at(body, pose), &config, &deep));
+    CHECK(deep.deepest.distance.outcome == SWIFTPROX_OUTCOME_NONE && isnan(deep.upper) && isnan(deep.translation[2]));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_compound_depth(still, still, NULL, NULL));
+    CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_compound_depth_verify(still, still, NULL));
+    swiftprox_compound_release(body);
+}
+
 static void contacts_rays_and_points(void)
 {
     const swiftprox_compound *body = dumbbell();
@@ -258,6 +286,7 @@ static void mistakes(void)
 int main(void)
 {
     answers_that_are_known();
+    a_translation_that_frees();
     contacts_rays_and_points();
     a_mesh();
     casts();

@@ -202,6 +202,59 @@ swiftprox_status swiftprox_compound_signed_distance(struct swiftprox_placed_comp
                                                     const struct swiftprox_pair_config *config,
                                                     struct swiftprox_compound_signed_distance_answer *answer);
 
+/**
+ * How deep two compounds are in each other: the length of the least translation of compound 1 at which no two pieces overlap, so
+ * that a plane has one on either side. Touching is allowed.
+ */
+typedef struct swiftprox_compound_depth_answer {
+  /** The signed distance of the compounds: whether they meet, which two pieces are the deepest in each other, and where. */
+  struct swiftprox_compound_signed_distance_answer deepest;
+  /** Lower end of the rigorous interval: the depth of the deepest two pieces. 0 where the compounds are apart or touch. */
+  double lower;
+  /**
+   * Upper end: the translation is no longer. 0 only where the compounds are apart or touch; infinite where none was found:
+   * of poses at the limit of what is accepted, and of bodies near the largest doubles.
+   */
+  double upper;
+  /**
+   * A translation in the world that frees: added to the pose of compound 1, each number rounded, it leaves no two pieces that
+   * overlap. NaN where none was found.
+   */
+  double translation[3];
+} swiftprox_compound_depth_answer;
+
+/**
+ * Computes how deep two compounds are in each other: the length of the least translation of object 1 at which no two pieces
+ * overlap. The answer is an interval, from the depth of the deepest two pieces to the length of a translation that is proved to
+ * free, and that translation. It need not be the least. No cache: equal arguments give equal answers.
+ *
+ * `config` may be null. The search ends early where upper - lower is within one of its errors, or after step_budget
+ * translations; the library's own limit is 2,000. Same errors as swiftprox_compound_signed_distance. On failure the answer is
+ * reset, and its deepest.distance.outcome is SWIFTPROX_OUTCOME_NONE.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_compound_depth(struct swiftprox_placed_compound object1,
+                                          struct swiftprox_placed_compound object2,
+                                          const struct swiftprox_depth_config *config,
+                                          struct swiftprox_compound_depth_answer *answer);
+
+/**
+ * Checks an answer of swiftprox_compound_depth independently of the search that found it. SWIFTPROX_OK: it is right for these
+ * compounds and poses.
+ *
+ * The named pieces are checked as by swiftprox_pair_depth_verify, compounds that are apart as by swiftprox_compound_verify. No two
+ * pieces are deeper. The translation, which is no longer than upper, is proved to leave each two pieces apart or touching, by
+ * their boxes or one by one. Errors are those of these two.
+ *
+ * Experimental.
+ */
+SWIFTPROX_NODISCARD
+swiftprox_status swiftprox_compound_depth_verify(struct swiftprox_placed_compound object1,
+                                                 struct swiftprox_placed_compound object2,
+                                                 const struct swiftprox_compound_depth_answer *answer);
+
 /** A contact of two compounds: the manifold of two of their pieces. */
 typedef struct swiftprox_compound_contact {
   /** The manifold of the two pieces. */

@@ -166,6 +166,20 @@ try_compound_signed_distance(const PlacedCompound &a, const PlacedCompound &b, C
 {
     return detail::compounds(swiftprox_compound_signed_distance, a, b, cache, config);
 }
+/** The depth of compounds, and a translation of the first that frees them. */
+inline Result<swiftprox_compound_depth_answer> try_compound_depth(const PlacedCompound &a, const PlacedCompound &b,
+                                                                  const DepthConfig &config = {}) noexcept
+{
+    const swiftprox_depth_config c = config.to_c();
+    Result<swiftprox_compound_depth_answer> result;
+    result.status = swiftprox_compound_depth(a.to_c(), b.to_c(), &c, &result.value);
+    return result;
+}
+inline Result<void> try_compound_depth_verify(const PlacedCompound &a, const PlacedCompound &b,
+                                              const swiftprox_compound_depth_answer &answer) noexcept
+{
+    return detail::status(swiftprox_compound_depth_verify(a.to_c(), b.to_c(), &answer));
+}
 inline Result<void> try_compound_verify(const PlacedCompound &a, const PlacedCompound &b,
                                         const swiftprox_compound_answer &answer) noexcept
 {
@@ -226,6 +240,15 @@ inline swiftprox_compound_signed_distance_answer compound_signed_distance(const 
                                                                           CompoundCache &cache, const PairConfig &config = {})
 {
     return take(try_compound_signed_distance(a, b, cache, config));
+}
+inline swiftprox_compound_depth_answer compound_depth(const PlacedCompound &a, const PlacedCompound &b,
+                                                      const DepthConfig &config = {})
+{
+    return take(try_compound_depth(a, b, config));
+}
+inline void compound_depth_verify(const PlacedCompound &a, const PlacedCompound &b, const swiftprox_compound_depth_answer &answer)
+{
+    take(try_compound_depth_verify(a, b, answer));
 }
 inline void compound_verify(const PlacedCompound &a, const PlacedCompound &b, const swiftprox_compound_answer &answer)
 {

@@ -44,6 +44,12 @@ struct CompoundSignedDistance : swiftprox_signed_distance {
     nb::object piece1, piece2;
 };
 
+/// The members of the deepest pieces' signed distance, but for the ends.
+struct CompoundDepth {
+    swiftprox_compound_depth_answer answer{};
+    CompoundSignedDistance deepest;
+};
+
 struct CompoundCast : Cast {
     nb::object piece1, piece2;
     uint32_t numbers[2];
@@ -176,6 +182,20 @@ CompoundSignedDistance signed_distance(CompoundPair &pair, nb::handle pose1, nb:
     return {answer.distance, piece1(pair, answer.piece1), piece2(pair, answer.piece2)};
 }
 
+CompoundDepth depth(const CompoundPair &pair, nb::handle pose1, nb::handle pose2, double relative_error)
+{
+    const Pose a = read_pose(pose1, "pose1"), b = read_pose(pose2, "pose2");
+    swiftprox_depth_config config = SWIFTPROX_DEPTH_CONFIG_DEFAULT;
+    config.relative_error = relative_error;
+    CompoundDepth found;
+    run([&] {
+        return swiftprox_compound_depth({pair.compound1.get(), a.m}, {pair.compound2.get(), b.m}, &config, &found.answer);
+    });
+    const swiftprox_compound_signed_distance_answer &deepest = found.answer.deepest;
+    found.deepest = {deepest.distance, piece1(pair, deepest.piece1), piece2(pair, deepest.piece2)};
+    return found;
+}
+
 nb::tuple contacts(CompoundPair &pair, nb::handle pose1, nb::handle pose2, double max_distance, bool reduce)
 {
     const Pose a = read_pose(pose1, "pose1"), b = read_pose(pose2, "pose2");
@@ -223,9 +243,16 @@ void verify(const CompoundPair &pair, nb::handle first, nb::handle second, nb::h
         return;
     }
     const Pose a = read_pose(first, "pose1"), b = read_pose(second, "pose2");
+    CompoundDepth *depth;
+    if (nb::try_cast(answer, depth, false) && depth) {
+        run([&] {
+            return swiftprox_compound_depth_verify({pair.compound1.get(), a.m}, {pair.compound2.get(), b.m}, &depth->answer);
+        });
+        return;
+    }
     CompoundDistance *distance;
     if (!nb::try_cast(answer, distance, false) || !distance) {
-        refuse("answer must be a CompoundDistance or a CompoundCast");
+        refuse("answer must be a CompoundDistance, a CompoundDepth or a CompoundCast");
     }
     const swiftprox_compound_answer said = {*distance, distance->numbers[0], distance->numbers[1]};
     run([&] { return swiftprox_compound_verify({pair.compound1.get(), a.m}, {pair.compound2.get(), b.m}, &said); });
@@ -316,6 +343,17 @@ void bind_compound(nb::module_ &m)
         m, "CompoundSignedDistance", "The least signed distance of two pieces, with their points, normal and features.");
     bind_pieces(signed_distances, "CompoundSignedDistance");
 
+    nb::class_<CompoundDepth>(m, "CompoundDepth", "How deep two compounds are in each other, and a translation that frees them.")
+        .def_prop_ro("lower", [](const CompoundDepth &self) { return self.answer.lower; },
+                     "No translation frees that is shorter: the depth of the deepest two pieces; 0 of bodies that do not overlap.")
+        .def_prop_ro("upper", [](const CompoundDepth &self) { return self.answer.upper; }, "The translation is no longer than this.")
+        .def_prop_ro("translation", [](const CompoundDepth &self) { return make_array(self.answer.translation, 3); },
+                     VECTOR_SIG("translation"), "Added to the pose of body 1 it leaves no two pieces that overlap, shape (3,).")
+        .def_ro("deepest", &CompoundDepth::deepest, "The signed distance of the deepest two pieces.")
+        .def("__repr__", [](const CompoundDepth &self) {
+            return nb::str("CompoundDepth(lower={}, upper={})").format(self.answer.lower, self.answer.upper);
+        });
+
     nb::class_<CompoundCast, Cast>(m, "CompoundCast", "When two moving compounds first meet; contact is about the two pieces.")
         .def_ro("piece1", &CompoundCast::piece1, nb::sig("def piece1(self) -> int | None"), "The piece of body 1; None if they are free.")
         .def_ro("piece2", &CompoundCast::piece2, nb::sig("def piece2(self) -> int | None"), "The piece of body 2; None if they are free.");
@@ -334,6 +372,10 @@ void bind_compound(nb::module_ &m)
         .def("signed", &signed_distance, nb::arg("pose1"), nb::arg("pose2"), nb::arg("max_distance") = infinity,
              nb::sig("def signed(self, " TWO_POSES ", max_distance: float = ...) -> CompoundSignedDistance"),
              "The distance, or minus the depth of the deepest two pieces: the translation that frees the bodies may be longer.")
+        .def("depth", &depth, nb::arg("pose1"), nb::arg("pose2"), nb::kw_only(), nb::arg("relative_error") = 0.0,
+             nb::sig("def depth(self, " TWO_POSES ", *, relative_error: float = 0.0) -> CompoundDepth"),
+             "The least translation of body 1 that frees the bodies, as an interval, and one that is proved to free.\n\n"
+             "relative_error: (upper - lower) / lower at which the search may stop.")
         .def("contacts", &contacts, nb::arg("pose1"), nb::arg("pose2"), nb::arg("max_distance") = 0.0, nb::kw_only(),
              nb::arg("reduce") = false,
              nb::sig("def contacts(self, " TWO_POSES ", max_distance: float = 0.0, *, reduce: bool = False) -> "
@@ -346,7 +388,8 @@ void bind_compound(nb::module_ &m)
                      "time_begin: float = 0.0, time_end: float = 1.0, time_tolerance: float = 1e-9) -> CompoundCast"),
              "Whether two moving compounds stay farther apart than max_distance, or when they first do not.")
         .def("verify", &verify, nb::arg("pose1"), nb::arg("pose2"), nb::arg("answer"),
-             nb::sig("def verify(self, pose1: Motion | " POSE ", pose2: Motion | " POSE ", answer: CompoundDistance | CompoundCast) -> None"),
+             nb::sig("def verify(self, pose1: Motion | " POSE ", pose2: Motion | " POSE ", "
+                     "answer: CompoundDistance | CompoundDepth | CompoundCast) -> None"),
              "Proves an answer anew, without the search that found it; raises Unverified if it is wrong.\n\n"
              "Of a CompoundCast the two arguments are its motions.");
 }

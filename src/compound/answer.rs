@@ -38,6 +38,31 @@ pub struct CompoundSignedDistance {
     pub piece2: u32,
 }
 
+/// How deep two compounds are in each other: the length of the least translation of compound 1 at which no two pieces overlap, so
+/// that a plane has one on either side. Touching is allowed.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
+pub struct CompoundDepth {
+    /// The signed distance of the compounds: whether they meet, which two pieces are the deepest in each other, and where.
+    pub deepest: CompoundSignedDistance,
+    /// Lower end of the rigorous interval: the depth of the deepest two pieces. 0 where the compounds are apart or touch.
+    pub lower: f64,
+    /// Upper end: the translation is no longer. 0 only where the compounds are apart or touch; infinite where none was found:
+    /// of poses at the limit of what is accepted, and of bodies near the largest doubles.
+    pub upper: f64,
+    /// A translation in the world that frees: added to the pose of compound 1, each number rounded, it leaves no two pieces that
+    /// overlap. NaN where none was found.
+    pub translation: [f64; 3],
+}
+
+/// Says nothing.
+impl Default for CompoundDepth {
+    fn default() -> Self {
+        let deepest = CompoundSignedDistance::default();
+        CompoundDepth { deepest, lower: f64::NAN, upper: f64::NAN, translation: [f64::NAN; 3] }
+    }
+}
+
 /// A contact of two compounds: the manifold of two of their pieces.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]

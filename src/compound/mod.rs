@@ -1,8 +1,8 @@
 //! Compounds: bodies of several convex pieces, with a tree of boxes over them. A query of two compounds walks both trees at once,
 //! and asks the pair layer of the pieces whose boxes do not answer.
 //!
-//! A compound is the union of its pieces. Verdicts and distances are those of the union; depths are of pairs of pieces, see
-//! [`signed_distance`].
+//! A compound is the union of its pieces. Verdicts and distances are those of the union; signed distances are of pairs of pieces,
+//! and [`depth`] is the interval of the union's.
 
 mod fit;
 mod tree;
@@ -14,25 +14,30 @@ mod approach;
 mod answer;
 mod queries;
 mod signed_distance;
+mod half_spaces;
+mod depth;
 mod contacts;
 mod single;
 mod verify;
+mod verify_depth;
 mod cast;
 
 use crate::base::math::Pose;
 use crate::motion::Motion;
 pub use answer::{
-    CompoundAnswer, CompoundCastAnswer, CompoundContact, CompoundContacts, CompoundPointAnswer, CompoundRayAnswer,
-    CompoundSignedDistance,
+    CompoundAnswer, CompoundCastAnswer, CompoundContact, CompoundContacts, CompoundDepth, CompoundPointAnswer,
+    CompoundRayAnswer, CompoundSignedDistance,
 };
 pub use body::{Compound, Piece};
 pub use cache::CompoundCache;
 pub use cast::{cast, verify_cast};
 pub use contacts::contacts;
+pub use depth::depth;
 pub use queries::{distance, intersection};
 pub use signed_distance::signed_distance;
 pub use single::{cast_ray, locate_point};
 pub use verify::verify;
+pub use verify_depth::verify_depth;
 
 /// A compound where it is.
 #[derive(Debug, Clone, Copy)]

@@ -92,7 +92,9 @@ impl LeastSigned<'_> {
         let (cache, config) = (self.cache.of(pieces), &self.config);
         let found = with_pieces(self.bodies, pieces, |placed| ask_pair(placed, cache, config))?;
         self.lower = self.lower.min(found.lower);
-        let is_least = self.named.is_none_or(|(_, least)| found.upper < least.upper);
+        // Of pairs that rounding lets touch at most, one that may overlap goes before one that does not.
+        let is_less = |least: &SignedDistance| (found.upper, found.lower) < (least.upper, least.lower);
+        let is_least = self.named.is_none_or(|(_, least)| is_less(&least));
         if found.outcome != Outcome::Beyond && is_least {
             self.enough = self.enough.min(found.upper);
             self.named = Some((pieces, found));

@@ -48,7 +48,7 @@ pub fn verify(bodies: [PlacedCompound; 2], found: &CompoundAnswer) -> Result<()>
     })
 }
 
-fn about(error: Error, [one, two]: [u32; 2]) -> Error {
+pub(super) fn about(error: Error, [one, two]: [u32; 2]) -> Error {
     error.about(&format!("pieces {one} and {two}"))
 }
 
@@ -68,7 +68,7 @@ fn check_unnamed(answer: &PairAnswer) -> Result<()> {
 }
 
 /// Proves that two pieces are disjoint, and at least so far apart. The direction is a query's; the proof trusts nothing of it.
-fn check_apart(placed: [Placed; 2], lower: f64) -> Result<()> {
+pub(super) fn check_apart(placed: [Placed; 2], lower: f64) -> Result<()> {
     let mut found = PairAnswer::default();
     pair::distance(placed, &mut PairCache::default(), &PairConfig::default(), &mut found)?;
     if found.outcome == Outcome::Intersecting {

@@ -4,12 +4,12 @@ use std::ffi::c_void;
 use std::sync::Arc;
 
 use super::arrays::{CMesh, check_count, read_mesh};
-use super::depth::{CManifoldConfig, check_room, read_manifold_config};
+use super::depth::{CDepthConfig, CManifoldConfig, check_room, read_depth_config, read_manifold_config};
 use super::failure::{Checked, Failure, StatusCode};
 use super::guard::{guard, keep_panics_quiet};
 use super::motion::{CCastConfig, CMotion, called, cast_config, check_cast_enumerators, read_motion};
 use super::object::share;
-use super::pair::{CPairConfig, check_enumerators, read_config};
+use super::pair::{CPairConfig, check_enumerators, check_signed_enumerators, read_config};
 use super::pointers::{array, exclusive, handle, input, output, release, retained};
 use super::shape_options::{ProgressCallback, in_steps};
 use crate::base::error::Result;
@@ -17,7 +17,8 @@ use crate::base::math::Pose;
 use crate::base::memory::{push, with_capacity};
 use crate::compound::{
     self, Compound, CompoundAnswer, CompoundCache, CompoundCastAnswer, CompoundContact, CompoundContacts,
-    CompoundPointAnswer, CompoundRayAnswer, CompoundSignedDistance, MovingCompound, Piece, PlacedCompound,
+    CompoundDepth, CompoundPointAnswer, CompoundRayAnswer, CompoundSignedDistance, MovingCompound, Piece,
+    PlacedCompound,
 };
 use crate::manifold::ManifoldPoint;
 use crate::pair::PairConfig;
@@ -210,6 +211,59 @@ pub unsafe extern "C" fn swiftprox_compound_signed_distance(
 ) -> StatusCode {
     // SAFETY: the header's pointer rules.
     unsafe { query(compound::signed_distance, [object1, object2], cache, config, answer) }
+}
+
+/// Computes how deep two compounds are in each other: the length of the least translation of object 1 at which no two pieces
+/// overlap. The answer is an interval, from the depth of the deepest two pieces to the length of a translation that is proved to
+/// free, and that translation. It need not be the least. No cache: equal arguments give equal answers.
+///
+/// `config` may be null. The search ends early where upper - lower is within one of its errors, or after step_budget
+/// translations; the library's own limit is 2,000. Same errors as swiftprox_compound_signed_distance. On failure the answer is
+/// reset, and its deepest.distance.outcome is SWIFTPROX_OUTCOME_NONE.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_compound_depth(
+    object1: CPlacedCompound,
+    object2: CPlacedCompound,
+    config: *const CDepthConfig,
+    answer: *mut CompoundDepth,
+) -> StatusCode {
+    let status = guard(|| {
+        // SAFETY: the header's pointer rules.
+        unsafe {
+            output(answer, "answer", CompoundDepth::default())?;
+            Ok(compound::depth(bodies(object1, object2)?, &read_depth_config(config)?, &mut *answer)?)
+        }
+    });
+    if status == StatusCode::ErrorBug && !answer.is_null() {
+        // SAFETY: not null, writable by the caller.
+        unsafe { answer.write(CompoundDepth::default()) };
+    }
+    status
+}
+
+/// Checks an answer of swiftprox_compound_depth independently of the search that found it. SWIFTPROX_OK: it is right for these
+/// compounds and poses.
+///
+/// The named pieces are checked as by swiftprox_pair_depth_verify, compounds that are apart as by swiftprox_compound_verify. No two
+/// pieces are deeper. The translation, which is no longer than upper, is proved to leave each two pieces apart or touching, by
+/// their boxes or one by one. Errors are those of these two.
+#[unsafe(no_mangle)]
+pub unsafe extern "C" fn swiftprox_compound_depth_verify(
+    object1: CPlacedCompound,
+    object2: CPlacedCompound,
+    answer: *const CompoundDepth,
+) -> StatusCode {
+    guard(|| {
+        // SAFETY: the header's pointer rules; an answer whose enumerators are valid is one, whatever else it holds.
+        let (bodies, answer) = unsafe {
+            if answer.is_null() {
+                return Err(Failure::null("answer"));
+            }
+            check_signed_enumerators(&raw const (*answer).deepest.distance, "answer->deepest.distance")?;
+            (bodies(object1, object2)?, &*answer)
+        };
+        Ok(compound::verify_depth(bodies, answer)?)
+    })
 }
 
 /// Room for the contacts of two compounds. The caller owns the arrays, which may be null if their capacity is 0.

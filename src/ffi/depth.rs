@@ -83,14 +83,9 @@ pub unsafe extern "C" fn swiftprox_pair_depth(
             (
                 bodies(object1, object2)?,
                 exclusive(cache.cast::<DepthCache>(), "cache")?,
-                read_struct(config, CDepthConfig::DEFAULT)?,
+                read_depth_config(config)?,
                 exclusive(answer, "answer")?,
             )
-        };
-        let config = DepthConfig {
-            absolute_error: config.absolute_error,
-            relative_error: config.relative_error,
-            step_budget: config.step_budget,
         };
         Ok(pair::depth(bodies, cache, &config, answer)?)
     });
@@ -138,6 +133,17 @@ pub extern "C" fn swiftprox_library_depth_ending_string(ending: DepthEndingNumbe
         None => c"no way to end",
     };
     string.as_ptr()
+}
+
+/// The options of a depth query, or the defaults for null.
+///
+/// # Safety
+/// `config` meets the header's pointer rules.
+pub(super) unsafe fn read_depth_config(config: *const CDepthConfig) -> Checked<DepthConfig> {
+    // SAFETY: by the caller.
+    let config = unsafe { read_struct(config, CDepthConfig::DEFAULT) }?;
+    let CDepthConfig { absolute_error, relative_error, step_budget, .. } = config;
+    Ok(DepthConfig { absolute_error, relative_error, step_budget })
 }
 
 /// The caller's answer to read, its enumerators checked.

@@ -11,7 +11,7 @@ use super::structs::{Versioned, view_struct};
 use super::tuning::{CPairTuning, PairTuning, read_pair_tuning};
 use crate::base::error::Result;
 use crate::base::math::Pose;
-use crate::pair::{self, DecidedBy, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Placed};
+use crate::pair::{self, DecidedBy, FeatureKind, Outcome, PairAnswer, PairCache, PairConfig, Placed, SignedDistance};
 use crate::shape::Shape;
 use crate::verify::verify;
 
@@ -315,6 +315,25 @@ pub(super) unsafe fn check_enumerators(answer: *const PairAnswer, name: &str) ->
     read_enumerator::<DecidedBy>(decided_by, format_args!("{name}->decided_by"), "swiftprox_decided_by")?;
     read_enumerator::<FeatureKind>(kind1, format_args!("{name}->feature1.kind"), "swiftprox_feature_kind")?;
     read_enumerator::<FeatureKind>(kind2, format_args!("{name}->feature2.kind"), "swiftprox_feature_kind")?;
+    Ok(())
+}
+
+/// The same of a signed distance; `name` is that of the struct itself.
+///
+/// # Safety
+/// As of [`check_enumerators`].
+pub(super) unsafe fn check_signed_enumerators(answer: *const SignedDistance, name: &str) -> Checked<()> {
+    // SAFETY: by the caller; read as integers, whatever they hold.
+    let [outcome, kind1, kind2] = unsafe {
+        [
+            (&raw const (*answer).outcome).cast::<i32>().read(),
+            (&raw const (*answer).feature1.kind).cast::<i32>().read(),
+            (&raw const (*answer).feature2.kind).cast::<i32>().read(),
+        ]
+    };
+    read_enumerator::<Outcome>(outcome, format_args!("{name}.outcome"), "swiftprox_outcome")?;
+    read_enumerator::<FeatureKind>(kind1, format_args!("{name}.feature1.kind"), "swiftprox_feature_kind")?;
+    read_enumerator::<FeatureKind>(kind2, format_args!("{name}.feature2.kind"), "swiftprox_feature_kind")?;
     Ok(())
 }
 

@@ -3,5 +3,6 @@
 mod answers;
 mod bodies;
 mod casts;
+mod depths;
 mod more_queries;
 mod tiny_gaps;

@@ -9,7 +9,8 @@ use std::path::Path;
 use std::process::Command;
 
 use swiftprox::compound::{
-    CompoundAnswer, CompoundCastAnswer, CompoundContact, CompoundPointAnswer, CompoundRayAnswer, CompoundSignedDistance,
+    CompoundAnswer, CompoundCastAnswer, CompoundContact, CompoundDepth, CompoundPointAnswer, CompoundRayAnswer,
+    CompoundSignedDistance,
 };
 use swiftprox::ffi::arrays::CMesh;
 use swiftprox::ffi::compound::{CCompoundCache, CCompoundContacts, CMovingCompound, CPlacedCompound, CompoundInfo};
@@ -208,6 +209,7 @@ fn layouts() -> Vec<Layout> {
         swiftprox_compound_cache = CCompoundCache { words },
         swiftprox_compound_answer = CompoundAnswer { answer, piece1, piece2 },
         swiftprox_compound_signed_distance_answer = CompoundSignedDistance { distance, piece1, piece2 },
+        swiftprox_compound_depth_answer = CompoundDepth { deepest, lower, upper, translation },
         swiftprox_compound_contact = CompoundContact { manifold, first_point, piece1, piece2 },
         swiftprox_compound_contacts = CCompoundContacts {
             contacts, contact_capacity, points, point_capacity, contact_count, point_count

@@ -1,19 +1,19 @@
 //! Two bodies of several pieces, placed in them or not, at poses that touch or miss each other by a few roundings. The cache is
 //! carried on, stale or of any bytes. Checked: verdict, distance and signed distance against all pairs of pieces asked one by one,
-//! `verify` of each, and a pair of few corners against exact rationals. The last two steps are the ends of a motion, whose cast is
-//! held against its own check and against distances on the way.
+//! `verify` of each and of the depth, and a pair of few corners against exact rationals. The last two steps are the ends of a
+//! motion, whose cast is held against its own check and against distances on the way.
 
 use std::sync::Arc;
 
 use arbitrary::{Result, Unstructured};
 use swiftprox::compound::{
-    Compound, CompoundAnswer, CompoundCache, CompoundCastAnswer, CompoundSignedDistance, MovingCompound, Piece,
-    PlacedCompound, cast, distance, intersection, signed_distance, verify, verify_cast,
+    Compound, CompoundAnswer, CompoundCache, CompoundCastAnswer, CompoundDepth, CompoundSignedDistance, MovingCompound,
+    Piece, PlacedCompound, cast, depth, distance, intersection, signed_distance, verify, verify_cast, verify_depth,
 };
 use swiftprox::error::Error;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::motion::{CastConfig, CastOutcome, Motion, motion_between};
-use swiftprox::pair::{self, Outcome, PairConfig, SignedDistance, SignedDistanceCache};
+use swiftprox::pair::{self, DepthConfig, Outcome, PairConfig, SignedDistance, SignedDistanceCache};
 use swiftprox::shape::{InputPolicy, Shape, ShapeOptions};
 use testkit::oracle::{Polytope, truth};
 
@@ -143,6 +143,14 @@ fn check(bodies: [&Body; 2], poses: [&Pose; 2], cache: &mut CompoundCache) {
         signed_distance(both, cache, &PairConfig::default(), &mut found).expect("accepted poses");
         assert!(found.distance.lower <= upper && lower <= found.distance.upper, "{found:?} {lower:e} {upper:e}");
         assert_eq!(found.distance.outcome, outcome);
+    }
+    let mut deep = CompoundDepth::default();
+    depth(both, &DepthConfig { step_budget: 50, ..DepthConfig::default() }, &mut deep).expect("accepted poses");
+    assert_eq!(deep.deepest.distance.outcome, outcome);
+    assert!(0.0 <= deep.lower && deep.lower <= deep.upper && deep.lower <= (-lower).max(0.0), "{deep:?}");
+    match verify_depth(both, &deep) {
+        Ok(()) | Err(Error::Argument(_)) => {}
+        Err(error) => panic!("{error}: {deep:?}"),
     }
 }
 
