@@ -528,6 +528,12 @@ MEMBER(swiftprox_compound_signed_distance_answer, distance, 0, 176)
 MEMBER(swiftprox_compound_signed_distance_answer, piece1, 176, 4)
 MEMBER(swiftprox_compound_signed_distance_answer, piece2, 180, 4)
 
+STRUCT(swiftprox_compound_depth_answer, 224, 8)
+MEMBER(swiftprox_compound_depth_answer, deepest, 0, 184)
+MEMBER(swiftprox_compound_depth_answer, lower, 184, 8)
+MEMBER(swiftprox_compound_depth_answer, upper, 192, 8)
+MEMBER(swiftprox_compound_depth_answer, translation, 200, 24)
+
 STRUCT(swiftprox_compound_contact, 72, 8)
 MEMBER(swiftprox_compound_contact, manifold, 0, 56)
 MEMBER(swiftprox_compound_contact, first_point, 56, 4)
