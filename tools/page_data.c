@@ -290,7 +290,7 @@ static size_t bytes_of_pair(const struct page_pair *pair)
            (size_t)pair->line_count * LINE_BYTES;
 }
 
-/* A ground has none: the page shows its pairs alone. */
+/* Grounds and compounds have none: the page shows their pairs alone. */
 static uint32_t find_body(const struct page_data *data, const struct player *player, swiftprox_object_id id, uint32_t piece)
 {
     uint32_t number;

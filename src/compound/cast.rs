@@ -3,7 +3,7 @@
 use super::MovingCompound;
 use super::answer::CompoundCastAnswer;
 use super::approach::approach;
-use super::cache::CompoundCache;
+use super::cache::PieceCaches;
 use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
 use crate::base::simd::environment::with_default;
@@ -23,9 +23,9 @@ const SHARE: f64 = 1.0 - 1e-9;
 /// As of [`crate::motion::cast`], and [`Error::Pose`] where the product of a compound's and a piece's pose is refused.
 /// [`Error::Argument`] also for `config.ignores_parting`: compounds part from some pieces alone. [`Error::Memory`]. Then
 /// `answer` is as it was.
-pub fn cast(
+pub fn cast<C: PieceCaches>(
     bodies: [MovingCompound; 2],
-    cache: &mut CompoundCache,
+    cache: &mut C,
     config: &CastConfig,
     answer: &mut CompoundCastAnswer,
 ) -> Result<()> {
@@ -129,9 +129,9 @@ fn with_carried<T>(bodies: &[MovingCompound; 2], pieces: [u32; 2], work: impl Fn
 }
 
 /// The first contact of the pairs of pieces that were cast.
-struct FirstPieces<'a> {
+struct FirstPieces<'a, C> {
     bodies: &'a [MovingCompound<'a>; 2],
-    cache: &'a mut CompoundCache,
+    cache: &'a mut C,
     config: &'a CastConfig,
     /// All that was cast is apart up to here.
     lower: f64,
@@ -143,7 +143,7 @@ struct FirstPieces<'a> {
     named: Option<([u32; 2], CastAnswer)>,
 }
 
-impl FirstPieces<'_> {
+impl<C: PieceCaches> FirstPieces<'_, C> {
     fn learn(&mut self, pieces: [u32; 2]) -> Result<()> {
         if self.until < self.config.time_begin {
             return Ok(());
