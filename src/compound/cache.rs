@@ -32,7 +32,7 @@ impl Default for CompoundCache {
 }
 
 /// What a pair remembers of its pieces.
-pub trait PieceCaches {
+pub(crate) trait PieceCaches {
     /// The pieces that met the last time, of bodies of so many.
     fn met(&self, counts: [usize; 2]) -> Option<[u32; 2]>;
     /// The pieces that were the nearest, or the deepest in each other.

@@ -3,7 +3,7 @@
 use super::MovingCompound;
 use super::answer::CompoundCastAnswer;
 use super::approach::approach;
-use super::cache::PieceCaches;
+use super::cache::{CompoundCache, PieceCaches};
 use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
 use crate::base::simd::environment::with_default;
@@ -23,7 +23,20 @@ const SHARE: f64 = 1.0 - 1e-9;
 /// As of [`crate::motion::cast`], and [`Error::Pose`] where the product of a compound's and a piece's pose is refused.
 /// [`Error::Argument`] also for `config.ignores_parting`: compounds part from some pieces alone. [`Error::Memory`]. Then
 /// `answer` is as it was.
-pub fn cast<C: PieceCaches>(
+pub fn cast(
+    bodies: [MovingCompound; 2],
+    cache: &mut CompoundCache,
+    config: &CastConfig,
+    answer: &mut CompoundCastAnswer,
+) -> Result<()> {
+    cast_pieces(bodies, cache, config, answer)
+}
+
+/// The same with any cache.
+///
+/// # Errors
+/// As of [`cast`].
+pub(crate) fn cast_pieces<C: PieceCaches>(
     bodies: [MovingCompound; 2],
     cache: &mut C,
     config: &CastConfig,

@@ -13,12 +13,12 @@ use crate::shape::Shape;
 pub(crate) struct PlacedPieces<'a> {
     pub(super) tree: TreeView<'a>,
     pub(super) reach: CompoundReach,
-    parts: Parts<'a>,
+    parts: PieceSource<'a>,
     pub(super) pose: &'a Pose,
 }
 
 #[derive(Clone, Copy)]
-enum Parts<'a> {
+enum PieceSource<'a> {
     Compound(&'a Compound),
     Single(&'a Shape),
 }
@@ -54,7 +54,7 @@ impl<'a> SinglePiece<'a> {
     /// The shape where `pose` says.
     pub fn at<'b>(&'b self, pose: &'b Pose) -> PlacedPieces<'b> {
         let tree = TreeView { nodes: &self.nodes, oriented: &self.oriented };
-        PlacedPieces { tree, reach: self.reach, parts: Parts::Single(self.shape), pose }
+        PlacedPieces { tree, reach: self.reach, parts: PieceSource::Single(self.shape), pose }
     }
 }
 
@@ -63,7 +63,7 @@ impl<'a> PlacedCompound<'a> {
     #[inline(always)]
     pub(crate) fn placed_pieces(&self) -> PlacedPieces<'a> {
         let PlacedCompound { compound, pose } = *self;
-        PlacedPieces { tree: compound.tree.view(), reach: compound.reach, parts: Parts::Compound(compound), pose }
+        PlacedPieces { tree: compound.tree.view(), reach: compound.reach, parts: PieceSource::Compound(compound), pose }
     }
 }
 
@@ -72,16 +72,16 @@ impl<'a> PlacedPieces<'a> {
     #[inline(always)]
     pub fn count(&self) -> usize {
         match self.parts {
-            Parts::Compound(compound) => compound.piece_count(),
-            Parts::Single(_) => 1,
+            PieceSource::Compound(compound) => compound.piece_count(),
+            PieceSource::Single(_) => 1,
         }
     }
 
     /// The pieces that are not where the pose takes them, among others; of a single shape none.
     pub(super) fn compound_pieces(&self) -> &'a [Piece] {
         match self.parts {
-            Parts::Compound(compound) => compound.pieces(),
-            Parts::Single(_) => &[],
+            PieceSource::Compound(compound) => compound.pieces(),
+            PieceSource::Single(_) => &[],
         }
     }
 
@@ -92,8 +92,8 @@ impl<'a> PlacedPieces<'a> {
         'a: 'b,
     {
         let part = match self.parts {
-            Parts::Compound(compound) => &compound.pieces()[piece as usize],
-            Parts::Single(shape) => return shape.at(self.pose),
+            PieceSource::Compound(compound) => &compound.pieces()[piece as usize],
+            PieceSource::Single(shape) => return shape.at(self.pose),
         };
         if self.reach.placing > 0.0 && part.pose != Pose::IDENTITY {
             *room = self.pose.after(&part.pose);

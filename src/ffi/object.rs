@@ -114,8 +114,8 @@ impl ObjectInfo {
 /// first proof or the nearest pieces, named as piece1 or piece2; with a detail one result for each two pieces in reach. Functions
 /// about pieces refuse it.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces, ground or compound, or more than one of them. SWIFTPROX_ERROR_LIMIT: more objects or pieces than a scene
-/// holds.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces, ground or compound, or more than one of them.
+/// SWIFTPROX_ERROR_LIMIT: more objects or pieces than a scene holds.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_add_object(
     scene: *mut SceneHandle,

@@ -28,7 +28,10 @@ impl Scene {
                 }
                 if let Some(compound) = object.compound() {
                     let pieces = compound.at(object.pose()).placed_pieces();
-                    (0..pieces.count() as u32).for_each(|k| pen.shape(pieces.piece(k, &mut Pose::IDENTITY.clone())));
+                    for number in 0..pieces.count() as u32 {
+                        let mut room = Pose::IDENTITY;
+                        pen.shape(pieces.piece(number, &mut room));
+                    }
                 }
             }
             if pen.wants(DrawKind::Box) {

@@ -307,7 +307,7 @@ fn cast_compounds(
         MovingCompound { compound: &other, motion: bodies[1].motion },
     ];
     let mut found = CompoundCastAnswer::default();
-    compound::cast(moving, caches.of_compounds(pair)?, config, &mut found)?;
+    compound::cast_pieces(moving, caches.of_compounds(pair)?, config, &mut found)?;
     let named = |k: usize, piece: u32| compounds[k].map(|_| piece);
     Ok(Some((found.answer, [named(0, found.piece1), named(1, found.piece2)])))
 }

@@ -2,7 +2,7 @@
 //! not tell which of two comes first, both are cast again in integers.
 
 use crate::base::error::Result;
-use crate::base::math::UNIT_ROUNDOFF as U;
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U};
 use crate::base::memory::push;
 use crate::compound;
 use crate::ground::GroundRayAnswer;
@@ -118,8 +118,14 @@ pub(crate) fn cast(question: RayQuestion, room: &mut RayRoom) -> Result<()> {
         hits.truncate(1);
         // The exit of the ray was not looked at yet.
         for first in &mut **hits {
-            let (again, piece) = cast_at(&others, first.row, ray, false)?;
-            debug_assert!(piece.is_none() || piece == Some(first.piece) || first.answer.exact != 0);
+            let (row, mut room) = (first.row as usize, Pose::IDENTITY);
+            let again = match proxies.bodies.compound(row) {
+                Some(compound) => {
+                    let pieces = compound.at(&proxies.poses[row]).placed_pieces();
+                    cast_ray(pieces.piece(first.piece, &mut room), ray)?
+                }
+                None => cast_at(&others, first.row, ray, false)?.0,
+            };
             first.answer.exit = again.exit;
         }
     }
