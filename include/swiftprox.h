@@ -1163,10 +1163,12 @@ typedef struct swiftprox_object_options {
   uint32_t mask;
   /** A ground that the object is, instead of pieces; experimental. It is always fixed. Default: null. */
   const struct swiftprox_ground *ground;
+  /** A compound that the object is, instead of pieces; experimental. Default: null. */
+  const struct swiftprox_compound *compound;
 } swiftprox_object_options;
 
 /** Begins a swiftprox_object_options: the defaults. In C and C++, as an initialiser. */
-#define SWIFTPROX_OBJECT_OPTIONS_DEFAULT {sizeof(swiftprox_object_options), 0, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, 0, 0, 0, NULL}
+#define SWIFTPROX_OBJECT_OPTIONS_DEFAULT {sizeof(swiftprox_object_options), 0, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, 0, 0, 0, NULL, NULL}
 
 /**
  * Adds an object of one or more convex pieces in one local frame. All its pairs are active. The scene takes its own share of each
@@ -1175,8 +1177,12 @@ typedef struct swiftprox_object_options {
  * With options->ground and a piece_count of 0 it adds that ground. Results name the ground as piece 0, and the triangle as a
  * feature that is a face. swiftprox_scene_set_pose moves it. Functions about pieces refuse it. Two grounds make no pair.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces and no ground, or both. SWIFTPROX_ERROR_LIMIT: more objects or pieces than a scene
- * holds.
+ * With options->compound and a piece_count of 0 it adds that compound as one body. A pair of objects with it has one result, the
+ * first proof or the nearest pieces, named as piece1 or piece2; with a detail one result for each two pieces in reach. Functions
+ * about pieces refuse it.
+ *
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces, ground or compound, or more than one of them.
+ * SWIFTPROX_ERROR_LIMIT: more objects or pieces than a scene holds.
  *
  * Stable.
  */
@@ -1289,7 +1295,7 @@ typedef struct swiftprox_object_info {
   size_t struct_size;
   /** The caller's number. */
   uint64_t user_data;
-  /** Number of convex pieces; 0 for a ground. */
+  /** Number of convex pieces; 0 for a ground or a compound. */
   size_t piece_count;
   /** Its pose, row-major [R|T]. */
   double pose[12];
@@ -1301,6 +1307,8 @@ typedef struct swiftprox_object_info {
   uint32_t mask;
   /** The ground that it is, or null; experimental. The scene owns the share. */
   const struct swiftprox_ground *ground;
+  /** The compound that it is, or null; experimental. The scene owns the share. */
+  const struct swiftprox_compound *compound;
 } swiftprox_object_info;
 
 /**
@@ -1318,8 +1326,8 @@ swiftprox_status swiftprox_scene_get_object_info(const struct swiftprox_scene *s
  * Sets an object's user data, pose, fixed flag, groups and mask. Fill info with swiftprox_scene_get_object_info, then change
  * members. An unchanged pose moves nothing. Pair caches are kept.
  *
- * SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count or ground differs from the object's, and nothing has changed; or a ground is not
- * to be fixed.
+ * SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count, ground or compound differs from the object's, and nothing has changed; or a
+ * ground is not to be fixed.
  *
  * Stable.
  */

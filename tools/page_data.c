@@ -320,7 +320,7 @@ static size_t bytes_of_pair(const struct page_pair *pair)
            (size_t)pair->line_count * LINE_BYTES;
 }
 
-/* None of a ground that is too large to be drawn: the page shows its pairs alone. */
+/* Compounds have none, nor has a ground that is too large to be drawn: the page shows their pairs alone. */
 static uint32_t find_body(const struct page_data *data, const struct player *player, swiftprox_object_id id, uint32_t piece)
 {
     uint32_t number;

@@ -127,8 +127,8 @@ static int add_objects(struct sweep_scene *scene, const swiftprox_object_id *ids
             || !player_find_number(&scene->player, ids[i], &number)) {
             return player_failed();
         }
-        if (info.ground) {
-            return refuse("the scene has a ground, and sweeps are among convex pieces");
+        if (info.ground || info.compound) {
+            return refuse("the scene has a ground or a compound, and sweeps are among convex pieces");
         }
         const bool moves = !info.fixed && scene->piece_count == 0;
         const int status = moves ? add_moving(scene, ids[i], &info) : add_obstacle(scene, ids[i], number, info.piece_count);

@@ -218,7 +218,7 @@ static int verify_pair(const struct player *player, const swiftprox_pair_result 
         if (swiftprox_scene_get_object_info(player->scene, ids[i], &info) != SWIFTPROX_OK) {
             return player_failed();
         }
-        if (info.ground) {
+        if (info.ground || info.compound) {
             return GOOD; /* the independent check knows pairs of convex pieces alone */
         }
         if (swiftprox_scene_get_piece_pose(player->scene, ids[i], pieces[i], poses[i]) != SWIFTPROX_OK ||

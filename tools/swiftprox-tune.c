@@ -120,7 +120,7 @@ static int look_at_body(const struct player *player, swiftprox_object_id id, uin
     if (swiftprox_scene_get_object_info(player->scene, id, &object) != SWIFTPROX_OK) {
         return player_failed();
     }
-    if (object.ground) {
+    if (object.ground || object.compound) {
         return GOOD; /* it is not tuned */
     }
     if (swiftprox_scene_get_piece(player->scene, id, piece, &shape) != SWIFTPROX_OK ||

@@ -262,7 +262,8 @@ struct ObjectOptions {
         c.fixed = fixed ? 1 : 0;
         c.groups = groups;
         c.mask = mask;
-        c.ground = nullptr; // Scene::try_add sets it
+        c.ground = nullptr; // Scene::try_add sets them
+        c.compound = nullptr;
         return c;
     }
 };

@@ -2,6 +2,7 @@
 #ifndef SWIFTPROX_SCENE_HPP
 #define SWIFTPROX_SCENE_HPP
 
+#include "compound.hpp"
 #include "ground.hpp"
 #include "listener.hpp"
 #include "replay.h"
@@ -114,6 +115,15 @@ class SceneView
     {
         swiftprox_object_options c = options.to_c();
         c.ground = ground.get();
+        return detail::asked<swiftprox_object_id>([&](swiftprox_object_id *id) {
+            return swiftprox_scene_add_object(scene_, nullptr, 0, &c, id);
+        });
+    }
+    /** A compound as one body. */
+    Result<swiftprox_object_id> try_add(const Compound &compound, const ObjectOptions &options = {})
+    {
+        swiftprox_object_options c = options.to_c();
+        c.compound = compound.get();
         return detail::asked<swiftprox_object_id>([&](swiftprox_object_id *id) {
             return swiftprox_scene_add_object(scene_, nullptr, 0, &c, id);
         });
@@ -484,6 +494,7 @@ class SceneView
         return take(try_add(pieces, options));
     }
     swiftprox_object_id add(const Ground &ground, const ObjectOptions &options = {}) { return take(try_add(ground, options)); }
+    swiftprox_object_id add(const Compound &compound, const ObjectOptions &options = {}) { return take(try_add(compound, options)); }
     swiftprox_object_id copy_object(swiftprox_object_id original) { return take(try_copy_object(original)); }
     std::vector<swiftprox_object_id> add_objects(Range<const Shape> shapes, Range<const ObjectOptions> options = {})
     {

@@ -47,6 +47,8 @@ uint64_t add(Scene &scene, nb::handle pieces, nb::handle pose, bool fixed, uint6
     swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
     if (nb::isinstance<Ground>(pieces)) {
         options.ground = nb::cast<const Ground &>(pieces).ground;
+    } else if (nb::isinstance<Compound>(pieces)) {
+        options.compound = nb::cast<const Compound &>(pieces).get();
     } else if (nb::isinstance<Shape>(pieces)) {
         hold(pieces);
     } else {
@@ -356,9 +358,10 @@ void bind_scene(nb::module_ &m)
         }, nb::arg("threads") = 1, "An empty scene, whose queries share this many threads. Their number changes no bit.")
         .def("add", &add, nb::arg("pieces"), nb::arg("pose").none() = nb::none(), nb::kw_only(), nb::arg("fixed") = false,
              nb::arg("user_data") = 0, nb::arg("groups") = 1, nb::arg("mask") = UINT32_MAX,
-             nb::sig("def add(self, pieces: Shape | collections.abc.Sequence[Shape] | Ground, pose: Pose | " ARRAY " | None = None, *, fixed: bool = False, "
+             nb::sig("def add(self, pieces: Shape | collections.abc.Sequence[Shape] | Ground | Compound, pose: Pose | " ARRAY " | None = None, *, fixed: bool = False, "
                      "user_data: int = 0, groups: int = 1, mask: int = 0xffffffff) -> int"),
-             "Adds an object of one or more convex pieces, or a ground, which is fixed, and returns its number. Two fixed objects\n"
+             "Adds an object of one or more convex pieces, a compound as one body, or a ground, which is fixed, and returns its\n"
+             "number. Two fixed objects\n"
              "are never tested.")
         .def("remove", [](Scene &self, uint64_t id) {
             run_alone(self, [&] { return swiftprox_scene_remove_object(self.scene, {id}); });

@@ -23,6 +23,27 @@ class Shape
     const swiftprox_shape *shape_;
 };
 
+/// A share of a compound of C.
+class Compound
+{
+  public:
+    explicit Compound(const swiftprox_compound *owned) : compound_(owned) {}
+    Compound(const Compound &other) : compound_(swiftprox_compound_retain(other.compound_)) {}
+    Compound(Compound &&other) noexcept : compound_(other.compound_) { other.compound_ = nullptr; }
+    Compound &operator=(const Compound &) = delete;
+    ~Compound() { swiftprox_compound_release(compound_); }
+    const swiftprox_compound *get() const { return compound_; }
+    size_t piece_count() const
+    {
+        swiftprox_compound_info info;
+        run([&] { return swiftprox_compound_get_info(compound_, &info); });
+        return info.piece_count;
+    }
+
+  private:
+    const swiftprox_compound *compound_;
+};
+
 /// A call of C for what calls take turns at. The lock is taken without the GIL, so that neither waits for the other; what is the
 /// owner's is copied before the lock is free.
 template <class Owner, class Call> void run_alone(Owner &owner, Call call)

@@ -7,8 +7,8 @@
 
 use std::collections::HashSet;
 
+use super::MovingCompound;
 use super::between::{Between, Reaches, opened};
-use super::{MovingCompound, PlacedCompound};
 use crate::base::error::Result;
 use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::memory::{filled, lacking, push};
@@ -85,7 +85,7 @@ impl CompoundApproach<'_, '_> {
         let middle = self.stops((0.5 * begin + 0.5 * end).clamp(begin, end))?;
         let drift = |i: usize| self.frames[i].drift([&ends[0][i], &middle[i], &ends[1][i]]);
         let drift = (drift(0) + drift(1)).next_up();
-        let place = |i: usize| PlacedCompound { compound: self.bodies[i].compound, pose: &middle[i].pose };
+        let place = |i: usize| self.bodies[i].compound.at(&middle[i].pose).placed_pieces();
         let placed = [place(0), place(1)];
         let between = Between::new(&placed, &Reaches::new(&placed)?);
         let kept = self.open.len();
@@ -129,7 +129,7 @@ impl Kernel for Sieve<'_, '_, '_> {
     #[inline(always)]
     fn run<L: Lanes>(&mut self) -> Result<Option<[u32; 2]>> {
         let CompoundApproach { bodies, max_distance, passed, open, work, .. } = &mut *self.approach;
-        let [tree_a, tree_b] = [&bodies[0].compound.tree, &bodies[1].compound.tree];
+        let [tree_a, tree_b] = [bodies[0].compound.tree.view(), bodies[1].compound.tree.view()];
         let between = self.between.in_lanes::<L>();
         let drift = self.drift;
         let enough = (*max_distance + drift) * (1.0 + 4.0 * U);

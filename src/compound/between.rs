@@ -23,10 +23,10 @@
 //! Below, 512u, 32d, 64u and 8u are taken. No number here exceeds S by more than a small factor, so nothing overflows where S is
 //! below [`LARGEST`]; elsewhere the slack is infinite and nothing is ruled out. Products that underflow are off by 2⁻¹⁰⁷⁵ each.
 
-use super::PlacedCompound;
 use super::body::CompoundReach;
 use super::fit::{Fitted, Oriented};
-use super::tree::{PieceNode, PieceTree};
+use super::placed::PlacedPieces;
+use super::tree::{PieceNode, TreeView};
 use crate::base::error::Result;
 use crate::base::math::{ROTATION_LIMIT, UNIT_ROUNDOFF as U};
 use crate::base::simd::Lanes;
@@ -77,17 +77,17 @@ impl Reaches {
     /// # Errors
     /// [`Error::Pose`](crate::base::error::Error::Pose).
     #[inline]
-    pub fn new(bodies: &[PlacedCompound; 2]) -> Result<Reaches> {
+    pub fn new(bodies: &[PlacedPieces; 2]) -> Result<Reaches> {
         let defects = [bodies[0].pose.checked_defect()?, bodies[1].pose.checked_defect()?];
         let [a, b] = [&bodies[0].pose.rows, &bodies[1].pose.rows];
         let delta = [b[0][3] - a[0][3], b[1][3] - a[1][3], b[2][3] - a[2][3]];
         let length = |v: [f64; 3]| v[0].abs() + v[1].abs() + v[2].abs();
-        let levers = bodies[0].compound.reach.lever + bodies[1].compound.reach.lever;
+        let levers = bodies[0].reach.lever + bodies[1].reach.lever;
         let size = levers + length(delta);
         let defect = defects[0] + defects[1] + 16.0 * U;
         let mut slack = (512.0 * U + 32.0 * defect) * size + f64::MIN_POSITIVE;
         for body in bodies {
-            let (placing, [x, y, z]) = (body.compound.reach.placing, body.pose.rows);
+            let (placing, [x, y, z]) = (body.reach.placing, body.pose.rows);
             if placing > 0.0 {
                 slack += 64.0 * U * placing + 8.0 * U * length([x[3], y[3], z[3]]);
             }
@@ -117,7 +117,7 @@ impl Reaches {
 
 impl Between {
     /// For poses that are checked.
-    pub fn new(bodies: &[PlacedCompound; 2], reaches: &Reaches) -> Between {
+    pub fn new(bodies: &[PlacedPieces; 2], reaches: &Reaches) -> Between {
         let &Reaches { delta, defect, slack, .. } = reaches;
         let [a, b] = [&bodies[0].pose.rows, &bodies[1].pose.rows];
         let product = |i: usize, j: usize| a[0][i] * b[0][j] + a[1][i] * b[1][j] + a[2][i] * b[2][j];
@@ -151,16 +151,26 @@ impl Between {
 /// # Errors
 /// [`Error::Pose`](crate::base::error::Error::Pose).
 #[inline(always)]
-pub(super) fn check_pieces(body: &PlacedCompound, defect: f64, is_in_range: bool) -> Result<()> {
+pub(super) fn check_pieces(body: &PlacedPieces, defect: f64, is_in_range: bool) -> Result<()> {
     // No entry of the product's |RᵀR − I| is above the piece's own by more than 3·1.03 times that of the body.
-    let CompoundReach { placing, skew, .. } = body.compound.reach;
+    let CompoundReach { placing, skew, .. } = body.reach;
     let are_accepted = placing == 0.0 || (is_in_range && skew + 4.0 * defect + 64.0 * U <= ROTATION_LIMIT);
     if are_accepted { Ok(()) } else { check_each(body) }
 }
 
+/// Refuses a pose that is not accepted, or at which that of a piece is not.
+///
+/// # Errors
+/// [`Error::Pose`](crate::base::error::Error::Pose).
+pub(crate) fn check_pose(body: &PlacedPieces) -> Result<()> {
+    let defect = body.pose.checked_defect()?;
+    let is_in_range = body.pose.translation().lp_norm(1) + body.reach.lever < LARGEST;
+    check_pieces(body, defect, is_in_range)
+}
+
 #[cold]
-fn check_each(body: &PlacedCompound) -> Result<()> {
-    for (k, piece) in body.compound.pieces().iter().enumerate() {
+fn check_each(body: &PlacedPieces) -> Result<()> {
+    for (k, piece) in body.compound_pieces().iter().enumerate() {
         let placed = body.pose.after(&piece.pose);
         placed.check().map_err(|error| error.about(&format!("piece {k} at that pose")))?;
     }
@@ -278,7 +288,7 @@ impl<L: Lanes> InLanes<L> {
 
 /// The two pairs that come of two nodes by opening one: the larger, unless it is a leaf. `None` of two leaves.
 #[inline(always)]
-pub(super) fn opened(trees: [&PieceTree; 2], [a, b]: [u32; 2]) -> Option<[[u32; 2]; 2]> {
+pub(super) fn opened(trees: [TreeView; 2], [a, b]: [u32; 2]) -> Option<[[u32; 2]; 2]> {
     let (node_a, node_b): (&PieceNode, &PieceNode) = (&trees[0].nodes[a as usize], &trees[1].nodes[b as usize]);
     match (node_a.piece(), node_b.piece()) {
         (Some(_), Some(_)) => None,
@@ -298,7 +308,8 @@ mod tests {
     use super::*;
     use crate::base::math::{Matrix, Pose, Vector};
     use crate::base::simd::{self, Kernel};
-    use crate::compound::queries::with_pieces;
+    use crate::compound::placed::with_pieces;
+    use crate::compound::tree::PieceTree;
     use crate::compound::{Compound, Piece};
     use crate::pair::{PairConfig, SignedDistance, SignedDistanceCache, signed_distance};
     use crate::shape::{InputPolicy, Shape, ShapeOptions};
@@ -365,7 +376,7 @@ mod tests {
                     random.rotation() * (Matrix::identity() + Matrix::from_diagonal(&(random.vector() * skew)));
                 Pose::new(&rotation, &(random.vector() * (2.0 * scale) + Vector::repeat(far)))
             });
-            let placed = [bodies[0].at(&poses[0]), bodies[1].at(&poses[1])];
+            let placed = [0, 1].map(|i| bodies[i].at(&poses[i]).placed_pieces());
             let reaches = Reaches::new(&placed).unwrap();
             let between = Between::new(&placed, &reaches);
             let trees = [&bodies[0].tree, &bodies[1].tree];

@@ -1,7 +1,8 @@
 //! A compound: its pieces and the tree over them.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
+use super::fit::Fitted;
 use super::tree::{Leaf, PieceTree};
 use crate::base::error::{Error, Result};
 use crate::base::mark::Mark;
@@ -34,6 +35,8 @@ pub struct Compound {
     pieces: Vec<Piece>,
     pub(super) tree: PieceTree,
     pub(super) reach: CompoundReach,
+    /// A box around it, for scenes; made when one needs it.
+    around: OnceLock<Arc<Shape>>,
     pub(crate) mark: Mark,
 }
 
@@ -56,6 +59,14 @@ impl Compound {
     /// with the number of the piece; [`Error::Memory`].
     pub fn new(pieces: &[Piece]) -> Result<Compound> {
         with_default(|| Compound::of_pieces(collected(pieces.iter().cloned())?))
+    }
+
+    /// Of one shape at a place, which may be a curved one.
+    ///
+    /// # Errors
+    /// [`Error::Memory`].
+    pub(crate) fn of_single(shape: Arc<Shape>, pose: Pose) -> Result<Compound> {
+        Compound::of_checked(collected([Piece { shape, pose }])?)
     }
 
     /// From the convex pieces into which [`decompose`] cuts the surface of a mesh; vertices keep the mesh's numbers, and so do
@@ -91,6 +102,10 @@ impl Compound {
             let sound = piece.pose.check().and_then(|()| piece.shape.refuse_deviation("compounds"));
             sound.map_err(|error| error.about(&format!("piece {k}")))?;
         }
+        Compound::of_checked(pieces)
+    }
+
+    fn of_checked(pieces: Vec<Piece>) -> Result<Compound> {
         let mut points: Vec<Vec<Vector>> = with_capacity(pieces.len())?;
         for Piece { shape, pose } in &pieces {
             let vertices = (0..shape.polyhedron().vertices.len() as u32).map(|v| shape.polyhedron().local_position(v));
@@ -102,7 +117,7 @@ impl Compound {
         for (piece, points) in pieces.iter().zip(&points) {
             // A vertex is centre + position, off by u of that. R·v + T is off by 8u·(|R||v| + |T|), ‖|R|‖ ≤ √3·1.015.
             let lengths = 2.0 * piece.shape.extent().lever + piece.pose.translation().lp_norm(1);
-            let swept = piece.shape.swept_radius();
+            let swept = (piece.shape.swept_radius() + piece.shape.deviation()) * (1.0 + 4.0 * U);
             let farthest = points.iter().map(length).fold(0.0, f64::max) * (1.0 + 8.0 * U);
             let margin = swept + 32.0 * U * lengths;
             leaves.push(Leaf { points, margin, reach: farthest, shape: &piece.shape });
@@ -114,7 +129,7 @@ impl Compound {
         }
         let tree = PieceTree::new(&leaves)?;
         drop(leaves);
-        Ok(Compound { pieces, tree, reach, mark: Mark::new() })
+        Ok(Compound { pieces, tree, reach, around: OnceLock::new(), mark: Mark::new() })
     }
 
     /// Its pieces.
@@ -136,7 +151,22 @@ impl Compound {
 
     /// Whether a piece is not at the identity.
     #[inline(always)]
-    pub(super) fn has_placed_pieces(&self) -> bool {
+    pub(crate) fn has_placed_pieces(&self) -> bool {
         self.reach.placing > 0.0
+    }
+
+    /// A box around it as a shape, one for all scenes.
+    ///
+    /// # Errors
+    /// [`Error::Argument`] for a compound that reaches beyond 2¹⁰⁰⁰; [`Error::Memory`].
+    pub(crate) fn surrounding(&self) -> Result<Arc<Shape>> {
+        if let Some(around) = self.around.get() {
+            return Ok(around.clone());
+        }
+        let Fitted { centre, half } = self.tree.nodes[0].fitted;
+        // Ends are rounded: by u of the lever.
+        let end = |sign: f64| Vector::from_fn(|k, _| centre[k] + sign * (half[k] + 4.0 * U * self.reach.lever));
+        let around = Arc::new(Shape::surrounding(&[end(-1.0), end(1.0)])?);
+        Ok(self.around.get_or_init(|| around).clone())
     }
 }

@@ -1,5 +1,6 @@
 //! The cache of a pair of compounds: pieces that met the last time, the nearest, and the caches of some pairs of pieces.
 
+use crate::base::memory::filled;
 use crate::pair::PairCache;
 
 /// So many pairs of pieces are remembered at a time.
@@ -30,37 +31,121 @@ impl Default for CompoundCache {
     }
 }
 
-impl CompoundCache {
-    /// The pieces that met the last time, of compounds of so many.
-    pub(super) fn met(&self, counts: [usize; 2]) -> Option<[u32; 2]> {
+/// What a pair remembers of its pieces.
+pub(crate) trait PieceCaches {
+    /// The pieces that met the last time, of bodies of so many.
+    fn met(&self, counts: [usize; 2]) -> Option<[u32; 2]>;
+    /// The pieces that were the nearest, or the deepest in each other.
+    fn nearest(&self, counts: [usize; 2]) -> Option<[u32; 2]>;
+    /// Remembers which pieces met.
+    fn remember_met(&mut self, pieces: Option<[u32; 2]>);
+    /// Remembers which were the nearest.
+    fn remember_nearest(&mut self, pieces: Option<[u32; 2]>);
+    /// The cache of two pieces: their own, or a cold one in place of another pair's.
+    fn of(&mut self, pieces: [u32; 2]) -> &mut PairCache;
+}
+
+impl PieceCaches for CompoundCache {
+    fn met(&self, counts: [usize; 2]) -> Option<[u32; 2]> {
         known(self.met, counts)
     }
 
-    /// The pieces that were the nearest, or the deepest in each other.
-    pub(super) fn nearest(&self, counts: [usize; 2]) -> Option<[u32; 2]> {
+    fn nearest(&self, counts: [usize; 2]) -> Option<[u32; 2]> {
         known(self.nearest, counts)
     }
 
-    pub(super) fn remember_met(&mut self, pieces: Option<[u32; 2]>) {
+    fn remember_met(&mut self, pieces: Option<[u32; 2]>) {
         self.met = numbered(pieces);
     }
 
-    pub(super) fn remember_nearest(&mut self, pieces: Option<[u32; 2]>) {
+    fn remember_nearest(&mut self, pieces: Option<[u32; 2]>) {
         self.nearest = numbered(pieces);
     }
 
-    /// The cache of two pieces: their own, or a cold one in place of another pair's.
     #[inline(always)]
-    pub(super) fn of(&mut self, pieces: [u32; 2]) -> &mut PairCache {
-        let [a, b] = pieces.map(|piece| piece.wrapping_add(1));
-        // Multiples of the golden ratio of 2³² spread what follows in order (D. E. Knuth, The Art of Computer Programming 3, 6.4).
-        let spread = a.wrapping_mul(0x9e37_79b1).wrapping_add(b.wrapping_mul(0x85eb_ca77));
-        let slot = &mut self.slots[(spread >> (32 - SLOTS.ilog2())) as usize];
-        if slot.pieces != [a, b] {
-            *slot = PairSlot { pieces: [a, b], cache: PairCache::default() };
-        }
-        &mut slot.cache
+    fn of(&mut self, pieces: [u32; 2]) -> &mut PairCache {
+        let own = pieces.map(|piece| piece.wrapping_add(1));
+        taken(&mut self.slots[slot_number(own, SLOTS)], own)
     }
+}
+
+/// The same that begins small and grows with the pairs of pieces that are asked. Where memory is lacking it stays as it is.
+#[derive(Debug, Default)]
+pub(crate) struct GrowingCache {
+    met: [u32; 2],
+    nearest: [u32; 2],
+    /// None, or a power of two.
+    slots: Vec<PairSlot>,
+    /// For the pieces that are asked while there is no memory.
+    spare: PairCache,
+}
+
+/// Slots at first.
+const FIRST_SLOTS: usize = 4;
+
+impl GrowingCache {
+    /// So many slots, with those of before.
+    fn grow(&mut self, count: usize) -> bool {
+        let Ok(slots) = filled(PairSlot::default(), count) else { return false };
+        let old = std::mem::replace(&mut self.slots, slots);
+        for slot in old.into_iter().filter(|slot| slot.pieces != [0; 2]) {
+            self.slots[slot_number(slot.pieces, count)] = slot;
+        }
+        true
+    }
+}
+
+impl PieceCaches for GrowingCache {
+    fn met(&self, counts: [usize; 2]) -> Option<[u32; 2]> {
+        known(self.met, counts)
+    }
+
+    fn nearest(&self, counts: [usize; 2]) -> Option<[u32; 2]> {
+        known(self.nearest, counts)
+    }
+
+    fn remember_met(&mut self, pieces: Option<[u32; 2]>) {
+        self.met = numbered(pieces);
+    }
+
+    fn remember_nearest(&mut self, pieces: Option<[u32; 2]>) {
+        self.nearest = numbered(pieces);
+    }
+
+    fn of(&mut self, pieces: [u32; 2]) -> &mut PairCache {
+        let own = pieces.map(|piece| piece.wrapping_add(1));
+        if self.slots.is_empty() && !self.grow(FIRST_SLOTS) {
+            return &mut self.spare;
+        }
+        loop {
+            let count = self.slots.len();
+            let holder = self.slots[slot_number(own, count)].pieces;
+            let is_others = holder != own && holder != [0; 2];
+            if !is_others || count >= SLOTS || !self.grow(2 * count) {
+                break;
+            }
+        }
+        let count = self.slots.len();
+        taken(&mut self.slots[slot_number(own, count)], own)
+    }
+}
+
+/// Where the cache of two pieces is among so many slots, a power of two of 2 and more.
+#[inline(always)]
+fn slot_number([a, b]: [u32; 2], slots: usize) -> usize {
+    debug_assert!(slots.is_power_of_two() && slots > 1);
+    // Multiples of the golden ratio of 2³² spread what follows in order (D. E. Knuth, The Art of Computer Programming 3, 6.4).
+    let spread = a.wrapping_mul(0x9e37_79b1).wrapping_add(b.wrapping_mul(0x85eb_ca77));
+    (spread >> (32 - slots.ilog2())) as usize
+}
+
+/// The cache in a slot, cold if it was another pair's.
+#[inline(always)]
+fn taken(slot: &mut PairSlot, own: [u32; 2]) -> &mut PairCache {
+    if slot.pieces != own {
+        *slot = PairSlot { pieces: own, cache: PairCache::default() };
+    }
+    &mut slot.cache
 }
 
 fn known(pieces: [u32; 2], counts: [usize; 2]) -> Option<[u32; 2]> {

@@ -3,7 +3,7 @@
 use super::MovingCompound;
 use super::answer::CompoundCastAnswer;
 use super::approach::approach;
-use super::cache::CompoundCache;
+use super::cache::{CompoundCache, PieceCaches};
 use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
 use crate::base::simd::environment::with_default;
@@ -26,6 +26,19 @@ const SHARE: f64 = 1.0 - 1e-9;
 pub fn cast(
     bodies: [MovingCompound; 2],
     cache: &mut CompoundCache,
+    config: &CastConfig,
+    answer: &mut CompoundCastAnswer,
+) -> Result<()> {
+    cast_pieces(bodies, cache, config, answer)
+}
+
+/// The same with any cache.
+///
+/// # Errors
+/// As of [`cast`].
+pub(crate) fn cast_pieces<C: PieceCaches>(
+    bodies: [MovingCompound; 2],
+    cache: &mut C,
     config: &CastConfig,
     answer: &mut CompoundCastAnswer,
 ) -> Result<()> {
@@ -129,9 +142,9 @@ fn with_carried<T>(bodies: &[MovingCompound; 2], pieces: [u32; 2], work: impl Fn
 }
 
 /// The first contact of the pairs of pieces that were cast.
-struct FirstPieces<'a> {
+struct FirstPieces<'a, C> {
     bodies: &'a [MovingCompound<'a>; 2],
-    cache: &'a mut CompoundCache,
+    cache: &'a mut C,
     config: &'a CastConfig,
     /// All that was cast is apart up to here.
     lower: f64,
@@ -143,7 +156,7 @@ struct FirstPieces<'a> {
     named: Option<([u32; 2], CastAnswer)>,
 }
 
-impl FirstPieces<'_> {
+impl<C: PieceCaches> FirstPieces<'_, C> {
     fn learn(&mut self, pieces: [u32; 2]) -> Result<()> {
         if self.until < self.config.time_begin {
             return Ok(());

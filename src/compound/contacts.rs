@@ -3,7 +3,7 @@
 use super::PlacedCompound;
 use super::answer::{CompoundContact, CompoundContacts};
 use super::between::{Between, Reaches};
-use super::queries::with_pieces;
+use super::placed::{PlacedPieces, with_pieces};
 use super::walk::{Aim, PiecePair, walk};
 use crate::base::error::Result;
 use crate::base::memory::push;
@@ -19,6 +19,7 @@ use crate::pair::Outcome;
 pub fn contacts(bodies: [PlacedCompound; 2], config: &ManifoldConfig, found: &mut CompoundContacts) -> Result<()> {
     found.contacts.clear();
     found.points.clear();
+    let bodies = bodies.map(|body| body.placed_pieces());
     let done = with_default(|| find(&bodies, config, found));
     if done.is_err() {
         found.contacts.clear();
@@ -27,16 +28,26 @@ pub fn contacts(bodies: [PlacedCompound; 2], config: &ManifoldConfig, found: &mu
     done
 }
 
-fn find(bodies: &[PlacedCompound; 2], config: &ManifoldConfig, found: &mut CompoundContacts) -> Result<()> {
-    config.check()?;
+/// The pairs of pieces whose boxes do not show that they are farther apart than `max_distance`, in order; and a lower bound of the
+/// signed distance of all others.
+///
+/// # Errors
+/// As of [`distance`](super::distance) for poses; [`Error::Memory`](crate::base::error::Error::Memory).
+pub(crate) fn near_pieces(bodies: &[PlacedPieces; 2], max_distance: f64) -> Result<(Vec<[u32; 2]>, f64)> {
     let between = Between::new(bodies, &Reaches::new(bodies)?);
     let mut near = Vec::new();
-    let trees = bodies.map(|body| &body.compound.tree);
-    walk(PiecePair { trees, between: &between, aim: Aim::Distance }, config.max_distance, |pieces| {
+    let trees = bodies.map(|body| body.tree);
+    let passed = walk(PiecePair { trees, between: &between, aim: Aim::Distance }, max_distance, |pieces| {
         push(&mut near, pieces)?;
-        Ok(Some(config.max_distance))
+        Ok(Some(max_distance))
     })?;
     near.sort_unstable();
+    Ok((near, passed))
+}
+
+fn find(bodies: &[PlacedPieces; 2], config: &ManifoldConfig, found: &mut CompoundContacts) -> Result<()> {
+    config.check()?;
+    let (near, _) = near_pieces(bodies, config.max_distance)?;
     for pieces in near {
         let first_point = found.points.len() as u32;
         let mut cache = ManifoldCache::default();

@@ -17,9 +17,9 @@
 use super::PlacedCompound;
 use super::answer::{CompoundDepth, CompoundSignedDistance};
 use super::between::{Between, Reaches};
-use super::cache::CompoundCache;
+use super::cache::{CompoundCache, PieceCaches};
 use super::half_spaces::{HalfSpaces, MOST_HALF_SPACES};
-use super::queries::with_pieces;
+use super::placed::with_pieces;
 use super::signed_distance::signed_distance;
 use super::walk::{Aim, PiecePair, walk};
 use crate::base::error::Result;
@@ -231,7 +231,8 @@ impl<'a> FreeingSearch<'a> {
                 break;
             }
             let there = translated(one, &self.in_world(&x));
-            if Reaches::new(&[one.compound.at(&there), *two])?.between_balls() > 0.0 {
+            let bodies = [one.compound.at(&there), *two].map(|body| body.placed_pieces());
+            if Reaches::new(&bodies)?.between_balls() > 0.0 {
                 self.keep(x);
                 break;
             }
@@ -249,9 +250,9 @@ impl<'a> FreeingSearch<'a> {
         debug_assert!(are_finite(x) && self.looks > 0);
         self.looks -= 1;
         let pose = translated(&self.bodies[0], &self.in_world(x));
-        let bodies = [self.bodies[0].compound.at(&pose), self.bodies[1]];
+        let bodies = [self.bodies[0].compound.at(&pose), self.bodies[1]].map(|body| body.placed_pieces());
         let between = Between::new(&bodies, &Reaches::new(&bodies)?);
-        let trees = bodies.map(|body| &body.compound.tree);
+        let trees = bodies.map(|body| body.tree);
         let (cache, reach) = (&mut *self.cache, reach * self.unit);
         let aim = if reach > 0.0 { Aim::Distance } else { Aim::Verdict };
         walk(PiecePair { trees, between: &between, aim }, reach, |pieces| {
@@ -354,7 +355,7 @@ impl<'a> FreeingSearch<'a> {
     /// How far it is from t until the balls around two pieces part.
     fn way_of_balls(&self, pieces: [u32; 2], direction: &Vector, t: f64) -> f64 {
         let pose = translated(&self.bodies[0], &self.in_world(&(direction * t)));
-        let bodies = [self.bodies[0].compound.at(&pose), self.bodies[1]];
+        let bodies = [self.bodies[0].compound.at(&pose), self.bodies[1]].map(|body| body.placed_pieces());
         with_pieces(&bodies, pieces, |placed| {
             let centre = |body: Placed| body.pose.transform(&body.shape.polyhedron().centre);
             let radius = |body: Placed| body.shape.polyhedron().radius + body.shape.swept_radius();
@@ -367,7 +368,7 @@ impl<'a> FreeingSearch<'a> {
 
     fn contact_at(&mut self, x: &Vector, pieces: [u32; 2]) -> Result<PairAnswer> {
         let pose = translated(&self.bodies[0], &self.in_world(x));
-        let bodies = [self.bodies[0].compound.at(&pose), self.bodies[1]];
+        let bodies = [self.bodies[0].compound.at(&pose), self.bodies[1]].map(|body| body.placed_pieces());
         let (cache, mut answer) = (self.cache.of(pieces), PairAnswer::default());
         with_pieces(&bodies, pieces, |placed| pair::contact(placed, cache, &PairConfig::default(), &mut answer))?;
         Ok(answer)

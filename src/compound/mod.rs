@@ -7,6 +7,7 @@
 mod fit;
 mod tree;
 mod body;
+mod placed;
 mod between;
 mod cache;
 mod walk;
@@ -28,13 +29,20 @@ pub use answer::{
     CompoundAnswer, CompoundCastAnswer, CompoundContact, CompoundContacts, CompoundDepth, CompoundPointAnswer,
     CompoundRayAnswer, CompoundSignedDistance,
 };
+pub(crate) use between::check_pose;
 pub use body::{Compound, Piece};
 pub use cache::CompoundCache;
+pub(crate) use cache::{GrowingCache, PieceCaches};
+pub(crate) use cast::cast_pieces;
 pub use cast::{cast, verify_cast};
 pub use contacts::contacts;
+pub(crate) use contacts::near_pieces;
 pub use depth::depth;
+pub(crate) use placed::{PlacedPieces, SinglePiece, with_pieces};
+pub(crate) use queries::{MORE, ask};
 pub use queries::{distance, intersection};
 pub use signed_distance::signed_distance;
+pub(crate) use single::cast_ray_in_integers;
 pub use single::{cast_ray, locate_point};
 pub use verify::verify;
 pub use verify_depth::verify_depth;

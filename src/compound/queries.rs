@@ -3,10 +3,10 @@
 use super::PlacedCompound;
 use super::answer::CompoundAnswer;
 use super::between::{Between, Reaches};
-use super::cache::CompoundCache;
+use super::cache::{CompoundCache, PieceCaches};
+use super::placed::{PlacedPieces, with_pieces};
 use super::walk::{Aim, PiecePair, walk};
 use crate::base::error::Result;
-use crate::base::math::Pose;
 use crate::base::simd::environment::with_default;
 use crate::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed, Query};
 
@@ -26,7 +26,7 @@ pub fn distance(
     config: &PairConfig,
     answer: &mut CompoundAnswer,
 ) -> Result<()> {
-    with_default(|| ask(Query::Distance, &bodies, cache, config, answer))
+    with_default(|| ask(Query::Distance, &bodies.map(|body| body.placed_pieces()), cache, config, answer))
 }
 
 /// The verdict alone: [`Outcome::Intersecting`], with two pieces that do and their proof, or [`Outcome::Separated`] with
@@ -41,13 +41,17 @@ pub fn intersection(
     config: &PairConfig,
     answer: &mut CompoundAnswer,
 ) -> Result<()> {
-    with_default(|| ask(Query::Intersection, &bodies, cache, config, answer))
+    with_default(|| ask(Query::Intersection, &bodies.map(|body| body.placed_pieces()), cache, config, answer))
 }
 
-fn ask(
+/// The same of any pieces, of curved bodies too: [`Outcome::Undecided`] where none meet for certain and some may.
+///
+/// # Errors
+/// As of [`distance`].
+pub(crate) fn ask<C: PieceCaches>(
     query: Query,
-    bodies: &[PlacedCompound; 2],
-    cache: &mut CompoundCache,
+    bodies: &[PlacedPieces; 2],
+    cache: &mut C,
     config: &PairConfig,
     answer: &mut CompoundAnswer,
 ) -> Result<()> {
@@ -67,6 +71,7 @@ fn ask(
         enough: if is_verdict { 0.0 } else { config.max_distance },
         lower: f64::INFINITY,
         named: None,
+        may_meet: false,
     };
     // Far apart is the most frequent answer of all.
     let apart = reaches.between_balls();
@@ -79,12 +84,12 @@ fn ask(
 }
 
 /// The least distance of the pairs of pieces that have been asked.
-struct LeastOfPieces<'a> {
+struct LeastOfPieces<'a, C> {
     query: Query,
     /// Whether only the verdict is asked: all that is apart is passed by.
     is_verdict: bool,
-    bodies: &'a [PlacedCompound<'a>; 2],
-    cache: &'a mut CompoundCache,
+    bodies: &'a [PlacedPieces<'a>; 2],
+    cache: &'a mut C,
     config: PairConfig,
     answer: &'a mut CompoundAnswer,
     tolerance: f64,
@@ -94,15 +99,17 @@ struct LeastOfPieces<'a> {
     lower: f64,
     /// The pair that `answer` is about.
     named: Option<[u32; 2]>,
+    /// Whether some, of which one is curved, are neither apart nor meet for certain.
+    may_meet: bool,
 }
 
 /// A distance is asked up to the least one known and this share of it more: of pieces that are as near, which is common, rounding
 /// would otherwise leave it to integers which are nearer.
-pub(super) const MORE: f64 = 1.0 + 1e-9;
+pub(crate) const MORE: f64 = 1.0 + 1e-9;
 
-impl LeastOfPieces<'_> {
+impl<C: PieceCaches> LeastOfPieces<'_, C> {
     fn run(mut self, between: &Between) -> Result<()> {
-        let counts = self.bodies.map(|body| body.compound.piece_count());
+        let counts = self.bodies.map(|body| body.count());
         let last = if self.is_verdict { self.cache.met(counts) } else { self.cache.nearest(counts) };
         let mut is_open = true;
         if let Some(pieces) = last {
@@ -110,7 +117,7 @@ impl LeastOfPieces<'_> {
         }
         if is_open {
             let aim = if self.is_verdict { Aim::Verdict } else { Aim::Distance };
-            let pair = PiecePair { trees: self.bodies.map(|body| &body.compound.tree), between, aim };
+            let pair = PiecePair { trees: self.bodies.map(|body| body.tree), between, aim };
             let passed = walk(pair, self.enough, |pieces| {
                 if last == Some(pieces) || self.learn(pieces)? { Ok(Some(self.enough)) } else { Ok(None) }
             })?;
@@ -130,13 +137,20 @@ impl LeastOfPieces<'_> {
         with_pieces(self.bodies, pieces, |placed| ask_pair(self.query, placed, cache, &self.config, &mut answer))?;
         if answer.outcome == Outcome::Intersecting {
             self.lower = 0.0;
+            self.may_meet = false;
             self.name(pieces, &answer);
             return Ok(false);
         }
         self.lower = self.lower.min(answer.lower);
         // The upper end may be infinite: distances need not be doubles.
         let is_nearer = self.named.is_none() || answer.upper < self.answer.answer.upper;
-        if answer.outcome == Outcome::Separated && !self.is_verdict && is_nearer {
+        let is_undecided = answer.outcome == Outcome::Undecided;
+        self.may_meet |= is_undecided;
+        if self.is_verdict {
+            if is_undecided && self.named.is_none() {
+                self.name(pieces, &answer);
+            }
+        } else if (is_undecided || answer.outcome == Outcome::Separated) && is_nearer {
             self.enough = self.enough.min(answer.upper);
             self.name(pieces, &answer);
         }
@@ -149,7 +163,7 @@ impl LeastOfPieces<'_> {
     }
 
     fn finish(self) {
-        let counts = self.bodies.map(|body| body.compound.piece_count());
+        let counts = self.bodies.map(|body| body.count());
         let answer = &mut *self.answer;
         if self.named.is_none() {
             let outcome = if self.is_verdict { Outcome::Separated } else { Outcome::Beyond };
@@ -157,6 +171,9 @@ impl LeastOfPieces<'_> {
             *answer = CompoundAnswer { answer: unsaid, piece1: counts[0] as u32, piece2: counts[1] as u32 };
         }
         answer.answer.lower = self.lower;
+        if self.may_meet {
+            answer.answer.outcome = Outcome::Undecided;
+        }
         if self.is_verdict {
             self.cache.remember_met(self.named);
         } else if self.named.is_some() {
@@ -177,29 +194,5 @@ fn ask_pair(
     match query {
         Query::Intersection => pair::intersection(placed, cache, config, answer),
         _ => pair::distance(placed, cache, config, answer),
-    }
-}
-
-/// Two pieces where they are.
-#[inline(always)]
-pub(super) fn with_pieces<T>(bodies: &[PlacedCompound; 2], pieces: [u32; 2], work: impl FnOnce([Placed; 2]) -> T) -> T {
-    let (mut own1, mut own2) = (Pose::IDENTITY, Pose::IDENTITY);
-    work([bodies[0].piece(pieces[0], &mut own1), bodies[1].piece(pieces[1], &mut own2)])
-}
-
-impl<'a> PlacedCompound<'a> {
-    /// A piece where it is; its pose is made in `room`, unless it is that of the compound.
-    #[inline(always)]
-    pub(super) fn piece<'b>(&self, piece: u32, room: &'b mut Pose) -> Placed<'b>
-    where
-        'a: 'b,
-    {
-        let part = &self.compound.pieces()[piece as usize];
-        if self.compound.has_placed_pieces() && part.pose != Pose::IDENTITY {
-            *room = self.pose.after(&part.pose);
-            part.shape.at(room)
-        } else {
-            part.shape.at(self.pose)
-        }
     }
 }

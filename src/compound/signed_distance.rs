@@ -3,8 +3,9 @@
 use super::PlacedCompound;
 use super::answer::CompoundSignedDistance;
 use super::between::{Between, Reaches};
-use super::cache::CompoundCache;
-use super::queries::{MORE, with_pieces};
+use super::cache::{CompoundCache, PieceCaches};
+use super::placed::{PlacedPieces, with_pieces};
+use super::queries::MORE;
 use super::walk::{Aim, PiecePair, walk};
 use crate::base::error::Result;
 use crate::base::simd::environment::with_default;
@@ -29,6 +30,7 @@ pub fn signed_distance(
 ) -> Result<()> {
     with_default(|| {
         config.check(Query::Distance)?;
+        let bodies = bodies.map(|body| body.placed_pieces());
         let between = Between::new(&bodies, &Reaches::new(&bodies)?);
         let least = LeastSigned {
             bodies: &bodies,
@@ -46,7 +48,7 @@ pub fn signed_distance(
 
 /// The least of the pairs of pieces that have been asked.
 struct LeastSigned<'a> {
-    bodies: &'a [PlacedCompound<'a>; 2],
+    bodies: &'a [PlacedPieces<'a>; 2],
     cache: &'a mut CompoundCache,
     config: PairConfig,
     tolerance: f64,
@@ -58,12 +60,12 @@ struct LeastSigned<'a> {
 
 impl LeastSigned<'_> {
     fn run(mut self, between: &Between) -> Result<CompoundSignedDistance> {
-        let counts = self.bodies.map(|body| body.compound.piece_count());
+        let counts = self.bodies.map(|body| body.count());
         let last = self.cache.nearest(counts);
         if let Some(pieces) = last {
             self.learn(pieces)?;
         }
-        let trees = self.bodies.map(|body| &body.compound.tree);
+        let trees = self.bodies.map(|body| body.tree);
         let passed = walk(PiecePair { trees, between, aim: Aim::Distance }, self.enough, |pieces| {
             if last != Some(pieces) {
                 self.learn(pieces)?;

@@ -4,6 +4,7 @@ use super::PlacedCompound;
 use super::answer::{CompoundPointAnswer, CompoundRayAnswer};
 use super::between::check_pieces;
 use super::fit::Fitted;
+use super::placed::PlacedPieces;
 use super::tree::DEEPEST;
 use crate::base::error::Result;
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector};
@@ -18,6 +19,7 @@ use crate::ray::{Ray, RayAnswer, RayOutcome, entry_of_box};
 /// As of [`crate::ray::cast_ray`].
 pub fn cast_ray(body: PlacedCompound, ray: &Ray) -> Result<CompoundRayAnswer> {
     with_default(|| {
+        let body = body.placed_pieces();
         ray.check()?;
         let frame = CompoundPoint::new(&body, &ray.origin())?;
         let direction = body.pose.rotate_back(&ray.direction());
@@ -27,7 +29,7 @@ pub fn cast_ray(body: PlacedCompound, ray: &Ray) -> Result<CompoundRayAnswer> {
         let slabs = Slabs { frame: &frame, direction: is_plain.then_some(direction), t_max: ray.t_max };
         let mut nearest = NearestOfPieces::new(&body);
         let miss = RayAnswer { outcome: RayOutcome::Miss, ..RayAnswer::default() };
-        let mut first = CompoundRayAnswer { answer: miss, piece: body.compound.piece_count() as u32 };
+        let mut first = CompoundRayAnswer { answer: miss, piece: body.count() as u32 };
         let mut entry = f64::INFINITY;
         while let Some(piece) = nearest.next(|fitted| slabs.entry(fitted)) {
             let mut own = Pose::IDENTITY;
@@ -50,12 +52,42 @@ pub fn cast_ray(body: PlacedCompound, ray: &Ray) -> Result<CompoundRayAnswer> {
     })
 }
 
+/// The same, the entry as neighbouring doubles: of all pieces that may be the first, in integers.
+///
+/// # Errors
+/// As of [`cast_ray`].
+pub(crate) fn cast_ray_in_integers(body: PlacedCompound, ray: &Ray) -> Result<CompoundRayAnswer> {
+    with_default(|| {
+        let mut first = cast_ray(body, ray)?;
+        if first.answer.outcome == RayOutcome::Miss {
+            return Ok(first);
+        }
+        let (body, until) = (body.placed_pieces(), first.answer.entry[1]);
+        let mut is_known = false;
+        for piece in 0..body.count() as u32 {
+            let mut own = Pose::IDENTITY;
+            let placed = body.piece(piece, &mut own);
+            let near = crate::ray::cast_ray(placed, &Ray { t_max: until.min(ray.t_max), ..*ray })?;
+            if near.outcome == RayOutcome::Miss {
+                continue;
+            }
+            let answer = crate::ray::cast_ray_in_integers(placed, ray)?;
+            let is_earlier = answer.entry.map(|t| t + 0.0) < first.answer.entry.map(|t| t + 0.0);
+            if answer.outcome != RayOutcome::Miss && (!is_known || is_earlier) {
+                (first, is_known) = (CompoundRayAnswer { answer, piece }, true);
+            }
+        }
+        Ok(first)
+    })
+}
+
 /// Where a point of the world is relative to a compound. Guaranteed as [`crate::point::locate_point`] is; it allocates.
 ///
 /// # Errors
 /// As of [`crate::point::locate_point`].
 pub fn locate_point(body: PlacedCompound, point: [f64; 3]) -> Result<CompoundPointAnswer> {
     with_default(|| {
+        let body = body.placed_pieces();
         check_finite("point", &point)?;
         let frame = CompoundPoint::new(&body, &point.into())?;
         let mut nearest = NearestOfPieces::new(&body);
@@ -78,7 +110,7 @@ pub fn locate_point(body: PlacedCompound, point: [f64; 3]) -> Result<CompoundPoi
 
 /// The walk down one tree.
 struct NearestOfPieces<'a> {
-    body: &'a PlacedCompound<'a>,
+    body: &'a PlacedPieces<'a>,
     /// Nodes with a greater bound are passed by.
     enough: f64,
     waiting: [(f64, u32); DEEPEST + 2],
@@ -86,14 +118,14 @@ struct NearestOfPieces<'a> {
 }
 
 impl<'a> NearestOfPieces<'a> {
-    fn new(body: &'a PlacedCompound<'a>) -> NearestOfPieces<'a> {
+    fn new(body: &'a PlacedPieces<'a>) -> NearestOfPieces<'a> {
         let waiting = [(f64::NEG_INFINITY, 0); DEEPEST + 2];
         NearestOfPieces { body, enough: f64::INFINITY, waiting, count: 1 }
     }
 
     /// The next piece, where a bound says nothing against it; infinite bounds rule out.
     fn next(&mut self, bound: impl Fn(&Fitted) -> f64) -> Option<u32> {
-        let nodes = &self.body.compound.tree.nodes;
+        let nodes = self.body.tree.nodes;
         while self.count > 0 {
             self.count -= 1;
             let (least, number) = self.waiting[self.count];
@@ -128,9 +160,9 @@ struct CompoundPoint {
 }
 
 impl CompoundPoint {
-    fn new(body: &PlacedCompound, world: &Vector) -> Result<CompoundPoint> {
+    fn new(body: &PlacedPieces, world: &Vector) -> Result<CompoundPoint> {
         let defect = body.pose.checked_defect()? + 8.0 * U;
-        let reach = body.compound.reach;
+        let reach = body.reach;
         let way = world - body.pose.translation();
         let size = way.lp_norm(1) + reach.lever;
         let mut slack = (64.0 * U + 16.0 * defect) * size + f64::MIN_POSITIVE;

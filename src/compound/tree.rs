@@ -37,6 +37,18 @@ impl PieceNode {
         debug_assert!(self.children[1] != LEAF);
         self.children
     }
+
+    /// The node of one piece.
+    pub fn leaf(fitted: Fitted, piece: u32) -> PieceNode {
+        PieceNode { fitted, size: fitted.size(), children: [piece, LEAF] }
+    }
+}
+
+/// A tree for reading, wherever its nodes are.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct TreeView<'a> {
+    pub nodes: &'a [PieceNode],
+    pub oriented: &'a [Oriented],
 }
 
 /// The tree; node 0 holds all pieces.
@@ -72,6 +84,11 @@ impl PieceTree {
         let mut growth = Growth { leaves, boxes, tree };
         growth.grow(&mut order, 0)?;
         Ok(growth.tree)
+    }
+
+    #[inline(always)]
+    pub fn view(&self) -> TreeView<'_> {
+        TreeView { nodes: &self.nodes, oriented: &self.oriented }
     }
 
     /// Memory held beside the struct, in bytes.
@@ -141,8 +158,7 @@ impl Growth<'_> {
             [piece] => self.boxes_of_leaf(piece),
             _ => self.boxes_of(order)?,
         };
-        let children = [order[0], LEAF];
-        push(&mut self.tree.nodes, PieceNode { fitted, size: fitted.size(), children })?;
+        push(&mut self.tree.nodes, PieceNode::leaf(fitted, order[0]))?;
         push(&mut self.tree.oriented, oriented)?;
         if order.len() > 1 {
             let (first, second) = self.split(order, depth)?;

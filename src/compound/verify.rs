@@ -5,7 +5,7 @@
 use super::PlacedCompound;
 use super::answer::CompoundAnswer;
 use super::between::{Between, Reaches};
-use super::queries::with_pieces;
+use super::placed::with_pieces;
 use super::walk::{Aim, PiecePair, walk};
 use crate::base::error::{Error, Result};
 use crate::base::simd::environment::with_default;
@@ -22,9 +22,10 @@ use crate::verify::{prove_apart, verify as verify_pair};
 /// As of [`verify_pair`]; [`Error::Argument`] for numbers of pieces that the compounds do not have.
 pub fn verify(bodies: [PlacedCompound; 2], found: &CompoundAnswer) -> Result<()> {
     with_default(|| {
+        let bodies = bodies.map(|body| body.placed_pieces());
         let between = Between::new(&bodies, &Reaches::new(&bodies)?);
         let pieces = [found.piece1, found.piece2];
-        let counts = bodies.map(|body| body.compound.piece_count() as u32);
+        let counts = bodies.map(|body| body.count() as u32);
         let answer = &found.answer;
         if pieces == counts && answer.outcome != Outcome::Intersecting {
             check_unnamed(answer)?;
@@ -38,7 +39,7 @@ pub fn verify(bodies: [PlacedCompound; 2], found: &CompoundAnswer) -> Result<()>
         if answer.outcome == Outcome::Intersecting {
             return Ok(());
         }
-        let trees = bodies.map(|body| &body.compound.tree);
+        let trees = bodies.map(|body| body.tree);
         walk(PiecePair { trees, between: &between, aim: Aim::Distance }, answer.lower, |pieces| {
             with_pieces(&bodies, pieces, |placed| check_apart(placed, answer.lower))
                 .map_err(|error| about(error, pieces))?;

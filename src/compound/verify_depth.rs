@@ -6,7 +6,7 @@ use super::PlacedCompound;
 use super::answer::{CompoundAnswer, CompoundDepth, CompoundSignedDistance};
 use super::between::{Between, Reaches};
 use super::depth::{freeing_length, placing_error, translated};
-use super::queries::with_pieces;
+use super::placed::with_pieces;
 use super::verify::{about, check_apart, verify};
 use super::walk::{Aim, PiecePair, walk};
 use crate::base::error::{Error, Result};
@@ -65,11 +65,12 @@ fn unverified(message: &str) -> Error {
 /// That no two pieces but those named have a signed distance below `least`, which is 0 or less.
 fn check_pairs(bodies: &[PlacedCompound; 2], least: f64, named: Option<[u32; 2]>) -> Result<()> {
     debug_assert!(least <= 0.0);
-    let between = Between::new(bodies, &Reaches::new(bodies)?);
-    let trees = bodies.map(|body| &body.compound.tree);
+    let bodies = bodies.map(|body| body.placed_pieces());
+    let between = Between::new(&bodies, &Reaches::new(&bodies)?);
+    let trees = bodies.map(|body| body.tree);
     walk(PiecePair { trees, between: &between, aim: Aim::Distance }, least, |pieces| {
         if named != Some(pieces) {
-            with_pieces(bodies, pieces, |placed| check_pair(placed, least)).map_err(|error| about(error, pieces))?;
+            with_pieces(&bodies, pieces, |placed| check_pair(placed, least)).map_err(|error| about(error, pieces))?;
         }
         Ok(Some(least))
     })?;
@@ -97,8 +98,10 @@ fn check_deepest(bodies: &[PlacedCompound; 2], deepest: &CompoundSignedDistance)
         return Err(Error::Argument(message));
     }
     let depth = as_depth(&deepest.distance);
-    with_pieces(bodies, pieces, |placed| verify_pair(placed, &DepthCache::default(), &depth))
-        .map_err(|error| about(error, pieces))?;
+    with_pieces(&bodies.map(|body| body.placed_pieces()), pieces, |placed| {
+        verify_pair(placed, &DepthCache::default(), &depth)
+    })
+    .map_err(|error| about(error, pieces))?;
     check_pairs(bodies, deepest.distance.lower, Some(pieces))
 }
 

@@ -2,7 +2,7 @@
 //! the deepest overlap of boxes first, a distance to the nearest.
 
 use super::between::{Between, opened};
-use super::tree::{DEEPEST, PieceTree};
+use super::tree::{DEEPEST, TreeView};
 use crate::base::error::Result;
 use crate::base::simd::{self, Kernel, Lanes};
 
@@ -29,7 +29,7 @@ struct WaitingNodes {
 /// Two trees, and what is asked of them.
 #[derive(Clone, Copy)]
 pub(super) struct PiecePair<'a> {
-    pub trees: [&'a PieceTree; 2],
+    pub trees: [TreeView<'a>; 2],
     pub between: &'a Between,
     pub aim: Aim,
 }

@@ -84,9 +84,11 @@ unsafe fn all_object_options(options: *const CObjectOptions, count: usize) -> Ch
             return Err(Failure::new(StatusCode::ErrorStructSize, message));
         }
         // SAFETY: by the caller.
-        let (own, ground) = unsafe { object_options(place) }?;
-        if ground.is_some() {
-            let message = format!("options[{k}].ground is set: add grounds one by one by swiftprox_scene_add_object");
+        let (own, body) = unsafe { object_options(place) }?;
+        if body.is_some() {
+            let message = format!(
+                "options[{k}].ground or compound is set: add grounds and compounds one by one by swiftprox_scene_add_object"
+            );
             return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
         }
         all.push(own);

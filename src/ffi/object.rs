@@ -10,6 +10,7 @@ use super::scene::{SceneHandle, change, look};
 use super::structs::{Versioned, read_struct, write_struct};
 use crate::base::math::Pose;
 use crate::base::memory::with_capacity;
+use crate::compound::Compound;
 use crate::ground::Ground;
 use crate::scene::Object;
 use crate::scene::object::{ObjectId, ObjectOptions};
@@ -34,6 +35,8 @@ pub struct CObjectOptions {
     pub mask: u32,
     /// A ground that the object is, instead of pieces; experimental. It is always fixed. Default: null.
     pub ground: *const Ground,
+    /// A compound that the object is, instead of pieces; experimental. Default: null.
+    pub compound: *const Compound,
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.
@@ -51,6 +54,7 @@ impl CObjectOptions {
         groups: 0,
         mask: 0,
         ground: std::ptr::null(),
+        compound: std::ptr::null(),
     };
 }
 
@@ -62,7 +66,7 @@ pub struct ObjectInfo {
     pub struct_size: usize,
     /// The caller's number.
     pub user_data: u64,
-    /// Number of convex pieces; 0 for a ground.
+    /// Number of convex pieces; 0 for a ground or a compound.
     pub piece_count: usize,
     /// Its pose, row-major [R|T].
     pub pose: [f64; 12],
@@ -74,6 +78,8 @@ pub struct ObjectInfo {
     pub mask: u32,
     /// The ground that it is, or null; experimental. The scene owns the share.
     pub ground: *const Ground,
+    /// The compound that it is, or null; experimental. The scene owns the share.
+    pub compound: *const Compound,
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.
@@ -92,6 +98,7 @@ impl ObjectInfo {
         groups: 0,
         mask: 0,
         ground: std::ptr::null(),
+        compound: std::ptr::null(),
     };
 }
 
@@ -103,8 +110,12 @@ impl ObjectInfo {
 /// With options->ground and a piece_count of 0 it adds that ground. Results name the ground as piece 0, and the triangle as a
 /// feature that is a face. swiftprox_scene_set_pose moves it. Functions about pieces refuse it. Two grounds make no pair.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces and no ground, or both. SWIFTPROX_ERROR_LIMIT: more objects or pieces than a scene
-/// holds.
+/// With options->compound and a piece_count of 0 it adds that compound as one body. A pair of objects with it has one result, the
+/// first proof or the nearest pieces, named as piece1 or piece2; with a detail one result for each two pieces in reach. Functions
+/// about pieces refuse it.
+///
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: no pieces, ground or compound, or more than one of them.
+/// SWIFTPROX_ERROR_LIMIT: more objects or pieces than a scene holds.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_add_object(
     scene: *mut SceneHandle,
@@ -202,8 +213,8 @@ pub unsafe extern "C" fn swiftprox_scene_copy_object_ids(
 /// Sets an object's user data, pose, fixed flag, groups and mask. Fill info with swiftprox_scene_get_object_info, then change
 /// members. An unchanged pose moves nothing. Pair caches are kept.
 ///
-/// SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count or ground differs from the object's, and nothing has changed; or a ground is not
-/// to be fixed.
+/// SWIFTPROX_ERROR_INVALID_ARGUMENT: piece_count, ground or compound differs from the object's, and nothing has changed; or a
+/// ground is not to be fixed.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scene_set_object_info(
     scene: *mut SceneHandle,
@@ -216,9 +227,10 @@ pub unsafe extern "C" fn swiftprox_scene_set_object_info(
             input(info, "info")?;
             let before = info_of(&scene.object(id)?);
             let after = read_struct(info, before)?;
-            if (after.piece_count, after.ground) != (before.piece_count, before.ground) {
+            let bodies = |info: &ObjectInfo| (info.piece_count, info.ground, info.compound);
+            if bodies(&after) != bodies(&before) {
                 let message = format!(
-                    "info->piece_count is {}, and the object has {}, or info->ground is another; fill info by \
+                    "info->piece_count is {}, and the object has {}, or info->ground or compound is another; fill info by \
                      swiftprox_scene_get_object_info",
                     after.piece_count, before.piece_count
                 );
@@ -359,6 +371,7 @@ fn info_of(object: &Object) -> ObjectInfo {
         groups: object.groups(),
         mask: object.mask(),
         ground: object.ground().map_or(std::ptr::null(), Arc::as_ptr),
+        compound: object.compound().map_or(std::ptr::null(), Arc::as_ptr),
     }
 }
 
@@ -367,11 +380,17 @@ pub(super) fn check_piece(object: &Object, piece: usize) -> Checked<()> {
     Ok(object.refuse_absent(piece)?)
 }
 
-/// How an object begins, in Rust's terms, and the ground that it is.
+/// What an object is instead of pieces.
+pub(super) enum WholeBody {
+    Ground(Arc<Ground>),
+    Compound(Arc<Compound>),
+}
+
+/// How an object begins, in Rust's terms, and what it is instead of pieces.
 ///
 /// # Safety
 /// `options` meets the header's pointer rules.
-pub(super) unsafe fn object_options(options: *const CObjectOptions) -> Checked<(ObjectOptions, Option<Arc<Ground>>)> {
+pub(super) unsafe fn object_options(options: *const CObjectOptions) -> Checked<(ObjectOptions, Option<WholeBody>)> {
     // SAFETY: by the caller.
     let options = unsafe { read_struct(options, CObjectOptions::DEFAULT) }?;
     let own = ObjectOptions {
@@ -381,9 +400,18 @@ pub(super) unsafe fn object_options(options: *const CObjectOptions) -> Checked<(
         groups: groups_or_first(options.groups),
         mask: mask_or_all(options.mask),
     };
-    // SAFETY: by the caller.
-    let ground = (!options.ground.is_null()).then(|| unsafe { share(options.ground, "options->ground") });
-    Ok((own, ground.transpose()?))
+    let body = match (options.ground.is_null(), options.compound.is_null()) {
+        (true, true) => None,
+        // SAFETY: by the caller.
+        (false, true) => Some(WholeBody::Ground(unsafe { share(options.ground, "options->ground") }?)),
+        // SAFETY: by the caller.
+        (true, false) => Some(WholeBody::Compound(unsafe { share(options.compound, "options->compound") }?)),
+        (false, false) => {
+            let message = "options->ground and options->compound are set: add one object for each";
+            return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
+        }
+    };
+    Ok((own, body))
 }
 
 /// Groups as a program gives them: none are the first one.
@@ -396,7 +424,7 @@ fn mask_or_all(mask: u32) -> u32 {
     if mask == 0 { u32::MAX } else { mask }
 }
 
-/// One more share of a shape or a ground.
+/// One more share of a shape, a ground or a compound.
 ///
 /// # Safety
 /// `pointer` meets the header's pointer rules.
@@ -429,24 +457,25 @@ unsafe fn add(
         // SAFETY: by the caller.
         unsafe { output(id, "id", ObjectId::NULL) }?;
         // SAFETY: by the caller.
-        let (options, ground) = unsafe { object_options(options) }?;
+        let (options, body) = unsafe { object_options(options) }?;
         let pieces = make()?;
-        if ground.is_some() && !pieces.is_empty() {
-            let message =
-                "options->ground and pieces are set: an object is a ground or has pieces; add one object for each";
+        if body.is_some() && !pieces.is_empty() {
+            let message = "options->ground or compound and pieces are set: an object is one or has pieces; add one \
+                           object for each";
             return Err(Failure::new(StatusCode::ErrorInvalidArgument, message));
         }
-        made = Some((pieces, ground, options));
+        made = Some((pieces, body, options));
         Ok(())
     });
-    let Some((pieces, ground, options)) = made else {
+    let Some((pieces, body, options)) = made else {
         return status;
     };
     // SAFETY: by the caller; `id` was written before.
     unsafe {
         change(scene, |scene| {
-            id.write(match ground {
-                Some(ground) => scene.add_ground(ground, &options)?,
+            id.write(match body {
+                Some(WholeBody::Ground(ground)) => scene.add_ground(ground, &options)?,
+                Some(WholeBody::Compound(compound)) => scene.add_compound(compound, &options)?,
                 None => scene.add_object(pieces, &options)?,
             });
             Ok(())

@@ -8,16 +8,18 @@ use std::sync::Arc;
 use crate::base::error::Result;
 use crate::base::math::Pose;
 use crate::base::memory::{copied, push};
+use crate::compound::Compound;
 use crate::ground::Ground;
 use crate::scene::world::object::{ObjectId, ObjectOptions};
 use crate::scene::world::testing::PairFilter;
 use crate::shape::Shape;
 
-/// The names that stand for objects, shapes, grounds and filters.
+/// The names that stand for objects, shapes, grounds, compounds and filters.
 pub(crate) trait Names {
     type Object: Copy + Debug;
     type Shape: Clone + Debug;
     type Ground: Debug;
+    type Compound: Debug;
     type Filter: Debug;
 }
 
@@ -29,6 +31,7 @@ impl Names for Themselves {
     type Object = ObjectId;
     type Shape = Arc<Shape>;
     type Ground = Arc<Ground>;
+    type Compound = Arc<Compound>;
     type Filter = PairFilter;
 }
 
@@ -40,6 +43,7 @@ impl Names for RecordedNames {
     type Object = u32;
     type Shape = u32;
     type Ground = u32;
+    type Compound = u32;
     type Filter = ();
 }
 
@@ -54,6 +58,11 @@ pub(crate) enum Change<'a, N: Names> {
     /// As above, which is a ground.
     Ground {
         ground: N::Ground,
+        options: ObjectOptions,
+    },
+    /// As above, which is a compound.
+    Compound {
+        compound: N::Compound,
         options: ObjectOptions,
     },
     /// As above, like another one.
@@ -100,6 +109,9 @@ pub(crate) trait Rename<From: Names, To: Names> {
     /// # Errors
     /// As above.
     fn ground(&mut self, ground: &From::Ground) -> Result<To::Ground>;
+    /// # Errors
+    /// As above.
+    fn compound(&mut self, compound: &From::Compound) -> Result<To::Compound>;
     fn filter(&mut self, filter: &From::Filter) -> To::Filter;
 }
 
@@ -114,6 +126,9 @@ impl<From: Names> Change<'_, From> {
                 Change::Object { pieces: all(pieces, |shape| names.shape(shape))?, options: *options }
             }
             Change::Ground { ground, options } => Change::Ground { ground: names.ground(ground)?, options: *options },
+            Change::Compound { compound, options } => {
+                Change::Compound { compound: names.compound(compound)?, options: *options }
+            }
             Change::Copy(object) => Change::Copy(names.object(*object)?),
             Change::Remove(object) => Change::Remove(names.object(*object)?),
             Change::Fixed(object, fixed) => Change::Fixed(names.object(*object)?, *fixed),

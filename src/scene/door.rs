@@ -78,6 +78,12 @@ impl Scene {
                 near.grow(world.proxies.len());
                 return Ok(Some(added));
             }
+            Change::Compound { compound, options } => {
+                near.reserve(1)?;
+                let added = world.add_compound(&compound, &options)?;
+                near.grow(world.proxies.len());
+                return Ok(Some(added));
+            }
             Change::Copy(original) => {
                 near.reserve(world.rows_of(original).len())?;
                 let added = world.copy(original)?;
@@ -184,7 +190,7 @@ impl Scene {
         let asked = search.ask(&mut Searched { world, near, workers }, subject, kind, query);
         let answer = asked.map(|()| search.answer());
         recording.decisions(world.decided(), &world.objects);
-        with_default(|| recording.answer(answer.as_ref().ok(), &world.objects));
+        with_default(|| recording.answer(answer.as_ref().ok(), world));
         answer
     }
 }

@@ -1,6 +1,6 @@
 //! A scene drawn as it is: objects, boxes, near pairs, and the results of its last query.
 
-use crate::base::math::Vector;
+use crate::base::math::{Pose, Vector};
 use crate::base::simd::environment::with_default;
 use crate::draw::{Draw, DrawKind, Pen};
 use crate::pair::{Outcome, SignedDistance};
@@ -28,6 +28,13 @@ impl Scene {
                 }
                 for (piece, shape) in object.pieces().iter().enumerate() {
                     pen.shape(shape.at(&object.piece_pose_in_world(piece)));
+                }
+                if let Some(compound) = object.compound() {
+                    let pieces = compound.at(object.pose()).placed_pieces();
+                    for number in 0..pieces.count() as u32 {
+                        let mut room = Pose::IDENTITY;
+                        pen.shape(pieces.piece(number, &mut room));
+                    }
                 }
             }
             if pen.wants(DrawKind::Box) {

@@ -9,6 +9,7 @@ use crate::base::error::{Error, Result};
 use crate::base::files;
 use crate::base::math::Pose;
 use crate::base::workers::Workers;
+use crate::compound::Compound;
 use crate::ground::Ground;
 #[cfg(doc)]
 use crate::pair::{self, Outcome};
@@ -46,6 +47,17 @@ impl Scene {
     /// As [`Scene::add_object`].
     pub fn add_ground(&mut self, ground: Arc<Ground>, options: &ObjectOptions) -> Result<ObjectId> {
         self.adding(Change::Ground { ground, options: *options })
+    }
+
+    /// Adds a compound as an object: one row in all that finds pairs, however many pieces it has. Each near pair of objects with it
+    /// has one answer, as of [`compound::distance`](crate::compound::distance()), and a result names the piece that it is about.
+    /// With a [`SceneQuery::detail`] there is one result for each two pieces no farther apart than `max_distance`, as of pieces
+    /// that are objects. Approximate queries answer it exactly. Its pieces stay where they are in it.
+    ///
+    /// # Errors
+    /// As [`Scene::add_object`], [`Error::Pose`] also for a pose at which that of a piece is refused.
+    pub fn add_compound(&mut self, compound: Arc<Compound>, options: &ObjectOptions) -> Result<ObjectId> {
+        self.adding(Change::Compound { compound, options: *options })
     }
 
     /// Adds an object with the pieces (shared), the poses, the fixedness, the filter bits and the user data of another one. All

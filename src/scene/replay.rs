@@ -8,7 +8,9 @@ use std::sync::{Arc, Mutex};
 use crate::base::error::{Error, Result};
 use crate::base::files::open_to_read;
 use crate::base::locks::locked;
-use crate::base::memory::{lacking, push};
+use crate::base::math::Pose;
+use crate::base::memory::{lacking, push, with_capacity};
+use crate::compound::{Compound, Piece};
 use crate::ground::Ground;
 use crate::pair::Query;
 use crate::scene::change::{Change, RecordedNames, Rename, Themselves};
@@ -48,6 +50,7 @@ pub struct Replay {
     is_whole: bool,
     shapes: Vec<Arc<Shape>>,
     grounds: Vec<Arc<Ground>>,
+    compounds: Vec<Arc<Compound>>,
     /// All objects that there ever were, by number.
     ids: Vec<ObjectId>,
     decisions: Arc<Mutex<Decisions>>,
@@ -154,6 +157,7 @@ impl Replay {
             is_whole,
             shapes: Vec::new(),
             grounds: Vec::new(),
+            compounds: Vec::new(),
             ids: Vec::new(),
             decisions: Arc::default(),
             changes: Vec::new(),
@@ -212,6 +216,7 @@ impl Replay {
             match (record, &mut self.question) {
                 (Record::Shape(shape), _) => push(&mut self.shapes, shape)?,
                 (Record::Ground(ground), _) => push(&mut self.grounds, ground)?,
+                (Record::Compound(pieces), _) => self.add_compound(&pieces)?,
                 (Record::Question { subject, kind, query }, None) => {
                     self.question = Some(ReplayQuestion { subject, kind, query, outcome: Recorded::Nothing });
                 }
@@ -238,6 +243,16 @@ impl Replay {
             }
         }
         Ok(())
+    }
+
+    /// A compound of shapes that were read before.
+    fn add_compound(&mut self, pieces: &[(u32, Pose)]) -> Result<()> {
+        let mut known = with_capacity(pieces.len())?;
+        for (number, pose) in pieces {
+            known.push(Piece { shape: shape(&self.shapes, *number)?.clone(), pose: *pose });
+        }
+        let made = Compound::new(&known).map_err(|error| error.unless_memory(|error| self.reader.refused(error)))?;
+        push(&mut self.compounds, Arc::new(made))
     }
 
     /// The next record and where it begins.
@@ -281,8 +296,8 @@ impl Replay {
                 if let Change::Filter(_) | Change::FilterAgain = change {
                     locked(&self.decisions).known.clear();
                 }
-                let Replay { shapes, grounds, ids, decisions, .. } = self;
-                let change = change.renamed(&mut KnownObjects { shapes, grounds, ids, decisions })?;
+                let Replay { shapes, grounds, compounds, ids, decisions, .. } = self;
+                let change = change.renamed(&mut KnownObjects { shapes, grounds, compounds, ids, decisions })?;
                 scene.change(change)?.map_or(Ok(()), |id| push(&mut self.ids, id))
             }
             Record::Decisions(decisions) => self.learn(scene, &decisions),
@@ -291,6 +306,7 @@ impl Replay {
             | Record::Scene { .. }
             | Record::Shape(_)
             | Record::Ground(_)
+            | Record::Compound(_)
             | Record::Question { .. }
             | Record::Answer(_)
             | Record::Failed => Ok(()),
@@ -338,7 +354,8 @@ impl Replay {
         }
         let scene = &*scene;
         let answer = scene.search.answer();
-        let digest = Digest::of(&answer, |id| self.number(scene, id).unwrap_or(u32::MAX));
+        let digest =
+            Digest::of(&answer, |id| (self.number(scene, id).unwrap_or(u32::MAX), scene.world.is_compound(id)));
         let (Recorded::Answer(recorded), None) = (outcome, tolerance) else {
             return Ok(ReplayAnswer { answer, check: Ok(()), is_identical: false });
         };
@@ -367,6 +384,7 @@ impl Decisions {
 struct KnownObjects<'a> {
     shapes: &'a [Arc<Shape>],
     grounds: &'a [Arc<Ground>],
+    compounds: &'a [Arc<Compound>],
     ids: &'a [ObjectId],
     decisions: &'a Arc<Mutex<Decisions>>,
 }
@@ -383,6 +401,11 @@ impl Rename<RecordedNames, Themselves> for KnownObjects<'_> {
     fn ground(&mut self, number: &u32) -> Result<Arc<Ground>> {
         let absent = || Error::File(format!("ground {number} of {}", self.grounds.len()));
         self.grounds.get(*number as usize).cloned().ok_or_else(absent)
+    }
+
+    fn compound(&mut self, number: &u32) -> Result<Arc<Compound>> {
+        let absent = || Error::File(format!("compound {number} of {}", self.compounds.len()));
+        self.compounds.get(*number as usize).cloned().ok_or_else(absent)
     }
 
     fn filter(&mut self, (): &()) -> PairFilter {

@@ -2,6 +2,7 @@
 
 mod bulk;
 mod casts;
+mod compound_objects;
 mod contacts;
 mod counts;
 mod drawing;

@@ -462,7 +462,7 @@ impl BroadPhase {
             proxy += 1;
             !proxies.is_gone(proxy - 1)
         });
-        proxies.grounds.renumber(&numbers);
+        proxies.bodies.renumber(&numbers);
         proxies.compact();
         objects.renumber(&numbers);
     }

@@ -7,6 +7,7 @@ use std::sync::Mutex;
 use crate::base::error::Result;
 use crate::base::locks::{locked, unlocked};
 use crate::base::memory::{collected, copied, extend, reserve, with_capacity};
+use crate::compound::GrowingCache;
 use crate::pair::PairCache;
 use crate::scene::near::candidates::{Candidates, order};
 use crate::scene::near::contact_memory::ContactMemory;
@@ -37,6 +38,8 @@ pub(crate) struct PairMark {
     pub intersects: bool,
     /// … and where among [`SceneStatistics::by_level`](crate::scene::SceneStatistics::by_level) its answer counts.
     pub level: u8,
+    /// So many more results of its own follow the first: pairs of compounds have one for each contact of theirs.
+    pub more: u8,
 }
 
 /// Passes of one kind give answers of the last one of their kind again.
@@ -53,7 +56,7 @@ impl NearPair {
 
 impl PairMark {
     /// The mark of a pair that no pass has looked at.
-    pub const NONE: PairMark = PairMark { result: UNLISTED, is_answered: false, intersects: false, level: 0 };
+    pub const NONE: PairMark = PairMark { result: UNLISTED, is_answered: false, intersects: false, level: 0, more: 0 };
 
     /// Its result, found among those of a part of the pairs, stands this many places later among all.
     pub fn shift_result(&mut self, places: u32) {
@@ -85,8 +88,10 @@ pub(crate) struct NearPairs {
     /// The caches of the pairs' queries, in no order: pairs move when others come and go, caches do not. Several threads may
     /// change theirs at once: [`locked`].
     pub caches: Vec<Mutex<PairCache>>,
-    /// … and of contacts, at the same places.
+    /// … and of contacts, at the same places, …
     pub contacts: ContactMemory,
+    /// … and of pieces of compounds, where there are compounds.
+    pub compounds: Vec<Mutex<GrowingCache>>,
     /// Caches without a pair; with room for all.
     free: Vec<u32>,
     /// Pairs that come, until they are merged.
@@ -128,6 +133,9 @@ impl NearPairs {
             }
             self.free.push(self.pairs[at].cache);
             self.contacts.forget(self.pairs[at].cache);
+            if let Some(cache) = self.compounds.get_mut(self.pairs[at].cache as usize) {
+                *unlocked(cache) = GrowingCache::default();
+            }
             if kept < moved && moved < at {
                 self.move_pairs(moved..at, kept);
             }
@@ -204,6 +212,17 @@ impl NearPairs {
         let missing = self.pairs.len() - self.marks[kind].len();
         reserve(&mut self.marks[kind], missing)?;
         self.marks[kind].resize(self.pairs.len(), PairMark::NONE);
+        Ok(())
+    }
+
+    /// Makes room for the pieces of compounds, of all pairs.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn make_compound_room(&mut self) -> Result<()> {
+        let missing = self.caches.len().saturating_sub(self.compounds.len());
+        reserve(&mut self.compounds, missing)?;
+        self.compounds.resize_with(self.caches.len().max(self.compounds.len()), Mutex::default);
         Ok(())
     }
 

@@ -38,14 +38,20 @@ impl Sum {
 }
 
 impl Digest {
-    /// `number` names objects as the recording does, any other way for what is no object.
-    pub fn of(answer: &SceneAnswer, number: impl Fn(ObjectId) -> u32) -> Digest {
+    /// `name` names objects as the recording does, any other way for what is no object, and tells whether they are compounds.
+    pub fn of(answer: &SceneAnswer, name: impl Fn(ObjectId) -> (u32, bool)) -> Digest {
         let results = answer.found.map_or(answer.pairs, std::slice::from_ref);
         let (mut listed, mut bits) = (Sum(EMPTY_CHECKSUM), Sum(EMPTY_CHECKSUM));
         let (mut lower, mut upper) = (0.0, 0.0);
         for PairResult { object1, object2, piece1, piece2, answer, .. } in results {
-            listed.add(u64::from(number(*object1)) << 32 | u64::from(number(*object2)));
-            listed.add(u64::from(*piece1) << 32 | u64::from(*piece2));
+            let [(number1, is_compound1), (number2, is_compound2)] = [name(*object1), name(*object2)];
+            listed.add(u64::from(number1) << 32 | u64::from(number2));
+            // Which of several pieces a compound is named with depends on earlier questions.
+            let [fixed1, fixed2] = [u32::from(!is_compound1) * piece1, u32::from(!is_compound2) * piece2];
+            listed.add(u64::from(fixed1) << 32 | u64::from(fixed2));
+            if is_compound1 || is_compound2 {
+                bits.add(u64::from(*piece1) << 32 | u64::from(*piece2));
+            }
             listed.add(answer.outcome as u64);
             for x in [answer.distance, answer.lower, answer.upper] {
                 bits.add_real(x);

@@ -54,6 +54,8 @@ pub(crate) enum RecordKind {
     PieceUserData = 30,
     GroundData = 31,
     Ground = 32,
+    CompoundData = 33,
+    Compound = 34,
 }
 
 enumerator!(RecordKind {
@@ -84,7 +86,9 @@ enumerator!(RecordKind {
     KeptPairLimit,
     PieceUserData,
     GroundData,
-    Ground
+    Ground,
+    CompoundData,
+    Compound
 });
 
 /// A filter's word on a pair of objects.
@@ -107,6 +111,8 @@ pub(crate) enum Record<'a> {
     Shape(Arc<Shape>),
     /// As above.
     Ground(Arc<Ground>),
+    /// As above, by the numbers and the poses of its pieces.
+    Compound(Cow<'a, [(u32, Pose)]>),
     Change(Change<'a, RecordedNames>),
     Question {
         subject: Subject<'static, u32, u32>,
@@ -128,6 +134,7 @@ impl Record<'_> {
             Record::Scene { .. } => RecordKind::Scene,
             Record::Shape(_) => RecordKind::Shape,
             Record::Ground(_) => RecordKind::GroundData,
+            Record::Compound(_) => RecordKind::CompoundData,
             Record::Change(change) => kind_of(change),
             Record::Question { .. } => RecordKind::Question,
             Record::Decisions(_) => RecordKind::Decisions,
@@ -146,6 +153,7 @@ impl Record<'_> {
             Record::Scene { is_whole } => to.flag(*is_whole),
             Record::Shape(shape) => crate::base::memory::extend(&mut to.bytes, to_bytes(shape)?),
             Record::Ground(ground) => to.ground(ground),
+            Record::Compound(pieces) => to.pieces(pieces),
             Record::Change(change) => write_change(change, to),
             Record::Question { subject, kind, query } => {
                 to.subject(subject)?;
@@ -174,6 +182,7 @@ impl Record<'_> {
             RecordKind::Scene => Record::Scene { is_whole: from.flag()? },
             RecordKind::Shape => Record::Shape(Arc::new(from_bytes(from.take(from.rest.len())?)?)),
             RecordKind::GroundData => Record::Ground(Arc::new(from.ground()?)),
+            RecordKind::CompoundData => Record::Compound(from.pieces()?.into()),
             RecordKind::Question => {
                 Record::Question { subject: from.subject()?, kind: from.choice()?, query: from.query()? }
             }
@@ -195,6 +204,7 @@ fn kind_of(change: &Change<RecordedNames>) -> RecordKind {
     match change {
         Change::Object { .. } => RecordKind::Object,
         Change::Ground { .. } => RecordKind::Ground,
+        Change::Compound { .. } => RecordKind::Compound,
         Change::Copy(..) => RecordKind::Copy,
         Change::Remove(..) => RecordKind::Remove,
         Change::Fixed(..) => RecordKind::Fixed,
@@ -224,6 +234,10 @@ fn write_change(change: &Change<RecordedNames>, to: &mut Writer) -> Result<()> {
         }
         Change::Ground { ground, options } => {
             to.number(*ground)?;
+            to.options(options)
+        }
+        Change::Compound { compound, options } => {
+            to.number(*compound)?;
             to.options(options)
         }
         Change::Copy(object) | Change::Remove(object) => to.number(*object),
@@ -279,6 +293,7 @@ fn read_change(kind: RecordKind, from: &mut Reader) -> Result<Change<'static, Re
     Ok(match kind {
         RecordKind::Object => Change::Object { pieces: from.numbers()?.into(), options: from.options()? },
         RecordKind::Ground => Change::Ground { ground: from.number()?, options: from.options()? },
+        RecordKind::Compound => Change::Compound { compound: from.number()?, options: from.options()? },
         RecordKind::Copy => Change::Copy(from.number()?),
         RecordKind::Remove => Change::Remove(from.number()?),
         RecordKind::Fixed => Change::Fixed(from.number()?, from.flag()?),
@@ -343,6 +358,14 @@ impl Writer {
         ground.corners().try_for_each(|corners| corners.iter().try_for_each(|v| self.number(*v)))
     }
 
+    fn pieces(&mut self, pieces: &[(u32, Pose)]) -> Result<()> {
+        self.number(pieces.len() as u32)?;
+        pieces.iter().try_for_each(|(shape, pose)| {
+            self.number(*shape)?;
+            self.pose(pose)
+        })
+    }
+
     fn pair(&mut self, pair: &[u32; 2]) -> Result<()> {
         pair.iter().try_for_each(|number| self.number(*number))
     }
@@ -372,11 +395,7 @@ impl Writer {
                 self.raw([4])?;
                 self.flag(mask.is_some())?;
                 self.number(mask.unwrap_or_default())?;
-                self.number(pieces.len() as u32)?;
-                pieces.iter().try_for_each(|(shape, pose)| {
-                    self.number(*shape)?;
-                    self.pose(pose)
-                })
+                self.pieces(pieces)
             }
             Subject::Events => self.raw([3]),
         }
@@ -459,16 +478,23 @@ impl Reader<'_> {
         self.list(size_of::<Pose>(), Reader::pose)
     }
 
+    fn piece(&mut self) -> Result<(u32, Pose)> {
+        Ok((self.number()?, self.pose()?))
+    }
+
+    fn pieces(&mut self) -> Result<Vec<(u32, Pose)>> {
+        self.list(size_of::<u32>() + size_of::<Pose>(), Reader::piece)
+    }
+
     fn subject(&mut self) -> Result<Subject<'static, u32, u32>> {
-        let piece = |from: &mut Self| Ok((from.number()?, from.pose()?));
         match self.raw()? {
             [0] => Ok(Subject::AllPairs),
             [1] => Ok(Subject::Object(self.number()?)),
-            [2] => Ok(Subject::Placed(PlacedBody { pieces: vec![piece(self)?].into(), mask: None })),
+            [2] => Ok(Subject::Placed(PlacedBody { pieces: vec![self.piece()?].into(), mask: None })),
             [3] => Ok(Subject::Events),
             [4] => {
                 let (has_mask, mask) = (self.flag()?, self.number()?);
-                let pieces = self.list(size_of::<u32>() + size_of::<Pose>(), piece)?.into();
+                let pieces = self.pieces()?.into();
                 Ok(Subject::Placed(PlacedBody { pieces, mask: has_mask.then_some(mask) }))
             }
             _ => self.damaged("a query about nothing known"),

@@ -14,7 +14,8 @@
 //! looked at before its length is believed. The last record tells that the recording was ended; without it the program was.
 //!
 //! Objects are numbered in order of creation, those that there were when the recording began first. Shapes are numbered, too, and
-//! stand in the recording as in a file of their own ([`shape::file`](crate::shape::file)); so do grounds, as heights or triangles.
+//! stand in the recording as in a file of their own ([`shape::file`](crate::shape::file)); so do grounds, as heights or triangles,
+//! and compounds, by the numbers and poses of their pieces.
 //! A question is written and handed to the system before it is answered: one that ends the program is the last record.
 
 pub(crate) mod digest;
@@ -27,6 +28,7 @@ use std::sync::Arc;
 
 use crate::base::error::{Error, Result};
 use crate::base::memory::{collected, push};
+use crate::compound::Compound;
 use crate::ground::Ground;
 use crate::pair::Query;
 use crate::scene::change::{Change, RecordedNames, Rename, Themselves};
@@ -150,9 +152,12 @@ impl Recording {
     }
 
     /// Writes down the answer to the last query; none of one that was refused.
-    pub fn answer(&mut self, answer: Option<&SceneAnswer>, objects: &ObjectTable) {
+    pub fn answer(&mut self, answer: Option<&SceneAnswer>, world: &World) {
         self.write(|recorder| {
-            let number = |id| objects.get(id).and_then(|object| recorder.number(object.serial())).unwrap_or(u32::MAX);
+            let number = |id| {
+                let found = world.objects.get(id).and_then(|object| recorder.number(object.serial()));
+                (found.unwrap_or(u32::MAX), world.is_compound(id))
+            };
             let digest = answer.map(|answer| Digest::of(answer, number));
             recorder.write(&digest.map_or(Record::Failed, Record::Answer))
         });
@@ -175,7 +180,7 @@ impl Recording {
     }
 }
 
-/// Numbers for the objects, shapes and grounds in a scene. A shape or ground is written down when it first gets one.
+/// Numbers for the objects, shapes, grounds and compounds in a scene. All but objects are written down when they first get one.
 struct Numbering<'a> {
     recorder: &'a mut Recorder,
     objects: &'a ObjectTable,
@@ -194,6 +199,10 @@ impl Rename<Themselves, RecordedNames> for Numbering<'_> {
         self.recorder.ground(ground)
     }
 
+    fn compound(&mut self, compound: &Arc<Compound>) -> Result<u32> {
+        self.recorder.compound(compound)
+    }
+
     fn filter(&mut self, _: &PairFilter) {}
 }
 
@@ -209,9 +218,10 @@ fn write_world(recorder: &mut Recorder, world: &World) -> Result<()> {
         write(Change::KeptPairLimit(world.kept_pair_limit))?;
     }
     for object in world.view().iter() {
-        write(match object.ground() {
-            Some(ground) => Change::Ground { ground: ground.clone(), options: object.options() },
-            None => Change::Object { pieces: object.pieces().into(), options: object.options() },
+        write(match (object.ground(), object.compound()) {
+            (Some(ground), _) => Change::Ground { ground: ground.clone(), options: object.options() },
+            (_, Some(compound)) => Change::Compound { compound: compound.clone(), options: object.options() },
+            _ => Change::Object { pieces: object.pieces().into(), options: object.options() },
         })?;
         for (piece, pose) in (0..).zip(object.piece_poses()) {
             write(Change::PiecePose { object: object.id(), piece, pose: *pose })?;

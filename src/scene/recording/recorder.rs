@@ -7,7 +7,8 @@ use std::sync::{Arc, Weak};
 
 use crate::base::binary::{EMPTY_CHECKSUM, Writer, checksum};
 use crate::base::error::{Error, Result};
-use crate::base::memory::lacking;
+use crate::base::memory::{lacking, with_capacity};
+use crate::compound::Compound;
 use crate::ground::Ground;
 use crate::scene::recording::format::{MAGIC, Record, VERSION};
 use crate::shape::Shape;
@@ -28,6 +29,7 @@ pub(crate) struct Recorder {
     sum: u64,
     shapes: Numbered<Shape>,
     grounds: Numbered<Ground>,
+    compounds: Numbered<Compound>,
     /// Places in the order of creation of the objects that there were at first: their numbers are those in here.
     serials: Vec<u64>,
     /// The position in the order of creation of the objects that came later.
@@ -67,7 +69,8 @@ impl Recorder {
         kept.number(VERSION)?;
         let sum = checksum(EMPTY_CHECKSUM, &kept.bytes);
         let (shapes, grounds) = (Numbered(HashMap::new()), Numbered(HashMap::new()));
-        Ok(Recorder { sink, name, kept, sum, shapes, grounds, serials, first_new: created })
+        let compounds = Numbered(HashMap::new());
+        Ok(Recorder { sink, name, kept, sum, shapes, grounds, compounds, serials, first_new: created })
     }
 
     /// The number of the object with this place in the order of creation.
@@ -103,6 +106,22 @@ impl Recorder {
         let (number, is_new) = self.grounds.number(ground)?;
         if is_new {
             self.write(&Record::Ground(ground.clone()))?;
+        }
+        Ok(number)
+    }
+
+    /// The same of a compound, whose shapes are written down first.
+    ///
+    /// # Errors
+    /// As [`Recorder::write`].
+    pub fn compound(&mut self, compound: &Arc<Compound>) -> Result<u32> {
+        let (number, is_new) = self.compounds.number(compound)?;
+        if is_new {
+            let mut pieces = with_capacity(compound.piece_count())?;
+            for piece in compound.pieces() {
+                pieces.push((self.shape(&piece.shape)?, piece.pose));
+            }
+            self.write(&Record::Compound(pieces.into()))?;
         }
         Ok(number)
     }

@@ -72,8 +72,12 @@ impl PairBlock {
 
     fn run(&mut self, pass: &Pass, near: &mut NearPairs, findings: &mut Findings) -> Result<bool> {
         let marks = &mut [PairMark::NONE; BLOCK][..self.pairs.len()];
-        let stopped =
-            pass.run(&mut self.pairs, marks, &mut Own { caches: &mut self.caches, contacts: None }, findings)?;
+        let stopped = pass.run(
+            &mut self.pairs,
+            marks,
+            &mut Own { caches: &mut self.caches, contacts: None, compounds: &[] },
+            findings,
+        )?;
         for (kept, cache) in self.kept.iter().zip(&mut self.caches) {
             if let Some(kept) = kept {
                 *unlocked(&mut near.caches[*kept as usize]) = *unlocked(cache);

@@ -250,7 +250,14 @@ impl Search {
     fn pass_over_list(&mut self, searched: &mut Searched, request: &Request) -> Result<bool> {
         let (kind, proxies, list) = (self.latest, &searched.world.proxies, &mut searched.near.list);
         let Kept { findings, pass: last_pass, asked } = &mut self.kept[kind];
-        let asked_same = last_pass.take().filter(|_| asked.as_ref().is_some_and(|asked| asked.is_same(request)));
+        let has_compounds = proxies.bodies.has_compounds();
+        // Compounds have many contacts, and a query that stops lists one.
+        let may_list_many = has_compounds && request.early_exit && request.details.is_some();
+        let asked_same =
+            last_pass.take().filter(|_| !may_list_many && asked.as_ref().is_some_and(|asked| asked.is_same(request)));
+        if has_compounds {
+            list.make_compound_room()?;
+        }
         let gives_again = match asked_same {
             Some(last_pass) => self.before.find_moved(proxies, last_pass)?,
             None => false,
@@ -266,8 +273,8 @@ impl Search {
             pass.run_in_parts(searched.workers, &mut self.parts, list, kind, findings)?;
             false
         } else {
-            let NearPairs { pairs, marks, caches, contacts, .. } = list;
-            pass.run(pairs, &mut marks[kind], &mut Own { caches, contacts: Some(contacts) }, findings)?
+            let NearPairs { pairs, marks, caches, contacts, compounds, .. } = list;
+            pass.run(pairs, &mut marks[kind], &mut Own { caches, contacts: Some(contacts), compounds }, findings)?
         };
         if gives_again {
             findings.join(&mut self.before, finds_contacts)?;
@@ -295,11 +302,14 @@ impl Search {
         }
         searched.near.update(searched.world, request.tolerance, searched.workers)?;
         let mut pairs = near_pairs_of(searched.world, &searched.near.list, id)?;
-        let NearPairs { caches, contacts, .. } = &mut searched.near.list;
+        if searched.world.proxies.bodies.has_compounds() {
+            searched.near.list.make_compound_room()?;
+        }
+        let NearPairs { caches, contacts, compounds, .. } = &mut searched.near.list;
         if request.details.is_some() {
             contacts.make_room(caches.len())?;
         }
-        let memory = Own { caches, contacts: Some(contacts) };
+        let memory = Own { caches, contacts: Some(contacts), compounds };
         self.pass_over_few(searched.world, &mut pairs, memory, request)
     }
 
@@ -334,7 +344,7 @@ impl Search {
     /// Over pairs without caches.
     fn pass_without_memory(&mut self, world: &World, pairs: &mut [NearPair], request: &Request) -> Result<bool> {
         let mut caches = collected(pairs.iter().map(|_| Mutex::default()))?;
-        self.pass_over_few(world, pairs, Own { caches: &mut caches, contacts: None }, request)
+        self.pass_over_few(world, pairs, Own { caches: &mut caches, contacts: None, compounds: &[] }, request)
     }
 
     fn pass_over_few(

@@ -110,6 +110,8 @@ struct ListedPair {
     objects: [ObjectId; 2],
     user_data: [u64; 2],
     pieces: [u32; 2],
+    /// The same, but 0 of a compound with one result, which any piece may be named in.
+    keys: [u32; 2],
     piece_user_data: [u64; 2],
     /// The end of its ids; they begin where those of the pair before end.
     ids_end: usize,
@@ -118,7 +120,7 @@ struct ListedPair {
 impl ListedPair {
     /// The scene's order. For objects of two scenes, the serials may be the same.
     fn order(&self, other: &ListedPair) -> Ordering {
-        let key = |pair: &ListedPair| (pair.serials, pair.objects.map(ObjectId::to_bits), pair.pieces);
+        let key = |pair: &ListedPair| (pair.serials, pair.objects.map(ObjectId::to_bits), pair.keys);
         key(self).cmp(&key(other))
     }
 }
@@ -129,6 +131,7 @@ impl Listed {
         self.pairs.clear();
         self.ids.clear();
         let contacts = answer.contacts;
+        let has_contacts = !contacts.contacts.is_empty();
         for (at, result) in answer.pairs.iter().enumerate() {
             let &PairResult { object1, object2, user_data1, user_data2, piece1, piece2, .. } = result;
             let begin = self.ids.len();
@@ -141,6 +144,8 @@ impl Listed {
                 objects: [object1, object2],
                 user_data: [user_data1, user_data2],
                 pieces: [piece1, piece2],
+                keys: [(object1, piece1), (object2, piece2)]
+                    .map(|(id, piece)| if !has_contacts && world.is_compound(id) { 0 } else { piece }),
                 piece_user_data: [(object1, piece1), (object2, piece2)]
                     .map(|(object, piece)| world.piece_data.get(object, piece as usize)),
                 ids_end: self.ids.len(),

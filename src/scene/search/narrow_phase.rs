@@ -13,9 +13,10 @@
 use std::sync::Mutex;
 
 use crate::base::error::Result;
-use crate::base::locks::unlocked;
+use crate::base::locks::{locked, unlocked};
 use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::simd::prefetch;
+use crate::compound::{GrowingCache, PieceCaches};
 use crate::manifold::Reference;
 use crate::pair::{DecidedBy, DepthCache, DepthEnding, Outcome, PairAnswer, PairCache, PairConfig};
 use crate::scene::near::contact_memory::ContactMemory;
@@ -25,6 +26,7 @@ use crate::scene::search::findings::{Before, Findings};
 use crate::scene::search::query::PairResult;
 use crate::scene::search::request::{Request, Solver};
 use crate::scene::search::statistics::{SceneStatistics, Settled, level_of};
+use crate::scene::world::compounds::{CompoundPair, NamedPieces};
 use crate::scene::world::proxies::Proxies;
 use crate::scene::world::rows::{are_far_apart, overlap_inside};
 use crate::scene::world::testing::Testing;
@@ -74,6 +76,8 @@ pub(crate) trait PairCaches {
     /// # Errors
     /// Those of `change`, and [`Error::Memory`](crate::base::error::Error::Memory).
     fn change(&mut self, place: u32, change: impl FnOnce(&mut PairCache) -> Result<()>) -> Result<()>;
+    /// Those of pieces of compounds, none where they are forgotten.
+    fn compounds(&self) -> &[Mutex<GrowingCache>];
     /// Changes what is remembered of one's contact: of its depth where the two intersect.
     ///
     /// # Errors
@@ -91,6 +95,8 @@ pub(crate) struct Own<'a> {
     pub caches: &'a mut [Mutex<PairCache>],
     /// None for pairs that are forgotten.
     pub contacts: Option<&'a mut ContactMemory>,
+    /// None as above.
+    pub compounds: &'a [Mutex<GrowingCache>],
 }
 
 impl PairCaches for Own<'_> {
@@ -102,6 +108,10 @@ impl PairCaches for Own<'_> {
     #[inline(always)]
     fn change(&mut self, place: u32, change: impl FnOnce(&mut PairCache) -> Result<()>) -> Result<()> {
         change(unlocked(&mut self.caches[place as usize]))
+    }
+
+    fn compounds(&self) -> &[Mutex<GrowingCache>] {
+        self.compounds
     }
 
     fn change_contact(
@@ -222,6 +232,11 @@ impl<'a> Pass<'a> {
             PairLook::Settled => Ok(false),
             PairLook::Again => self.list_again(mark, findings),
             PairLook::Intersects | PairLook::Test => {
+                if self.proxies.bodies.has_compounds()
+                    && let Some(compounds) = self.compounds(pair)
+                {
+                    return self.answer_compounds(compounds, pair, mark, caches, findings);
+                }
                 Ok(self.decide(look, pair, mark, caches, findings)? && self.list(pair, mark, caches, findings)?)
             }
         }
@@ -326,6 +341,10 @@ impl<'a> Pass<'a> {
         mark.result = findings.listed as u32;
         findings.list_again(at)?;
         findings.statistics.count_unmoved(1, mark.level);
+        for more in 0..usize::from(mark.more) {
+            findings.list_again(at + 1 + more)?;
+            findings.statistics.count_unmoved(1, mark.level);
+        }
         findings.intersecting |= mark.intersects;
         Ok(mark.intersects & self.request.early_exit)
     }
@@ -393,11 +412,11 @@ impl<'a> Pass<'a> {
             _ => &self.request.config,
         };
         let bodies = [placed(a), placed(b)];
-        match self.proxies.grounds.of_pair(pair.proxies) {
+        match self.proxies.bodies.ground_pair(pair.proxies) {
             None => (self.solver)(bodies, cache, config, answer)?,
             Some(ground) => ground.ask(self.request.of_ground(), bodies, config, answer)?,
         }
-        pair.apart_until = self.apart_until(answer, a, b);
+        pair.apart_until = self.apart_until(answer.lower, a, b);
         // Pairs that a budget left open may go on the next time.
         if answer.decided_by == DecidedBy::Budget {
             mark.is_answered = false;
@@ -416,7 +435,7 @@ impl<'a> Pass<'a> {
         findings: &mut Findings,
     ) -> Result<()> {
         let Findings { slots, contacts, .. } = findings;
-        if self.proxies.grounds.of_pair(pair.proxies).is_some() {
+        if self.proxies.bodies.ground_pair(pair.proxies).is_some() {
             return contacts.push_none();
         }
         let answer = &slots.next().answer;
@@ -432,14 +451,126 @@ impl<'a> Pass<'a> {
         Ok(())
     }
 
+    /// A pair of which one is a compound, or both are.
+    #[inline(never)]
+    fn compounds(&self, pair: &NearPair) -> Option<CompoundPair<'_>> {
+        let placed = |row: u32| self.proxies.shapes[row as usize].at(&self.proxies.poses[row as usize]);
+        self.proxies.bodies.compound_pair(pair.proxies, pair.proxies.map(placed))
+    }
+
+    /// Asks the compound layer and lists its answer; true if the query is to stop there.
+    #[inline(never)]
+    fn answer_compounds<C: PairCaches + ?Sized>(
+        &self,
+        compounds: CompoundPair,
+        pair: &mut NearPair,
+        mark: &mut PairMark,
+        caches: &mut C,
+        findings: &mut Findings,
+    ) -> Result<bool> {
+        let mut spare = GrowingCache::default();
+        let mut kept = caches.compounds().get(pair.cache as usize).map(locked);
+        let cache = kept.as_deref_mut().unwrap_or(&mut spare);
+        (mark.result, mark.intersects, mark.more) = (UNLISTED, false, 0);
+        if let Some(details) = &self.request.details
+            && compounds.ground().is_none()
+        {
+            return self.list_manifolds((details, compounds), pair, mark, cache, findings);
+        }
+        findings.slots.make_room(BLOCK + 1)?;
+        let result = findings.slots.next();
+        result.answer = PairAnswer::default();
+        let query = self.request.of_ground();
+        let pieces = compounds.ask(query, cache, &self.request.config, &mut result.answer)?;
+        let [a, b] = pair.proxies.map(|row| row as usize);
+        pair.apart_until = self.apart_until(result.answer.lower, a, b);
+        findings.statistics.count(&result.answer);
+        if !is_listed(result.answer.outcome, self.is_verdict) {
+            return Ok(false);
+        }
+        if self.request.details.is_some() {
+            findings.contacts.push_none()?;
+        }
+        self.list_pieces(pair, pieces, mark, findings)
+    }
+
+    /// Lists the pairs of pieces of two compounds with the details asked for, as those of pieces that are rows.
+    fn list_manifolds(
+        &self,
+        (details, compounds): (&Details, CompoundPair),
+        pair: &mut NearPair,
+        mark: &mut PairMark,
+        cache: &mut GrowingCache,
+        findings: &mut Findings,
+    ) -> Result<bool> {
+        let (near, mut lower) = compounds.near_pieces(self.tolerance)?;
+        let (mut first, mut count, mut intersects) = (UNLISTED, 0_usize, false);
+        for pieces in near {
+            findings.slots.make_room(BLOCK + 1)?;
+            let Findings { slots, contacts, statistics, .. } = &mut *findings;
+            let answer = &mut slots.next().answer;
+            *answer = PairAnswer::default();
+            let is_listed = compounds.with_pieces(pieces, |placed| {
+                (self.solver)(placed, cache.of(pieces), &self.request.config, answer)?;
+                statistics.count(answer);
+                let is_listed = is_listed(answer.outcome, self.is_verdict);
+                if is_listed {
+                    let mut depth = DepthCache::default();
+                    let deep = (answer.outcome == Outcome::Intersecting).then_some(&mut depth);
+                    details.find(placed, answer, &mut Reference::default(), deep, contacts)?;
+                }
+                Ok(is_listed)
+            })?;
+            lower = lower.min(answer.lower);
+            if !is_listed {
+                continue;
+            }
+            if contacts.last_ending() == Some(DepthEnding::Budget) {
+                mark.is_answered = false;
+            }
+            let stops = self.list_pieces(pair, compounds.named(pieces), mark, findings)?;
+            (first, count, intersects) = (first.min(mark.result), count + 1, intersects | mark.intersects);
+            if stops {
+                return Ok(true);
+            }
+        }
+        let [a, b] = pair.proxies.map(|row| row as usize);
+        pair.apart_until = self.apart_until(lower, a, b);
+        (mark.result, mark.intersects) = (first, intersects);
+        match u8::try_from(count.saturating_sub(1)) {
+            Ok(more) => mark.more = more,
+            // More than a mark can hold: they are found anew.
+            Err(_) => mark.is_answered = false,
+        }
+        Ok(false)
+    }
+
+    /// Lists the answer that was written last, of these pieces; true if the query is to stop there.
+    fn list_pieces(
+        &self,
+        pair: &NearPair,
+        pieces: NamedPieces,
+        mark: &mut PairMark,
+        findings: &mut Findings,
+    ) -> Result<bool> {
+        let result = findings.slots.next();
+        (mark.intersects, mark.level) = (result.answer.outcome == Outcome::Intersecting, level_of(&result.answer));
+        sign(self.proxies, pair, result);
+        result.name_pieces(pieces);
+        mark.result = findings.listed as u32;
+        findings.list_new()?;
+        findings.intersecting |= mark.intersects;
+        Ok(mark.intersects & self.request.early_exit)
+    }
+
     /// See [`NearPair::apart_until`] and [`Pass::look`].
     #[inline(always)]
-    fn apart_until(&self, answer: &PairAnswer, a: usize, b: usize) -> f64 {
-        if !(answer.lower > 0.0) {
+    fn apart_until(&self, lower: f64, a: usize, b: usize) -> f64 {
+        if !(lower > 0.0) {
             return f64::NEG_INFINITY;
         }
         let travelled = self.proxies.motions[a].odometer + self.proxies.motions[b].odometer;
-        (travelled * (1.0 - 8.0 * U) + answer.lower) * (1.0 - 8.0 * U)
+        (travelled * (1.0 - 8.0 * U) + lower) * (1.0 - 8.0 * U)
     }
 }
 

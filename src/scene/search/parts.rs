@@ -8,6 +8,7 @@ use crate::base::locks::locked;
 use crate::base::memory::{push, reserve, with_capacity};
 use crate::base::simd::prefetch;
 use crate::base::workers::Workers;
+use crate::compound::GrowingCache;
 use crate::manifold::Reference;
 use crate::pair::{DepthCache, PairCache};
 use crate::scene::near::contact_memory::ContactMemory;
@@ -51,6 +52,7 @@ impl Written {
 struct Together<'a> {
     caches: &'a [Mutex<PairCache>],
     contacts: &'a ContactMemory,
+    compounds: &'a [Mutex<GrowingCache>],
     written: &'a mut Written,
 }
 
@@ -63,6 +65,10 @@ impl PairCaches for Together<'_> {
     #[inline(always)]
     fn change(&mut self, place: u32, change: impl FnOnce(&mut PairCache) -> Result<()>) -> Result<()> {
         change(&mut locked(&self.caches[place as usize]))
+    }
+
+    fn compounds(&self) -> &[Mutex<GrowingCache>] {
+        self.compounds
     }
 
     fn change_contact(
@@ -98,7 +104,7 @@ impl Pass<'_> {
         kind: usize,
         findings: &mut Findings,
     ) -> Result<()> {
-        let NearPairs { pairs, marks, caches, contacts, .. } = near;
+        let NearPairs { pairs, marks, caches, contacts, compounds, .. } = near;
         let marks = &mut marks[kind];
         let size = workers.part_size(pairs.len()).next_multiple_of(BLOCK);
         let count = pairs.len().div_ceil(size);
@@ -109,7 +115,7 @@ impl Pass<'_> {
             let PartFindings { findings, written } = found;
             findings.clear();
             written.clear();
-            self.run(pairs, marks, &mut Together { caches, contacts, written }, findings)
+            self.run(pairs, marks, &mut Together { caches, contacts, compounds, written }, findings)
         };
         let results = workers.map(pairs.chunks_mut(size).zip(marks.chunks_mut(size)).zip(kept.iter_mut()), run)?;
         let (mut firsts, mut new) = (with_capacity(count)?, 0);

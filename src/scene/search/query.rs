@@ -109,7 +109,7 @@ impl Default for SceneQuery {
     }
 }
 
-/// One pair of convex pieces in a query's list.
+/// One pair of convex pieces in a query's list. A compound is named with the piece that the answer is about.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct PairResult {
@@ -127,6 +127,14 @@ pub struct PairResult {
     pub piece2: u32,
     /// The answer.
     pub answer: PairAnswer,
+}
+
+impl PairResult {
+    /// Names the pieces of what is a compound.
+    pub(crate) fn name_pieces(&mut self, [piece1, piece2]: [Option<u32>; 2]) {
+        self.piece1 = piece1.unwrap_or(self.piece1);
+        self.piece2 = piece2.unwrap_or(self.piece2);
+    }
 }
 
 /// A query of contacts returns this for a pair beside its answer. Parts not asked for are unset; with a ground all are.

@@ -27,7 +27,7 @@ impl Search {
         let Kept { findings, pass, asked } = &mut self.kept[kind];
         let (Some(last_pass), Some(request)) = (*pass, &*asked) else { return Ok(false) };
         if !request.is_plain(query)
-            || !world.proxies.grounds.is_empty()
+            || !world.proxies.bodies.is_empty()
             || !near.lists_all(world)
             || !are_many_moved(&world.proxies.motions, last_pass)
         {

@@ -1,10 +1,13 @@
 //! When moving objects first meet others: boxes around what they sweep over select the candidates, and each such pair is cast up
 //! to the earliest time that is known.
 
+use std::sync::Arc;
+
 use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
 use crate::base::memory::push;
-use crate::ground::{GroundCastAnswer, ground_cast_carried};
+use crate::compound::{self, Compound, CompoundCastAnswer, MovingCompound};
+use crate::ground::{GroundCastAnswer, PlacedGround, ground_cast_carried};
 use crate::motion::{self, Carried, CastAnswer, CastConfig, CastOutcome, Motion, PartEnd, Swept};
 use crate::scene::near::tree::Branch;
 use crate::scene::search::query::PairResult;
@@ -13,6 +16,8 @@ use crate::scene::sets::members;
 use crate::scene::sets::nearest::signed;
 use crate::scene::sets::others::Others;
 use crate::scene::world::boxes::Aabb;
+use crate::scene::world::compounds::NamedPieces;
+use crate::scene::world::content::World;
 use crate::scene::world::grounds::face;
 use crate::scene::world::rows::{grown_box, placed};
 
@@ -229,17 +234,22 @@ fn cast_all(question: &CastQuestion, room: &mut CastRoom) -> Result<SceneCastAns
             continue;
         }
         let bodies = [question.carried(mover), second];
-        let mut answer = CastAnswer::default();
+        let (mut answer, mut pieces) = (CastAnswer::default(), [None; 2]);
         let config = CastConfig { time_end: until, ..**config };
-        match (world.proxies.grounds.get(other as usize), approach.target) {
-            (Some(ground), CastTarget::Piece(_)) => {
-                let place = &world.proxies.poses[other as usize];
-                let GroundCastAnswer { answer: found, triangle } =
-                    ground_cast_carried(bodies[0], ground.at(place), &config)?;
-                answer = found;
-                answer.contact.feature2 = face(triangle);
+        let rests = matches!(approach.target, CastTarget::Piece(_));
+        if let Some(found) = cast_compounds((world, pair), bodies, rests, &config, caches)? {
+            (answer, pieces) = found;
+        } else {
+            match (world.proxies.bodies.ground(other as usize), approach.target) {
+                (Some(ground), CastTarget::Piece(_)) => {
+                    let place = &world.proxies.poses[other as usize];
+                    let GroundCastAnswer { answer: found, triangle } =
+                        ground_cast_carried(bodies[0], ground.at(place), &config)?;
+                    answer = found;
+                    answer.contact.feature2 = face(triangle);
+                }
+                _ => motion::cast_carried(bodies, config.range(), caches.of(pair), &config, &mut answer)?,
             }
-            _ => motion::cast_carried(bodies, config.range(), caches.of(pair), &config, &mut answer)?,
         }
         earliest.queries = earliest.queries.saturating_add(answer.queries);
         if answer.outcome == CastOutcome::Free {
@@ -253,11 +263,92 @@ fn cast_all(question: &CastQuestion, room: &mut CastRoom) -> Result<SceneCastAns
             let CastAnswer { outcome, time_upper, upper, contact, .. } = answer;
             let time_lower = earliest.time_lower.min(answer.time_lower);
             until = if outcome == CastOutcome::Hit { time_upper } else { answer.time_lower };
-            let pair = signed(world, pair, contact);
+            let mut pair = signed(world, pair, contact);
+            pair.name_pieces(pieces);
             earliest = SceneCastAnswer { outcome, queries: earliest.queries, time_lower, time_upper, upper, pair };
         } else {
             earliest.time_lower = earliest.time_lower.min(answer.time_lower);
         }
     }
     Ok(earliest)
+}
+
+/// Casts a pair of which one is a compound, or both are; none of other pairs. `rests`: body 2 is where the scene has it, and may
+/// be a ground.
+fn cast_compounds(
+    (world, pair): (&World, [u32; 2]),
+    bodies: [Carried; 2],
+    rests: bool,
+    config: &CastConfig,
+    caches: &mut Caches,
+) -> Result<Option<(CastAnswer, NamedPieces)>> {
+    let rows = &world.proxies.bodies;
+    let compounds = pair.map(|row| rows.compound(row as usize));
+    if let [Some(moving), None] = compounds
+        && rests
+        && let Some(ground) = rows.ground(pair[1] as usize)
+    {
+        let place = ground.at(&world.proxies.poses[pair[1] as usize]);
+        return cast_at_ground((moving, bodies[0].motion), place, config).map(Some);
+    }
+    if compounds.iter().all(Option::is_none) {
+        return Ok(None);
+    }
+    let whole = |k: usize| match compounds[k] {
+        Some(compound) => Ok(compound.clone()),
+        None => {
+            let shape = world.proxies.shapes[pair[k] as usize].clone();
+            Compound::of_single(shape, bodies[k].place.copied().unwrap_or(Pose::IDENTITY)).map(Arc::new)
+        }
+    };
+    let [one, other] = [whole(0)?, whole(1)?];
+    let moving = [
+        MovingCompound { compound: &one, motion: bodies[0].motion },
+        MovingCompound { compound: &other, motion: bodies[1].motion },
+    ];
+    let mut found = CompoundCastAnswer::default();
+    compound::cast_pieces(moving, caches.of_compounds(pair)?, config, &mut found)?;
+    let named = |k: usize, piece: u32| compounds[k].map(|_| piece);
+    Ok(Some((found.answer, [named(0, found.piece1), named(1, found.piece2)])))
+}
+
+/// Casts a compound at a ground that rests, piece by piece.
+fn cast_at_ground(
+    (compound, motion): (&Compound, &Motion),
+    ground: PlacedGround,
+    config: &CastConfig,
+) -> Result<(CastAnswer, NamedPieces)> {
+    let mut config = *config;
+    let (mut first, mut named, mut queries) = (CastAnswer::default(), None, 0_u32);
+    for (number, piece) in (0..).zip(compound.pieces()) {
+        let place = (piece.pose != Pose::IDENTITY).then_some(&piece.pose);
+        let carried = Carried { shape: &piece.shape, motion, place };
+        let GroundCastAnswer { mut answer, triangle } = ground_cast_carried(carried, ground, &config)?;
+        queries = queries.saturating_add(answer.queries);
+        let is_first = match (first.outcome, answer.outcome) {
+            (CastOutcome::None, _) => true,
+            (_, CastOutcome::Free) => false,
+            (CastOutcome::Free, _) => true,
+            (CastOutcome::Hit, CastOutcome::Hit) => answer.time_upper < first.time_upper,
+            _ => answer.time_lower < first.time_lower,
+        };
+        let lower = if first.outcome == CastOutcome::None { f64::INFINITY } else { first.time_lower };
+        if answer.outcome != CastOutcome::Free {
+            answer.contact.feature2 = face(triangle);
+        }
+        if is_first {
+            (first, named) = (answer, (answer.outcome != CastOutcome::Free).then_some(number));
+        }
+        first.time_lower = lower.min(answer.time_lower);
+        config.time_end = match answer.outcome {
+            CastOutcome::Free => config.time_end,
+            CastOutcome::Hit => answer.time_upper,
+            _ => answer.time_lower,
+        };
+        if config.time_end <= config.time_begin {
+            break;
+        }
+    }
+    first.queries = queries;
+    Ok((first, [named, None]))
 }

@@ -103,11 +103,24 @@ fn hit(others: &Others, room: &mut FirstHitRoom, max_distance: f64) -> Result<Op
         if are_far_apart(one, other, max_distance) || !world.is_tested(members.map(|proxy| proxy as usize), true) {
             return Ok(None);
         }
-        let ask = |config: &PairConfig, answer: &mut PairAnswer| match proxies.grounds.of_pair(members) {
-            None => pair::intersection(bodies, caches.of(members), config, answer),
-            Some(ground) => ground.ask(Query::Intersection, bodies, config, answer),
+        let mut pieces = [None; 2];
+        let ask = |config: &PairConfig, answer: &mut PairAnswer| {
+            if let Some(compounds) = proxies.bodies.compound_pair(members, bodies) {
+                let cache = caches.of_compounds(members)?;
+                pieces = compounds.ask(Query::Intersection, cache, config, answer)?;
+                return Ok(());
+            }
+            match proxies.bodies.ground_pair(members) {
+                None => pair::intersection(bodies, caches.of(members), config, answer),
+                Some(ground) => ground.ask(Query::Intersection, bodies, config, answer),
+            }
         };
-        Ok(answer_if_hit(max_distance, ask)?.map(|answer| signed(world, members, answer)))
+        let answer = answer_if_hit(max_distance, ask)?;
+        Ok(answer.map(|answer| {
+            let mut result = signed(world, members, answer);
+            result.name_pieces(pieces);
+            result
+        }))
     };
     for (k, member) in members.iter().enumerate() {
         let shape = &proxies.shapes[member.proxy as usize];

@@ -1,8 +1,12 @@
 //! The contacts of objects in a scene with its grounds, or with what is in no scene, a ground or a half-space: piece by piece the
 //! answer of the pair layer.
 
+use std::sync::Arc;
+
 use crate::base::error::{Error, Result};
+use crate::base::math::Pose;
 use crate::base::memory::{extend, push};
+use crate::compound::{Compound, PlacedCompound};
 use crate::ground::{GroundContact, GroundContacts, PlacedGround, add_contacts};
 use crate::manifold::{ManifoldConfig, ManifoldPoint, add_points, half_space_manifold_into};
 use crate::pair::{HalfSpace, Outcome, Placed};
@@ -11,7 +15,7 @@ use crate::scene::sets::members::{self, Boxes, Member, ObjectSet};
 use crate::scene::sets::others::Others;
 use crate::scene::world::boxes::{Aabb, above, below};
 use crate::scene::world::object::ObjectId;
-use crate::scene::world::rows::{Label, Spheres};
+use crate::scene::world::rows::{Label, Spheres, placed};
 
 /// The groups that something is in which is in no scene, and those that it is tested against, as of an object: it is asked about an
 /// object if the mask of each has a bit of the other's groups.
@@ -113,7 +117,12 @@ pub(crate) fn find(question: GroundQuestion, room: &mut SetGroundRoom) -> Result
         for row in rows.iter().map(|row| *row as usize) {
             let label = &proxies.labels[row];
             if is_tested(label) && !label.fixed {
-                asking.ask(floor, label, &proxies.spheres(row), others.placed(row))?;
+                asking.ask_row(
+                    floor,
+                    proxies.bodies.compound(row),
+                    label,
+                    (&proxies.spheres(row), others.placed(row)),
+                )?;
             }
         }
         return Ok(());
@@ -121,7 +130,8 @@ pub(crate) fn find(question: GroundQuestion, room: &mut SetGroundRoom) -> Result
     for member in &**members {
         let label = &proxies.labels[member.proxy as usize];
         if is_tested(label) && (!label.fixed || set.poses.is_some()) && within.may_reach(&member.bounds) {
-            asking.ask(floor, label, &member.spheres, member.placed(others.world))?;
+            let compound = proxies.bodies.compound(member.proxy as usize);
+            asking.ask_row(floor, compound, label, (&member.spheres, member.placed(others.world)))?;
         }
     }
     Ok(())
@@ -138,7 +148,7 @@ fn find_of_scene(
     let SetGroundRoom { members, open, rows, near, ground: found, contacts } = room;
     let (world, proxies) = (others.world, &others.world.proxies);
     near.clear();
-    for (row, ground) in proxies.grounds.iter() {
+    for (row, ground) in proxies.bodies.grounds() {
         let within = Within::new(Floor::Ground(ground.at(&proxies.poses[row])), config)?;
         match set {
             None => {
@@ -159,15 +169,15 @@ fn find_of_scene(
             None => (body, others.placed(body)),
             Some(_) => (members[body].proxy as usize, members[body].placed(world)),
         };
-        if let Some(ground) = proxies.grounds.get(row)
+        if let Some(ground) = proxies.bodies.ground(row)
             && world.is_tested([proxy, row], has_moved)
         {
-            asking.ask_ground(
-                ground.at(&proxies.poses[row]),
-                proxies.labels[row].object,
-                &proxies.labels[proxy],
-                placed,
-            )?;
+            let (at, id, label) = (ground.at(&proxies.poses[row]), proxies.labels[row].object, &proxies.labels[proxy]);
+            let Some(compound) = proxies.bodies.compound(proxy) else {
+                asking.ask_ground(at, id, label, placed)?;
+                continue;
+            };
+            for_each_piece(compound.at(placed.pose), label, |label, piece| asking.ask_ground(at, id, label, piece))?;
         }
     }
     Ok(())
@@ -236,7 +246,39 @@ struct Asking<'a> {
     contacts: &'a mut Vec<SceneGroundContact>,
 }
 
+/// Calls `ask` with each piece of a compound where it is, and with the label of it.
+fn for_each_piece(
+    body: PlacedCompound,
+    label: &Label,
+    mut ask: impl FnMut(&Label, Placed) -> Result<()>,
+) -> Result<()> {
+    let pieces = body.placed_pieces();
+    for piece in 0..pieces.count() as u32 {
+        let mut own = Pose::IDENTITY;
+        ask(&Label { piece, ..*label }, pieces.piece(piece, &mut own))?;
+    }
+    Ok(())
+}
+
 impl Asking<'_> {
+    /// Asks of a piece, or of all pieces of a compound.
+    fn ask_row(
+        &mut self,
+        asked: &AskedFloor,
+        compound: Option<&Arc<Compound>>,
+        label: &Label,
+        (spheres, body): (&Spheres, Placed),
+    ) -> Result<()> {
+        let Some(compound) = compound else { return self.ask(asked, label, spheres, body) };
+        if !asked.within.may_reach_ball(spheres) {
+            return Ok(());
+        }
+        for_each_piece(compound.at(body.pose), label, |label, piece| {
+            let (spheres, _) = placed(piece.shape, piece.pose, piece.pose.rotation_defect());
+            self.ask(asked, label, &spheres, piece)
+        })
+    }
+
     fn ask(&mut self, asked: &AskedFloor, label: &Label, spheres: &Spheres, body: Placed) -> Result<()> {
         if !asked.within.may_reach_ball(spheres) {
             return Ok(());

@@ -83,6 +83,7 @@ pub(crate) fn list(world: &World, set: &ObjectSet, boxes: Boxes, members: &mut V
                     match &object.arrangement {
                         None => Some(*pose),
                         Some(arrangement) => {
+                            arrangement.check(pose).map_err(named)?;
                             let whole = pose.after(&arrangement.piece_poses[piece]);
                             check(&whole)?;
                             Some(whole)

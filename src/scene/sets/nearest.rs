@@ -271,9 +271,13 @@ impl<'a> NearestSearch<'a> {
     fn learn(&mut self, pair: [u32; 2], bodies: [Placed; 2]) -> Result<()> {
         let mut answer = PairAnswer::default();
         let config = PairConfig { max_distance: self.enough, ..PairConfig::default() };
-        match self.question.world.proxies.grounds.of_pair(pair) {
-            None => pair::distance(bodies, self.caches.of(pair), &config, &mut answer)?,
-            Some(ground) => ground.ask(Query::Distance, bodies, &config, &mut answer)?,
+        let (rows, mut pieces) = (&self.question.world.proxies.bodies, [None; 2]);
+        if let Some(compounds) = rows.compound_pair(pair, bodies) {
+            pieces = compounds.ask(Query::Distance, self.caches.of_compounds(pair)?, &config, &mut answer)?;
+        } else if let Some(ground) = rows.ground_pair(pair) {
+            ground.ask(Query::Distance, bodies, &config, &mut answer)?;
+        } else {
+            pair::distance(bodies, self.caches.of(pair), &config, &mut answer)?;
         }
         if answer.outcome == Outcome::Beyond {
             return Ok(());
@@ -284,6 +288,7 @@ impl<'a> NearestSearch<'a> {
             self.enough = answer.upper;
             self.best.upper = answer.upper;
             self.best.nearest = signed(self.question.world, pair, answer);
+            self.best.nearest.name_pieces(pieces);
         }
         Ok(())
     }

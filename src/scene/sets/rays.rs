@@ -2,8 +2,9 @@
 //! not tell which of two comes first, both are cast again in integers.
 
 use crate::base::error::Result;
-use crate::base::math::UNIT_ROUNDOFF as U;
+use crate::base::math::{Pose, UNIT_ROUNDOFF as U};
 use crate::base::memory::push;
+use crate::compound;
 use crate::ground::GroundRayAnswer;
 use crate::ray::{Ray, RayAnswer, RayOutcome, cast_ray, cast_ray_in_integers};
 use crate::scene::near::tree::Branch;
@@ -26,7 +27,7 @@ pub enum RayHits {
     Any = 2,
 }
 
-/// A convex piece that a ray meets, or a ground at its first triangle, a face.
+/// A convex piece that a ray meets, a compound at the first of its pieces, or a ground at its first triangle, a face.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 #[repr(C)]
 pub struct SceneRayHit {
@@ -92,12 +93,12 @@ pub(crate) fn cast(question: RayQuestion, room: &mut RayRoom) -> Result<()> {
         if from > until {
             break;
         }
-        let answer = cast_at(&others, row, &Ray { t_max: until, ..*ray }, false)?;
+        let (answer, of_compound) = cast_at(&others, row, &Ray { t_max: until, ..*ray }, false)?;
         if answer.outcome == RayOutcome::Miss {
             continue;
         }
         let Label { object, user_data, piece, .. } = proxies.labels[row as usize];
-        push(hits, SceneRayHit { object, user_data, piece, row, answer })?;
+        push(hits, SceneRayHit { object, user_data, piece: of_compound.unwrap_or(piece), row, answer })?;
         // What is behind one that it may miss may be the first, or the only one.
         let is_certain = answer.outcome != RayOutcome::Undecided;
         match wanted {
@@ -117,18 +118,34 @@ pub(crate) fn cast(question: RayQuestion, room: &mut RayRoom) -> Result<()> {
         hits.truncate(1);
         // The exit of the ray was not looked at yet.
         for first in &mut **hits {
-            let again = cast_at(&others, first.row, ray, false)?;
+            let (row, mut room) = (first.row as usize, Pose::IDENTITY);
+            let again = match proxies.bodies.compound(row) {
+                Some(compound) => {
+                    let pieces = compound.at(&proxies.poses[row]).placed_pieces();
+                    cast_ray(pieces.piece(first.piece, &mut room), ray)?
+                }
+                None => cast_at(&others, first.row, ray, false)?.0,
+            };
             first.answer.exit = again.exit;
         }
     }
     Ok(())
 }
 
-/// Where a ray meets a piece, or first a ground.
-fn cast_at(others: &Others, row: u32, ray: &Ray, in_integers: bool) -> Result<RayAnswer> {
+/// Where a ray meets a piece, or first a ground or a compound; of that the piece.
+fn cast_at(others: &Others, row: u32, ray: &Ray, in_integers: bool) -> Result<(RayAnswer, Option<u32>)> {
     let placed = others.placed(row as usize);
-    let Some(ground) = others.world.proxies.grounds.get(row as usize) else {
-        return if in_integers { cast_ray_in_integers(placed, ray) } else { cast_ray(placed, ray) };
+    let bodies = &others.world.proxies.bodies;
+    if let Some(compound) = bodies.compound(row as usize) {
+        let found = if in_integers {
+            compound::cast_ray_in_integers(compound.at(placed.pose), ray)?
+        } else {
+            compound::cast_ray(compound.at(placed.pose), ray)?
+        };
+        return Ok((found.answer, Some(found.piece)));
+    }
+    let Some(ground) = bodies.ground(row as usize) else {
+        return Ok((if in_integers { cast_ray_in_integers(placed, ray)? } else { cast_ray(placed, ray)? }, None));
     };
     let ground = ground.at(placed.pose);
     let GroundRayAnswer { mut answer, triangle } =
@@ -136,7 +153,7 @@ fn cast_at(others: &Others, row: u32, ray: &Ray, in_integers: bool) -> Result<Ra
     if answer.outcome != RayOutcome::Miss {
         answer.feature = face(triangle);
     }
-    Ok(answer)
+    Ok((answer, None))
 }
 
 /// Puts hits in order of their entries, and those of one entry in order of creation. Entries that overlap are found in integers, as
@@ -160,7 +177,9 @@ fn put_in_order(others: &Others, ray: &Ray, hits: &mut [SceneRayHit]) -> Result<
             for hit in &mut hits[first..last] {
                 if hit.answer.exact == 0 {
                     let exit = hit.answer.exit;
-                    hit.answer = RayAnswer { exit, ..cast_at(others, hit.row, ray, true)? };
+                    let (answer, piece) = cast_at(others, hit.row, ray, true)?;
+                    hit.answer = RayAnswer { exit, ..answer };
+                    hit.piece = piece.unwrap_or(hit.piece);
                 }
             }
             hits[first..last].sort_unstable_by(order);

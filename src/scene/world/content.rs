@@ -4,11 +4,14 @@ use std::ops::Range;
 use std::sync::Arc;
 
 use crate::base::error::{Error, Result};
-use crate::base::memory::copied;
+use crate::base::math::Pose;
+use crate::base::memory::{copied, filled};
 use crate::base::simd::environment::with_default;
+use crate::compound::{Compound, check_pose};
 use crate::ground::Ground;
 use crate::scene::world::activation::Activation;
-use crate::scene::world::object::{ObjectId, ObjectOptions, ObjectTable};
+use crate::scene::world::bodies::RowBody;
+use crate::scene::world::object::{Arrangement, ObjectId, ObjectOptions, ObjectTable};
 use crate::scene::world::object_view::Objects;
 use crate::scene::world::piece_data::PieceData;
 use crate::scene::world::proxies::{NewProxy, Proxies};
@@ -87,11 +90,35 @@ impl World {
     /// See [`Scene::add_ground`](crate::scene::Scene::add_ground).
     pub fn add_ground(&mut self, ground: &Arc<Ground>, options: &ObjectOptions) -> Result<ObjectId> {
         let around = Arc::new(Shape::surrounding(&ground.bounds())?);
-        self.proxies.grounds.reserve()?;
+        self.proxies.bodies.reserve()?;
         let row = self.proxies.len();
         let id = self.add(&[around], &ObjectOptions { fixed: true, ..*options })?;
-        self.proxies.grounds.push(row, ground.clone());
+        self.proxies.bodies.push(row, RowBody::Ground(ground.clone()));
         Ok(id)
+    }
+
+    /// Adds a compound.
+    ///
+    /// # Errors
+    /// See [`Scene::add_compound`](crate::scene::Scene::add_compound).
+    pub fn add_compound(&mut self, compound: &Arc<Compound>, options: &ObjectOptions) -> Result<ObjectId> {
+        with_default(|| check_pose(&compound.at(&options.pose).placed_pieces()))?;
+        let around = compound.surrounding()?;
+        self.proxies.bodies.reserve()?;
+        let row = self.proxies.len();
+        let piece_poses = filled(Pose::IDENTITY, 1)?;
+        let id = self.add(&[around], options)?;
+        self.proxies.bodies.push(row, RowBody::Compound(compound.clone()));
+        if compound.has_placed_pieces() {
+            let arrangement = Arrangement { pose: options.pose, piece_poses, compound: Some(compound.clone()) };
+            self.objects.get_mut(id)?.arrangement = Some(Box::new(arrangement));
+        }
+        Ok(id)
+    }
+
+    /// Whether an object is a compound.
+    pub fn is_compound(&self, id: ObjectId) -> bool {
+        self.view().get(id).is_ok_and(|object| object.compound().is_some())
     }
 
     /// Refuses objects of which one could not be added: so many of a piece each, with these options.
@@ -154,6 +181,10 @@ impl World {
         if let Some(ground) = original.ground() {
             let (ground, options) = (ground.clone(), original.options());
             return self.add_ground(&ground, &options);
+        }
+        if let Some(compound) = original.compound() {
+            let (compound, options) = (compound.clone(), original.options());
+            return self.add_compound(&compound, &options);
         }
         let (options, piece_poses) = (original.options(), copied(original.piece_poses())?);
         let pieces = copied(original.pieces())?;
@@ -234,7 +265,9 @@ impl World {
     /// both may be of fixed objects.
     pub fn is_tested(&self, [a, b]: [usize; 2], moved: bool) -> bool {
         let World { objects, proxies, activation, filter, given, .. } = self;
-        if !proxies.grounds.is_empty() && [a, b].iter().all(|row| proxies.grounds.get(*row).is_some()) {
+        if !proxies.bodies.is_empty()
+            && [a, b].iter().all(|row| matches!(proxies.bodies.get(*row), Some(RowBody::Ground(_))))
+        {
             return false;
         }
         if !(if moved { proxies.may_meet_moved(a, b) } else { proxies.may_meet(a, b) }) {

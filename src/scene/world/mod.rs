@@ -5,6 +5,8 @@ pub(crate) mod activation;
 pub(crate) mod boxes;
 pub(crate) mod rows;
 pub(crate) mod grounds;
+pub(crate) mod compounds;
+pub(crate) mod bodies;
 pub(crate) mod proxies;
 pub(crate) mod piece_data;
 pub(crate) mod object_view;

@@ -6,11 +6,13 @@
 use std::fmt;
 use std::num::NonZeroU32;
 use std::ops::Range;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering};
 
 use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
 use crate::base::memory::reserve_sparingly;
+use crate::compound::{Compound, check_pose};
 
 const SLOT_BITS: u32 = 24;
 const GENERATION_BITS: u32 = 20;
@@ -122,6 +124,18 @@ pub(crate) struct Entry {
 pub(crate) struct Arrangement {
     pub pose: Pose,
     pub piece_poses: Vec<Pose>,
+    /// The compound that it is, where a pose may be refused for its pieces' sake.
+    pub compound: Option<Arc<Compound>>,
+}
+
+impl Arrangement {
+    /// Refuses a pose of the object at which that of a piece is refused.
+    ///
+    /// # Errors
+    /// [`Error::Pose`].
+    pub fn check(&self, pose: &Pose) -> Result<()> {
+        self.compound.as_ref().map_or(Ok(()), |compound| check_pose(&compound.at(pose).placed_pieces()))
+    }
 }
 
 impl Entry {

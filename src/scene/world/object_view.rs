@@ -5,6 +5,7 @@ use std::sync::Arc;
 
 use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
+use crate::compound::Compound;
 use crate::ground::Ground;
 use crate::scene::world::boxes::Aabb;
 use crate::scene::world::object::{Entry, ObjectId, ObjectOptions, ObjectTable};
@@ -36,7 +37,7 @@ impl<'a> Objects<'a> {
     }
 }
 
-/// One or several convex pieces that move together, or a ground.
+/// One or several convex pieces that move together, a ground or a compound.
 #[derive(Debug, Clone, Copy)]
 pub struct Object<'a> {
     pub(crate) entry: &'a Entry,
@@ -50,14 +51,21 @@ impl<'a> Object<'a> {
         self.label().object
     }
 
-    /// Its convex pieces, shared, in one local frame; at least one, but none of a ground. They are never tested against each other.
+    /// Its convex pieces, shared, in one local frame; at least one, but none of a ground or a compound. They are never tested
+    /// against each other.
     pub fn pieces(&self) -> &'a [Arc<Shape>] {
-        if self.ground().is_some() { &[] } else { &self.proxies.shapes[self.entry.proxies()] }
+        let is_whole = self.proxies.bodies.get(self.entry.first_proxy as usize).is_some();
+        if is_whole { &[] } else { &self.proxies.shapes[self.entry.proxies()] }
     }
 
     /// The ground that it is, if it is one.
     pub fn ground(&self) -> Option<&'a Arc<Ground>> {
-        self.proxies.grounds.get(self.entry.first_proxy as usize)
+        self.proxies.bodies.ground(self.entry.first_proxy as usize)
+    }
+
+    /// The compound that it is, if it is one.
+    pub fn compound(&self) -> Option<&'a Arc<Compound>> {
+        self.proxies.bodies.compound(self.entry.first_proxy as usize)
     }
 
     /// Refuses a piece that it does not have.
@@ -66,6 +74,10 @@ impl<'a> Object<'a> {
     /// [`Error::Argument`].
     pub(crate) fn refuse_absent(&self, piece: usize) -> Result<()> {
         match self.pieces().len() {
+            0 if self.compound().is_some() => Err(Error::Argument(format!(
+                "piece {piece} of an object that is a compound, whose pieces stay as they were made: ask the compound, or add an \
+                 object of pieces"
+            ))),
             0 => Err(Error::Argument(format!(
                 "piece {piece} of an object that is a ground, which has no pieces: ask or set what is the object's"
             ))),
@@ -122,7 +134,8 @@ impl<'a> Object<'a> {
 
     /// The pose of each piece in the object; none if all are at its origin.
     pub(crate) fn piece_poses(&self) -> &'a [Pose] {
-        self.entry.arrangement.as_ref().map_or(&[], |arrangement| &arrangement.piece_poses)
+        let of_pieces = self.entry.arrangement.as_ref().filter(|arrangement| arrangement.compound.is_none());
+        of_pieces.map_or(&[], |arrangement| &arrangement.piece_poses)
     }
 
     /// The options it was made with, except the pieces.

@@ -138,7 +138,8 @@ impl World {
             let arrangement = match &mut object.arrangement {
                 Some(arrangement) => arrangement,
                 none => {
-                    none.insert(Box::new(Arrangement { pose: whole, piece_poses: filled(Pose::IDENTITY, own.len())? }))
+                    let piece_poses = filled(Pose::IDENTITY, own.len())?;
+                    none.insert(Box::new(Arrangement { pose: whole, piece_poses, compound: None }))
                 }
             };
             arrangement.piece_poses[at] = *pose;
@@ -154,7 +155,7 @@ impl World {
         }
         let object = self.objects.get_mut(id)?;
         let pose = self.proxies.poses[object.first_proxy as usize];
-        object.arrangement = Some(Box::new(Arrangement { pose, piece_poses }));
+        object.arrangement = Some(Box::new(Arrangement { pose, piece_poses, compound: None }));
         with_default(|| put(object, &pose, pose.rotation_defect(), &mut self.proxies, self.passes));
         Ok(())
     }
@@ -204,6 +205,7 @@ impl<'a> Batch<'a> {
 fn check(object: &Entry, pose: &Pose) -> Result<f64> {
     let defect = pose.checked_defect()?;
     if let Some(arrangement) = &object.arrangement {
+        arrangement.check(pose)?;
         for (k, piece_pose) in arrangement.piece_poses.iter().enumerate() {
             let world = pose.after(piece_pose);
             world.check().map_err(|e| Error::Pose(format!("with the pose of piece {k}: {}", e.message())))?;

@@ -7,8 +7,8 @@ use crate::base::error::Result;
 use crate::base::math::Pose;
 use crate::base::memory::{reserve_sparingly, with_capacity};
 use crate::base::simd::environment::with_default;
+use crate::scene::world::bodies::RowBodies;
 use crate::scene::world::boxes::Aabb;
-use crate::scene::world::grounds::GroundRows;
 use crate::scene::world::object::ObjectId;
 use crate::scene::world::rows::{Label, RowMotion, Rows, Spheres, placed};
 use crate::shape::Shape;
@@ -34,9 +34,9 @@ struct StaleRow {
 /// The pieces, those of earlier created objects first.
 #[derive(Debug, Default)]
 pub(crate) struct Proxies {
-    /// A box around it where it is a ground.
+    /// A box around it where it is a ground or a compound.
     pub shapes: Vec<Arc<Shape>>,
-    pub grounds: GroundRows,
+    pub bodies: RowBodies,
     pub poses: Vec<Pose>,
     spheres: Vec<Spheres>,
     behind: Vec<StaleRow>,
@@ -146,7 +146,7 @@ impl Proxies {
     pub fn end(&mut self, proxy: usize) {
         debug_assert!(!self.is_gone(proxy));
         self.labels[proxy].object = ObjectId::NULL;
-        self.grounds.remove(proxy);
+        self.bodies.remove(proxy);
         self.gone += 1;
         self.look_for_pairs_of(proxy);
     }
