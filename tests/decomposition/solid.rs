@@ -54,7 +54,8 @@ impl Solid {
         };
         let to_triangle = |[a, b, c]: &[Vector; 3]| {
             let normal = (b - a).cross(&(c - a)).normalize();
-            let is_over = [(a, b), (b, c), (c, a)].iter().all(|(p, q)| normal.dot(&(*q - *p).cross(&(point - *p))) >= 0.0);
+            let is_over =
+                [(a, b), (b, c), (c, a)].iter().all(|(p, q)| normal.dot(&(*q - *p).cross(&(point - *p))) >= 0.0);
             let rim = to_segment(a, b).min(to_segment(b, c)).min(to_segment(c, a));
             if is_over { rim.min(normal.dot(&(point - a)).abs()) } else { rim }
         };
@@ -199,7 +200,7 @@ fn pieces_hold_the_body_and_stay_within_the_tolerance() {
         ("turned gear", turned(&gear), 0.01, 28),
         ("displaced sphere", displaced_sphere(), 0.02, 16),
         ("cup", cup(), 0.02, 30),
-        ("bracket", bracket(), 0.01, 4),
+        ("bracket", bracket(), 0.01, 6),
         ("L", l_shape(), 0.01, 2),
         ("turned L", turned(&l_shape()), 0.001, 2),
         ("U", u_shape(), 0.01, 3),

@@ -96,7 +96,8 @@ impl SolidBoundary {
         // Turned triangles have other numbers of edges.
         let edges = sheets.edges()?;
         sheets.check_balance(&edges)?;
-        let mut surface = SolidBoundary { frame, triangles: with_capacity(sheets.triangles.len())?, reflex: Vec::new() };
+        let mut surface =
+            SolidBoundary { frame, triangles: with_capacity(sheets.triangles.len())?, reflex: Vec::new() };
         for corners in &sheets.triangles {
             let triangle = corners.map(|v| points[v as usize]);
             if area_vector(&triangle).norm() > 0.0 {
@@ -174,7 +175,8 @@ impl Sheets<'_> {
             while let Some(t) = open.pop() {
                 push(&mut sheet, t)?;
                 let own = turned[t as usize] == Some(true);
-                areas[usize::from(own)] += area_vector(&self.triangles[t as usize].map(|v| self.points[v as usize])).norm();
+                areas[usize::from(own)] +=
+                    area_vector(&self.triangles[t as usize].map(|v| self.points[v as usize])).norm();
                 for k in 0..3 {
                     let next = across[t as usize][k];
                     if next == NONE {

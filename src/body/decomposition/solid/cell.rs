@@ -3,7 +3,7 @@
 use crate::base::error::Result;
 use crate::base::math::Vector;
 use crate::base::memory::{collected, extend, push, with_capacity};
-use crate::body::decomposition::solid::boundary::{SolidBoundary, ReflexEdge, area_vector};
+use crate::body::decomposition::solid::boundary::{ReflexEdge, SolidBoundary, area_vector};
 use crate::body::decomposition::solid::surface_tree::SurfaceTree;
 
 /// A point this close to a plane is on it; lengths are about 1, so that rounding of what was cut before is far less.

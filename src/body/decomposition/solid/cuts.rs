@@ -20,7 +20,8 @@ pub fn best_cut(cell: &SolidCell, piece: &SolidPiece, worst: &Vector, check: &Bo
     planes_across_axes(cell, piece, worst, &mut planes)?;
     let directions = directions()?;
     let hollow = Hollow::sampled(piece, check)?;
-    let middle = CuttingPlane::through(&(0.5 * (piece.low + piece.high)), Vector::ith((piece.high - piece.low).imax(), 1.0));
+    let middle =
+        CuttingPlane::through(&(0.5 * (piece.low + piece.high)), Vector::ith((piece.high - piece.low).imax(), 1.0));
     let mut best = (f64::INFINITY, middle);
     for (k, plane) in planes.iter().enumerate() {
         let is_near = |other: &CuttingPlane| {
@@ -31,7 +32,10 @@ pub fn best_cut(cell: &SolidCell, piece: &SolidPiece, worst: &Vector, check: &Bo
             continue;
         }
         let parts = cell.split_points(plane, check.tree)?;
-        let [Some(below), Some(above)] = [rough_hull(&parts[0], &directions)?, rough_hull(&parts[1], &directions)?] else { continue };
+        let [Some(below), Some(above)] = [rough_hull(&parts[0], &directions)?, rough_hull(&parts[1], &directions)?]
+        else {
+            continue;
+        };
         let balance = below.volume.min(above.volume) / piece.volume;
         let volume = (below.volume + above.volume) / piece.volume;
         let score = hollow.share_in(&below) + hollow.share_in(&above) + VOLUME * volume - BALANCE * balance

@@ -1,7 +1,7 @@
 //! Pieces joined while their hulls stay within the tolerance.
 
 use crate::base::error::Result;
-use crate::base::memory::{collected, copied, extend, push};
+use crate::base::memory::{collected, copied, extend, filled, push};
 use crate::base::progress::Progress;
 use crate::body::decomposition::solid::solid_piece::{ALL, BodyCheck, SolidPiece};
 
@@ -15,8 +15,10 @@ struct PieceUnion {
 pub fn merge(pieces: Vec<SolidPiece>, check: &mut BodyCheck, progress: &mut Progress) -> Result<Vec<SolidPiece>> {
     let mut pieces: Vec<Option<SolidPiece>> = collected(pieces.into_iter().map(Some))?;
     let mut unions = Vec::new();
+    // The pieces with which each was tried in vain: a larger hull has the same point beyond the tolerance.
+    let mut foes: Vec<Vec<usize>> = filled(Vec::new(), pieces.len())?;
     for k in 1..pieces.len() {
-        list_unions(&pieces, k, check, &mut unions)?;
+        list_unions(&pieces[..=k], &[], check, &mut unions)?;
         progress.steps(64 * k, 0, ALL)?;
     }
     check.done = 0;
@@ -27,15 +29,21 @@ pub fn merge(pieces: Vec<SolidPiece>, check: &mut BodyCheck, progress: &mut Prog
         let Some(union) = unions.pop() else { break };
         most = most.max(unions.len());
         check.done = check.done.max((ALL as f64 * (1.0 - unions.len() as f64 / most as f64)) as usize);
-        let [Some(a), Some(b)] = union.pieces.map(|k| pieces[k].as_ref()) else { continue };
+        let [i, k] = union.pieces;
+        let [Some(a), Some(b)] = [&pieces[i], &pieces[k]] else { continue };
         let Some(hull) = hull_of(a, b)? else { continue };
         if check.point_beyond(&hull, &[a, b], progress)?.is_some() {
+            push(&mut foes[i], k)?;
+            push(&mut foes[k], i)?;
             continue;
         }
-        unions.retain(|other| !other.pieces.iter().any(|k| union.pieces.contains(k)));
-        union.pieces.iter().for_each(|k| pieces[*k] = None);
+        unions.retain(|other| !other.pieces.iter().any(|piece| union.pieces.contains(piece)));
+        (pieces[i], pieces[k]) = (None, None);
         push(&mut pieces, Some(hull))?;
-        list_unions(&pieces, pieces.len() - 1, check, &mut unions)?;
+        let both = collected(foes[i].iter().chain(&foes[k]).copied())?;
+        both.iter().try_for_each(|foe| push(&mut foes[*foe], pieces.len() - 1))?;
+        list_unions(&pieces, &both, check, &mut unions)?;
+        push(&mut foes, both)?;
     }
     collected(pieces.into_iter().flatten())
 }
@@ -46,22 +54,22 @@ fn hull_of(a: &SolidPiece, b: &SolidPiece) -> Result<Option<SolidPiece>> {
     SolidPiece::new(&corners)
 }
 
-/// Appends the unions of piece `k` with those before it.
+/// Appends the unions of the last piece with those before it, but for its foes.
 fn list_unions(
     pieces: &[Option<SolidPiece>],
-    k: usize,
+    foes: &[usize],
     check: &BodyCheck,
     unions: &mut Vec<PieceUnion>,
 ) -> Result<()> {
-    let Some(piece) = &pieces[k] else { return Ok(()) };
-    for (i, other) in pieces[..k].iter().enumerate() {
-        let Some(other) = other else { continue };
+    let Some((Some(piece), before)) = pieces.split_last() else { return Ok(()) };
+    for (i, other) in before.iter().enumerate() {
+        let Some(other) = other.as_ref().filter(|_| !foes.contains(&i)) else { continue };
         // The hull of pieces farther apart has a point beyond the tolerance, unless a third is between them.
         if (piece.low - other.high).sup(&(other.low - piece.high)).max() > 2.0 * check.tolerance {
             continue;
         }
         if let Some(hull) = hull_of(piece, other)? {
-            push(unions, PieceUnion { pieces: [i, k], excess: hull.volume - piece.volume - other.volume })?;
+            push(unions, PieceUnion { pieces: [i, before.len()], excess: hull.volume - piece.volume - other.volume })?;
         }
     }
     Ok(())

@@ -24,8 +24,8 @@ use crate::base::memory::{collected, in_integers, push, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
 use crate::body::mesh::PolygonMesh;
-use cell::SolidCell;
 use boundary::SolidBoundary;
+use cell::SolidCell;
 use cuts::best_cut;
 use merging::merge;
 use solid_piece::{ALL, BodyCheck, SolidPiece};
@@ -82,13 +82,17 @@ fn pieces_of_cells(root: SolidCell, check: &mut BodyCheck, progress: &mut Progre
         progress.steps(64 * cell.surface.len(), check.done, ALL)?;
         let piece = SolidPiece::new(&cell.points()?)?;
         let beyond = match &piece {
-            Some(piece) if !piece.is_bounded_by(&cell.surface) => check.point_beyond(piece, &[], progress)?,
+            Some(piece) if !piece.is_bounded_by(&cell.surface, check.tree) => {
+                check.point_beyond(piece, &[], progress)?
+            }
             _ => None,
         };
         match (piece, beyond) {
             (Some(piece), Some(beyond)) => {
                 if pieces.len() + open.len() >= MOST_PIECES {
-                    return Err(Error::Limit(format!("more than {MOST_PIECES} cells are needed; a larger one needs fewer")));
+                    return Err(Error::Limit(format!(
+                        "more than {MOST_PIECES} cells are needed; a larger one needs fewer"
+                    )));
                 }
                 let plane = best_cut(&cell, &piece, &beyond, check)?;
                 let [below, above] = cell.cut(&plane, check.tree)?;

@@ -73,12 +73,15 @@ impl SolidPiece {
         Ok(Some(SolidPiece { corners, triangles, planes, low, high, volume }))
     }
 
-    /// Whether the surface in it lies on its hull: then it is the body there.
-    pub fn is_bounded_by(&self, surface: &[CellFacet]) -> bool {
-        surface.iter().all(|facet| {
-            let is_on = |plane: &CuttingPlane| facet.corners.iter().all(|p| plane.height - plane.normal.dot(p) <= FLAT);
-            self.planes.iter().any(is_on)
-        })
+    /// Whether the surface in it lies on its hull and its middle is in the body: then it is the body there.
+    pub fn is_bounded_by(&self, surface: &[CellFacet], tree: &SurfaceTree) -> bool {
+        let middle = self.corners.iter().sum::<Vector>() / self.corners.len() as f64;
+        tree.winds_around(&middle)
+            && surface.iter().all(|facet| {
+                let is_on =
+                    |plane: &CuttingPlane| facet.corners.iter().all(|p| plane.height - plane.normal.dot(p) <= FLAT);
+                self.planes.iter().any(is_on)
+            })
     }
 
     fn holds_box(&self, centre: &Vector, half: &Vector) -> bool {
@@ -95,8 +98,8 @@ impl SolidPiece {
 struct HullPart {
     centre: Vector,
     half: Vector,
-    /// No less than the distance of its centre from the surface.
-    bound: f64,
+    /// A triangle of the surface next to it, as a rule.
+    near: u32,
     cutting: usize,
 }
 
@@ -155,19 +158,19 @@ impl BodyCheck<'_> {
         let start = HullPart {
             centre: 0.5 * (piece.low + piece.high),
             half: 0.5 * (piece.high - piece.low),
-            bound: f64::INFINITY,
+            near: 0,
             cutting: planes.len(),
         };
         let mut open = collected([start])?;
         while let Some(part) = open.pop() {
             progress.steps(4, self.done, ALL)?;
-            let HullPart { centre, half, bound, .. } = part;
+            let HullPart { centre, half, mut near, .. } = part;
             let Some(cutting) = part.sort_planes(&mut planes) else { continue };
             if known.iter().any(|known| known.holds_box(&centre, &half)) {
                 continue;
             }
             let radius = half.norm();
-            let distance = self.tree.distance_within(&centre, self.tolerance - radius, bound);
+            let distance = self.tree.distance_within(&centre, self.tolerance - radius, &mut near);
             if distance + radius <= self.tolerance {
                 continue;
             }
@@ -187,8 +190,7 @@ impl BodyCheck<'_> {
             for sign in [-1.0, 1.0] {
                 let mut moved = centre;
                 moved[axis] += sign * smaller[axis];
-                let bound = (distance + smaller[axis]) * (1.0 + 1e-12);
-                push(&mut open, HullPart { centre: moved, half: smaller, bound, cutting })?;
+                push(&mut open, HullPart { centre: moved, half: smaller, near, cutting })?;
             }
         }
         Ok(None)

@@ -61,12 +61,13 @@ impl SurfaceTree {
 
     /// The distance from the surface.
     pub fn distance(&self, point: &Vector) -> f64 {
-        self.distance_within(point, -1.0, f64::INFINITY)
+        self.distance_within(point, -1.0, &mut 0)
     }
 
-    /// The distance from the surface, or `bound` where it is not less; some number up to `enough` where it is not more than that.
-    pub fn distance_within(&self, point: &Vector, enough: f64, bound: f64) -> f64 {
-        let (mut best, enough) = (bound * bound, enough * enough.abs());
+    /// The distance from the surface; some number up to `enough` where it is not more than that. `near` is a triangle that may be the
+    /// nearest, and becomes it.
+    pub fn distance_within(&self, point: &Vector, enough: f64, near: &mut u32) -> f64 {
+        let (mut best, enough) = (squared_distance(&self.triangles[*near as usize], point), enough * enough.abs());
         let mut stack = [(0_u32, 0.0_f64); 64];
         stack[0] = (0, self.gap(0, point));
         let mut count = 1;
@@ -78,7 +79,12 @@ impl SurfaceTree {
             }
             let node = &self.nodes[n as usize];
             if node.second == 0 {
-                best = self.leaf(node).iter().map(|t| squared_distance(t, point)).fold(best, f64::min);
+                for t in node.triangles[0]..node.triangles[1] {
+                    let square = squared_distance(&self.triangles[t as usize], point);
+                    if square < best {
+                        (best, *near) = (square, t);
+                    }
+                }
                 continue;
             }
             let mut children = [n + 1, node.second].map(|child| (child, self.gap(child, point)));
@@ -102,7 +108,8 @@ impl SurfaceTree {
     pub fn winds_around(&self, point: &Vector) -> bool {
         let (mut windings, mut n) = (0, 0);
         while let Some(node) = self.nodes.get(n) {
-            let meets = |axis: usize| node.low[axis] <= point[axis] + ROUNDING && point[axis] <= node.high[axis] + ROUNDING;
+            let meets =
+                |axis: usize| node.low[axis] <= point[axis] + ROUNDING && point[axis] <= node.high[axis] + ROUNDING;
             let is_met = node.high.x > point.x && meets(1) && meets(2);
             if is_met && node.second == 0 {
                 windings += self.leaf(node).iter().map(|t| crossing(t, point)).sum::<i32>();
