@@ -40,15 +40,15 @@ class Compound
                                                   shapes.size(), &result.value.compound_);
         return result;
     }
-    /** The convex pieces of a mesh, as in Shape::try_from_mesh. */
+    /** The convex pieces of a mesh, as in Shape::try_from_mesh: of its surface, or solid ones for a tolerance from 1e-4 to 1. */
     static Result<Compound> try_from_mesh(Range<const double> vertices, Range<const std::uint32_t> indices,
-                                          Range<const std::uint32_t> valences = {}, double convexity_tolerance = 0) noexcept
+                                          Range<const std::uint32_t> valences = {}, double tolerance = 0) noexcept
     {
         if (const char *fault = detail::mesh_fault(vertices, indices, valences)) {
             return detail::refused<Compound>(fault);
         }
         Result<Compound> result;
-        result.status = swiftprox_compound_create_from_mesh(detail::mesh_of(vertices, indices, valences), convexity_tolerance,
+        result.status = swiftprox_compound_create_from_mesh(detail::mesh_of(vertices, indices, valences), tolerance,
                                                             nullptr, nullptr, &result.value.compound_);
         return result;
     }
@@ -85,9 +85,9 @@ class Compound
         return take(try_from_shapes(shapes, poses));
     }
     static Compound from_mesh(Range<const double> vertices, Range<const std::uint32_t> indices,
-                              Range<const std::uint32_t> valences = {}, double convexity_tolerance = 0)
+                              Range<const std::uint32_t> valences = {}, double tolerance = 0)
     {
-        return take(try_from_mesh(vertices, indices, valences, convexity_tolerance));
+        return take(try_from_mesh(vertices, indices, valences, tolerance));
     }
     swiftprox_compound_info info() const { return take(try_info()); }
     Shape piece(std::uint32_t piece) const { return take(try_piece(piece)); }

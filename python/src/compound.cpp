@@ -304,7 +304,8 @@ void bind_compound(nb::module_ &m)
                     nb::sig("def from_mesh(points: " ARRAY ", faces: " ARRAY " | collections.abc.Sequence[Sequence[int]], "
                             "tolerance: float = 0.0) -> Compound"),
                     "The convex pieces that the surface of a closed mesh is cut into; arguments as of Shape.\n\n"
-                    "tolerance: how far pieces may be off the surface, a length. They leave hollows: a body inside may touch none.")
+                    "tolerance, relative to the box's diagonal: 0 keeps the surface and leaves hollows; from 1e-4 on pieces are solid, "
+                    "and no farther than that from the body.")
         .def_prop_ro("piece_count", &Compound::piece_count, "The number of pieces.")
         .def("piece", &piece_of, nb::arg("piece"),
              nb::sig("def piece(self, piece: int) -> tuple[Shape, numpy.typing.NDArray[numpy.float64]]"),

@@ -1,5 +1,5 @@
 //! One convex body and all that is computed once for it: from a mesh by its hull to the polyhedron that queries run on, with its
-//! look-up tables; and a surface cut into convex pieces.
+//! look-up tables; and a surface, or a body, cut into convex pieces.
 
 pub mod mesh;
 pub mod polyhedron;

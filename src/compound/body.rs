@@ -4,13 +4,14 @@ use std::sync::{Arc, OnceLock};
 
 use super::fit::Fitted;
 use super::tree::{Leaf, PieceTree};
-use crate::base::error::{Error, Result};
+use crate::base::error::{Error, Result, check_range};
 use crate::base::mark::Mark;
 use crate::base::math::{Pose, UNIT_ROUNDOFF as U, Vector, length};
 use crate::base::memory::{collected, copied, push, with_capacity};
 use crate::base::progress::Progress;
 use crate::base::simd::environment::with_default;
 use crate::body::decomposition::decompose;
+use crate::body::decomposition::solid::decompose_solid;
 use crate::body::mesh::PolygonMesh;
 use crate::shape::{InputPolicy, Shape, ShapeOptions};
 
@@ -69,22 +70,38 @@ impl Compound {
         Compound::of_checked(collected([Piece { shape, pose }])?)
     }
 
-    /// From the convex pieces into which [`decompose`] cuts the surface of a mesh; vertices keep the mesh's numbers, and so do
-    /// triangles where faces are triangles. A body wholly inside the mesh may touch no piece.
+    /// From the convex pieces of a mesh. With a `tolerance` of 0 they are those into which [`decompose`] cuts its surface: vertices
+    /// keep the mesh's numbers, and so do triangles where faces are triangles; a body wholly inside the mesh may touch no piece.
+    /// Otherwise they are solid, as by [`decompose_solid`]: they hold the body and reach beyond it by at most `tolerance` times the
+    /// diagonal of its box.
     ///
     /// # Errors
-    /// Same as [`decompose`] and [`Shape::from_mesh`].
+    /// Same as [`decompose`] or [`decompose_solid`], and [`Shape::from_mesh`].
     pub fn from_mesh(mesh: &PolygonMesh, tolerance: f64, progress: &mut Progress) -> Result<Compound> {
-        let found = decompose(mesh, tolerance, &mut progress.part(0.0, 0.5))?;
+        check_range("tolerance", tolerance, 0.0..=1.0)?;
+        if tolerance > 0.0 {
+            return Compound::solid(mesh, tolerance, progress);
+        }
+        let found = decompose(mesh, 0.0, &mut progress.part(0.0, 0.5))?;
         let options = ShapeOptions { input: InputPolicy::Patch, ..ShapeOptions::default() };
-        let progress = &mut progress.part(0.5, 1.0);
-        let count = found.piece_count();
+        Compound::of_shapes(found.piece_count(), &mut progress.part(0.5, 1.0), |k| {
+            let corners = collected(found.piece(k).iter().copied().flatten())?;
+            Shape::from_mesh(&PolygonMesh::new(copied(&mesh.vertices)?, corners, None)?, &options)
+        })
+    }
+
+    fn solid(mesh: &PolygonMesh, tolerance: f64, progress: &mut Progress) -> Result<Compound> {
+        let pieces = decompose_solid(mesh, tolerance, &mut progress.part(0.0, 0.9))?;
+        Compound::of_shapes(pieces.len(), &mut progress.part(0.9, 1.0), |k| {
+            Shape::from_points(&pieces[k], &ShapeOptions::default())
+        })
+    }
+
+    fn of_shapes(count: usize, progress: &mut Progress, shape: impl Fn(usize) -> Result<Shape>) -> Result<Compound> {
         let mut pieces = with_capacity(count)?;
         for k in 0..count {
             progress.report(k as f64 / count as f64)?;
-            let corners = collected(found.piece(k).iter().copied().flatten())?;
-            let patch = PolygonMesh::new(copied(&mesh.vertices)?, corners, None)?;
-            let shape = Shape::from_mesh(&patch, &options).map_err(|error| error.about(&format!("piece {k}")))?;
+            let shape = shape(k).map_err(|error| error.about(&format!("piece {k}")))?;
             push(&mut pieces, Piece { shape: Arc::new(shape), pose: Pose::IDENTITY })?;
         }
         progress.report(1.0)?;

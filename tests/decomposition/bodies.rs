@@ -31,7 +31,7 @@ pub fn l_shape() -> PolygonMesh {
 }
 
 /// Corners on two circles by turns, `repeats` at a time.
-fn toothed(count: usize, repeats: usize, inner: f64) -> Vec<[f64; 2]> {
+pub fn toothed(count: usize, repeats: usize, inner: f64) -> Vec<[f64; 2]> {
     let corner = |i: usize| {
         let (angle, radius) =
             (TAU * i as f64 / count as f64, if (i / repeats).is_multiple_of(2) { 1.0 } else { inner });

@@ -11,12 +11,14 @@
 //! the pieces of bodies that are apart are as far apart as the surfaces. Where a surface has no inside (it is open, or a cavity)
 //! its patches are flat, and the hull is a part of the surface itself.
 //!
-//! Both tests are exact for a tolerance of 0. Otherwise any point closer to a plane than the tolerance counts as on it.
+//! Both tests are exact for a tolerance of 0. Otherwise any point closer to a plane than the tolerance counts as on it: for
+//! coordinates that were rounded. [`solid`] fills the body instead.
 
 mod triangulation;
 mod surface;
 mod separation;
 mod patch;
+pub mod solid;
 
 use crate::base::error::{Result, check_range};
 use crate::base::math::Vector;

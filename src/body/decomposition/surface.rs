@@ -149,7 +149,7 @@ impl MeshSurface {
 }
 
 /// The triangles of all faces, and the face of each.
-fn triangles_of(
+pub fn triangles_of(
     mesh: &PolygonMesh,
     first: &[u32],
     points: &ExactPoints,
