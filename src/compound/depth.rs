@@ -1,8 +1,8 @@
 //! How deep two compounds are in each other: between the depth of their deepest two pieces and the length of a translation that is
 //! proved to free them.
 //!
-//! The translations of compound 1 at which two given pieces overlap are the inside of a convex body, an *obstacle*. The depth is how
-//! far the origin is from the nearest point outside all obstacles. Any translation whose pose the tree and the pair layer find
+//! The translations of compound 1 at which two given pieces overlap are the inside of a convex body, an *obstacle*. The depth is
+//! how far the origin is from the nearest point outside all obstacles. Any translation whose pose the tree and the pair layer find
 //! free is an upper bound; where it comes from matters to its length alone. They come from
 //!
 //! - a *push*: every pair that overlaps where the search is adds a half-space, along the normal of its depth. The search goes on to

@@ -1,7 +1,7 @@
 //! The point of an intersection of half-spaces that is nearest to the origin: a few half-spaces, added one by one.
 //!
-//! A half-space that does not hold the nearest point so far has the next one on its plane. It is the nearest point of that plane, or
-//! of its common points with one or two others: whichever is in all half-spaces and has the least length.
+//! A half-space that does not hold the nearest point so far has the next one on its plane. It is the nearest point of that plane,
+//! or of its common points with one or two others: whichever is in all half-spaces and has the least length.
 
 use crate::base::math::Vector;
 
