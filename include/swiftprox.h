@@ -1168,7 +1168,8 @@ typedef struct swiftprox_object_options {
 } swiftprox_object_options;
 
 /** Begins a swiftprox_object_options: the defaults. In C and C++, as an initialiser. */
-#define SWIFTPROX_OBJECT_OPTIONS_DEFAULT {sizeof(swiftprox_object_options), 0, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, 0, 0, 0, NULL, NULL}
+#define SWIFTPROX_OBJECT_OPTIONS_DEFAULT \
+  {sizeof(swiftprox_object_options), 0, {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0}, 0, 0, 0, NULL, NULL}
 
 /**
  * Adds an object of one or more convex pieces in one local frame. All its pairs are active. The scene takes its own share of each
@@ -1407,7 +1408,7 @@ typedef struct swiftprox_scene_query {
 #define SWIFTPROX_SCENE_QUERY_DEFAULT \
   {sizeof(swiftprox_scene_query), SWIFTPROX_DEFAULT_MAX_DISTANCE, 0, 0, HUGE_VAL, UINT32_MAX, 0, 0, SWIFTPROX_CONTACT_DETAIL_NONE, 0}
 
-/** One pair of convex pieces in a query's list. */
+/** One pair of convex pieces in a query's list. A compound is named with the piece that the answer is about. */
 typedef struct swiftprox_pair_result {
   /** The earlier created object. */
   struct swiftprox_object_id object1;

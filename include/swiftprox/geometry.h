@@ -317,7 +317,7 @@ typedef enum swiftprox_ray_hits SWIFTPROX_INT32 {
   SWIFTPROX_RAY_HITS_ANY = 2
 } swiftprox_ray_hits;
 
-/** A convex piece that a ray meets, or a ground at its first triangle, a face. */
+/** A convex piece that a ray meets, a compound at the first of its pieces, or a ground at its first triangle, a face. */
 typedef struct swiftprox_scene_ray_hit {
   /** The object. */
   struct swiftprox_object_id object;

@@ -494,7 +494,10 @@ class SceneView
         return take(try_add(pieces, options));
     }
     swiftprox_object_id add(const Ground &ground, const ObjectOptions &options = {}) { return take(try_add(ground, options)); }
-    swiftprox_object_id add(const Compound &compound, const ObjectOptions &options = {}) { return take(try_add(compound, options)); }
+    swiftprox_object_id add(const Compound &compound, const ObjectOptions &options = {})
+    {
+        return take(try_add(compound, options));
+    }
     swiftprox_object_id copy_object(swiftprox_object_id original) { return take(try_copy_object(original)); }
     std::vector<swiftprox_object_id> add_objects(Range<const Shape> shapes, Range<const ObjectOptions> options = {})
     {

@@ -134,8 +134,10 @@ fn layouts() -> Vec<Layout> {
         swiftprox_scene_options = CSceneOptions {
             struct_size, worker_count, enqueue_task, finish_task, task_user
         },
-        swiftprox_object_options = CObjectOptions { struct_size, user_data, pose, fixed, groups, mask, ground },
-        swiftprox_object_info = ObjectInfo { struct_size, user_data, piece_count, pose, fixed, groups, mask, ground },
+        swiftprox_object_options = CObjectOptions { struct_size, user_data, pose, fixed, groups, mask, ground, compound },
+        swiftprox_object_info = ObjectInfo {
+            struct_size, user_data, piece_count, pose, fixed, groups, mask, ground, compound
+        },
         swiftprox_scene_query = CSceneQuery {
             struct_size, max_distance, absolute_error, relative_error, error_budget, step_budget,
             early_exit, tuning, detail, mask

@@ -253,7 +253,7 @@ fn contacts_are_those_of_pieces() {
             for k in 0..10 {
                 let options = twins.options(Pose::new(&random.rotation(), &(random.vector() * 1.5)));
                 match k % 4 {
-                    3 => twins.add_pieces(&[cube.clone()], &options),
+                    3 => twins.add_pieces(std::slice::from_ref(&cube), &options),
                     kind => twins.add_compound(&compounds[kind % 2], &options),
                 }
             }
