@@ -45,17 +45,26 @@ swiftprox_status swiftprox_compound_create(const struct swiftprox_shape *const *
                                            const struct swiftprox_compound **compound);
 
 /**
- * Creates a compound from a mesh, of the convex pieces that swiftprox_mesh_decompose cuts its surface into; `convexity_tolerance`
- * and `progress` are as there. Features keep the mesh's vertex numbers. The pieces need not fill the body: one that is wholly
- * inside another may touch no piece of it. The caller owns the compound and gives it back with swiftprox_compound_release.
+ * Creates a compound from a mesh that need not be convex or connected. The caller owns it and gives it back with
+ * swiftprox_compound_release. `tolerance` is relative to the bounding-box diagonal, and decides what the pieces are:
  *
- * On failure `*compound` is null. Same errors as swiftprox_mesh_decompose.
+ * 0: those that swiftprox_mesh_decompose cuts the surface into. They keep the surface exactly, and the mesh's numbers as features.
+ * They leave hollows: a body that is wholly inside may touch no piece.
+ *
+ * 1e-4 to 1: solid pieces. Together they hold the body, up to 1e-8 of the diagonal. No point of a piece is farther from the body
+ * than the tolerance. Features are the pieces' own. Edges may have more than two faces, and faces turned the wrong way are turned,
+ * as long as inside and outside can be told. Time grows as the surface over the square of the tolerance.
+ *
+ * swiftprox_compound_get_piece gives the pieces, as for a scene. `progress` may be null. On failure `*compound` is null.
+ *
+ * Same errors as swiftprox_mesh_decompose. With a tolerance above 0 also SWIFTPROX_ERROR_MESH: an edge has an odd number of faces,
+ * or inside and outside cannot be told at it; and SWIFTPROX_ERROR_LIMIT: more than 2,048 cells are needed. Messages say the cure.
  *
  * Experimental.
  */
 SWIFTPROX_NODISCARD
 swiftprox_status swiftprox_compound_create_from_mesh(struct swiftprox_mesh mesh,
-                                                     double convexity_tolerance,
+                                                     double tolerance,
                                                      swiftprox_progress_callback progress,
                                                      void *progress_user,
                                                      const struct swiftprox_compound **compound);

@@ -202,6 +202,7 @@ typedef struct swiftprox_decomposition {
  *
  * Faces must be nearly flat. `convexity_tolerance` is relative to the bounding-box diagonal: points that close to a plane
  * count as on it. 0 is exact, but splits flat faces with rounded vertices; swiftprox_mesh_estimate_tolerance suggests a value.
+ * For solid pieces use swiftprox_compound_create_from_mesh with a tolerance above 0.
  * Time is at worst quadratic, one to two seconds for 10,000 triangles. `progress` may be null.
  *
  * SWIFTPROX_ERROR_MESH: a coordinate is not finite, an index is out of range, a face crosses itself, no face has an area, or
