@@ -1,7 +1,7 @@
 /* What a page of a scene shows (tools/page/): its shapes, where its bodies are in each step, and what its pairs were answered.
  *
- * A body is a convex piece of an object, or a ground. Bodies are drawn, so that their places are rounded: see struct page_move. What
- * is said of pairs are the doubles of the answers. */
+ * A body is a convex piece of an object, or a ground. Bodies are drawn, so that their places are rounded: see struct page_move.
+ * What is said of pairs are the doubles of the answers. */
 #ifndef SWIFTPROX_TOOLS_PAGE_DATA_H
 #define SWIFTPROX_TOOLS_PAGE_DATA_H
 
