@@ -177,12 +177,11 @@ impl Sheets<'_> {
                 let own = turned[t as usize] == Some(true);
                 areas[usize::from(own)] +=
                     area_vector(&self.triangles[t as usize].map(|v| self.points[v as usize])).norm();
-                for k in 0..3 {
-                    let next = across[t as usize][k];
+                for (e, next) in (3 * t..).zip(across[t as usize]) {
                     if next == NONE {
                         continue;
                     }
-                    let wanted = own ^ (self.edge(3 * t + k as u32) == self.edge(next));
+                    let wanted = own ^ (self.edge(e) == self.edge(next));
                     match turned[next as usize / 3] {
                         None => {
                             turned[next as usize / 3] = Some(wanted);

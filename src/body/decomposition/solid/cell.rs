@@ -29,7 +29,7 @@ impl CuttingPlane {
     }
 }
 
-/// Where a segment from below to above meets the plane: the same point whichever its direction, as both polygons at an edge need it.
+/// Where a segment from below to above meets the plane: the same point whichever its direction, as both polygons at it need.
 fn crossing(a: (&Vector, f64), b: (&Vector, f64)) -> Vector {
     let key = |p: &Vector| [p.x, p.y, p.z];
     let (first, last) = if key(a.0) < key(b.0) { (a, b) } else { (b, a) };

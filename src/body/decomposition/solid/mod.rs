@@ -1,10 +1,10 @@
 //! A body in solid convex pieces, within a tolerance.
 //!
 //! Space is cut into convex cells, as CoACD does (X. Wei et al., "Approximate convex decomposition for 3D meshes with
-//! collision-aware concavity and tree search", ACM Transactions on Graphics 41(4), 2022). The hull of the body in a cell is the hull
-//! of two kinds of points: corners of the surface's polygons clipped to the cell, and corners of the cell in the body. So no cut is
-//! capped, and the surface may have edges of any even number of faces. Where that hull has a point farther from the body than the
-//! tolerance the cell is cut. Pieces are joined in the end while their hulls stay within the tolerance.
+//! collision-aware concavity and tree search", ACM Transactions on Graphics 41(4), 2022). The hull of the body in a cell is the
+//! hull of two kinds of points: corners of the surface's polygons clipped to the cell, and corners of the cell in the body. So
+//! no cut is capped, and the surface may have edges of any even number of faces. Where that hull has a point farther from the
+//! body than the tolerance the cell is cut. Pieces are joined in the end while their hulls stay within the tolerance.
 //!
 //! Cuts are heuristic; the promise does not rest on them:
 //!
@@ -43,10 +43,10 @@ const MOST_PIECES: usize = 2048;
 /// area; edges may have more than two faces.
 ///
 /// # Errors
-/// [`Error::Argument`] for a tolerance below [`LEAST_TOLERANCE`] or above 1; [`Error::Mesh`] for a mesh that encloses no volume, for
-/// an edge of an odd number of faces, for one around which inside and outside cannot be told, and for a face that crosses itself,
-/// with their numbers; [`Error::Limit`] where more than 2,048 cells are needed; [`Error::Cancelled`] when the caller does not want
-/// to go on.
+/// [`Error::Argument`] for a tolerance below [`LEAST_TOLERANCE`] or above 1; [`Error::Mesh`] for a mesh that encloses no
+/// volume, for an edge of an odd number of faces, for one around which inside and outside cannot be told, and for a face that
+/// crosses itself, with their numbers; [`Error::Limit`] where more than 2,048 cells are needed; [`Error::Cancelled`] when the
+/// caller does not want to go on.
 pub fn decompose_solid(mesh: &PolygonMesh, tolerance: f64, progress: &mut Progress) -> Result<Vec<Vec<Vector>>> {
     check_range("tolerance", tolerance, LEAST_TOLERANCE..=1.0)?;
     in_integers(|| with_default(|| decomposed(mesh, tolerance, progress)))?

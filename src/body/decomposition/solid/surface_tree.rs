@@ -64,8 +64,8 @@ impl SurfaceTree {
         self.distance_within(point, -1.0, &mut 0)
     }
 
-    /// The distance from the surface; some number up to `enough` where it is not more than that. `near` is a triangle that may be the
-    /// nearest, and becomes it.
+    /// The distance from the surface; some number up to `enough` where it is not more. `near` is a triangle that may be
+    /// the nearest, and becomes it.
     pub fn distance_within(&self, point: &Vector, enough: f64, near: &mut u32) -> f64 {
         let (mut best, enough) = (squared_distance(&self.triangles[*near as usize], point), enough * enough.abs());
         let mut stack = [(0_u32, 0.0_f64); 64];
