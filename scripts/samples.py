@@ -35,8 +35,8 @@ INPUTS = {"POSES": f"{IDENTITY} {APART}\n", "MOTIONS": f"{IDENTITY} {APART} {IDE
           "SCENE": "# swiftprox scene 1\nshape box A.off\nobject box\nobject box\nstep\n1 1 0 0 2.2 0 1 0 0 0 0 1 0\nstep\n1 1 0 0 2.1 0 1 0 0 0 0 1 0\n"}
 # What is no program of its own: which is made of it.
 PROGRAMS = {"examples/planner/arm.c": "arm_rrt", "examples/planner/arm_scene.c": "arm_scene"}
-# What is built only where MPI or OMPL is: what follows in a block needs it.
-OPTIONAL = ("build/tools/swiftprox-sweep", "build/examples/planner/ompl_planner")
+# What is there only where MPI, OMPL or a browser is: what follows in a block needs it.
+OPTIONAL = ("build/tools/swiftprox-sweep", "build/examples/planner/ompl_planner", "scripts/page_picture.py")
 # Open MPI, else: "detected an attempt to run as root", "not enough slots".
 MPI = {"OMPI_ALLOW_RUN_AS_ROOT": "1", "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1", "OMPI_MCA_rmaps_base_oversubscribe": "1"}
 

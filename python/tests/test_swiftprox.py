@@ -330,7 +330,7 @@ def test_a_pair_of_compounds():
     assert signed.lower <= -0.25 <= signed.upper and signed.piece1 == 1
 
     channel = sp.Compound([sp.Shape.box(3, 2, 0.5), sp.Shape.box(0.5, 2, 3), sp.Shape.box(0.5, 2, 3)], [at(0, 0, -0.5), at(-2), at(2)])
-    peg = sp.CompoundPair(sp.Shape.box(1.25, 1, 1), channel)
+    peg = sp.CompoundPair(sp.Shape.box(1.75, 1, 1), channel)
     deep = peg.depth(at(0, 0, 2.75), EYE)
     assert np.isclose(deep.lower, 0.25) and np.isclose(deep.upper, 1.25) and np.allclose(deep.translation, [0, 0, 1.25])
     assert deep.deepest.piece1 == 0 and deep.deepest.piece2 in (1, 2) and "upper=1.25" in repr(deep)
