@@ -14,52 +14,62 @@ struct PairSlot {
     cache: PairCache,
 }
 
+/// Pieces that met, and the nearest or deepest ones; counted from 1.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(C)]
+pub(crate) struct LastPieces {
+    met: [u32; 2],
+    nearest: [u32; 2],
+}
+
+impl LastPieces {
+    /// The pieces that met the last time, of bodies of so many.
+    pub fn met(&self, counts: [usize; 2]) -> Option<[u32; 2]> {
+        known(self.met, counts)
+    }
+
+    /// The pieces that were the nearest, or the deepest in each other.
+    pub fn nearest(&self, counts: [usize; 2]) -> Option<[u32; 2]> {
+        known(self.nearest, counts)
+    }
+
+    /// Remembers which pieces met.
+    pub fn remember_met(&mut self, pieces: Option<[u32; 2]>) {
+        self.met = numbered(pieces);
+    }
+
+    /// Remembers which were the nearest.
+    pub fn remember_nearest(&mut self, pieces: Option<[u32; 2]>) {
+        self.nearest = numbered(pieces);
+    }
+}
+
 /// What a pair of compounds remembers from its last queries. Any bytes are safe; all zero is cold. It changes how fast an answer
 /// comes, and which of several pairs of pieces is named; never the verdict.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[repr(C)]
 pub struct CompoundCache {
-    /// Pieces that met, and the nearest ones; counted from 1.
-    met: [u32; 2],
-    nearest: [u32; 2],
+    last: LastPieces,
     slots: [PairSlot; SLOTS],
 }
 
 impl Default for CompoundCache {
     fn default() -> Self {
-        CompoundCache { met: [0; 2], nearest: [0; 2], slots: [PairSlot::default(); SLOTS] }
+        CompoundCache { last: LastPieces::default(), slots: [PairSlot::default(); SLOTS] }
     }
 }
 
 /// What a pair remembers of its pieces.
 pub(crate) trait PieceCaches {
-    /// The pieces that met the last time, of bodies of so many.
-    fn met(&self, counts: [usize; 2]) -> Option<[u32; 2]>;
-    /// The pieces that were the nearest, or the deepest in each other.
-    fn nearest(&self, counts: [usize; 2]) -> Option<[u32; 2]>;
-    /// Remembers which pieces met.
-    fn remember_met(&mut self, pieces: Option<[u32; 2]>);
-    /// Remembers which were the nearest.
-    fn remember_nearest(&mut self, pieces: Option<[u32; 2]>);
+    /// Which met, and which were the nearest.
+    fn last(&mut self) -> &mut LastPieces;
     /// The cache of two pieces: their own, or a cold one in place of another pair's.
     fn of(&mut self, pieces: [u32; 2]) -> &mut PairCache;
 }
 
 impl PieceCaches for CompoundCache {
-    fn met(&self, counts: [usize; 2]) -> Option<[u32; 2]> {
-        known(self.met, counts)
-    }
-
-    fn nearest(&self, counts: [usize; 2]) -> Option<[u32; 2]> {
-        known(self.nearest, counts)
-    }
-
-    fn remember_met(&mut self, pieces: Option<[u32; 2]>) {
-        self.met = numbered(pieces);
-    }
-
-    fn remember_nearest(&mut self, pieces: Option<[u32; 2]>) {
-        self.nearest = numbered(pieces);
+    fn last(&mut self) -> &mut LastPieces {
+        &mut self.last
     }
 
     #[inline(always)]
@@ -72,8 +82,7 @@ impl PieceCaches for CompoundCache {
 /// The same that begins small and grows with the pairs of pieces that are asked. Where memory is lacking it stays as it is.
 #[derive(Debug, Default)]
 pub(crate) struct GrowingCache {
-    met: [u32; 2],
-    nearest: [u32; 2],
+    last: LastPieces,
     /// None, or a power of two.
     slots: Vec<PairSlot>,
     /// For the pieces that are asked while there is no memory.
@@ -96,20 +105,8 @@ impl GrowingCache {
 }
 
 impl PieceCaches for GrowingCache {
-    fn met(&self, counts: [usize; 2]) -> Option<[u32; 2]> {
-        known(self.met, counts)
-    }
-
-    fn nearest(&self, counts: [usize; 2]) -> Option<[u32; 2]> {
-        known(self.nearest, counts)
-    }
-
-    fn remember_met(&mut self, pieces: Option<[u32; 2]>) {
-        self.met = numbered(pieces);
-    }
-
-    fn remember_nearest(&mut self, pieces: Option<[u32; 2]>) {
-        self.nearest = numbered(pieces);
+    fn last(&mut self) -> &mut LastPieces {
+        &mut self.last
     }
 
     fn of(&mut self, pieces: [u32; 2]) -> &mut PairCache {

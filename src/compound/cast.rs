@@ -45,7 +45,7 @@ pub(crate) fn cast_pieces<C: PieceCaches>(
     with_default(|| {
         check_config(config)?;
         let counts = bodies.map(|body| body.compound.piece_count());
-        let last = cache.nearest(counts);
+        let last = cache.last().nearest(counts);
         let mut first = FirstPieces {
             bodies: &bodies,
             cache,
@@ -199,7 +199,7 @@ impl<C: PieceCaches> FirstPieces<'_, C> {
             let [piece1, piece2] = counts.map(|count| count as u32);
             return Ok(CompoundCastAnswer { answer, piece1, piece2 });
         };
-        cache.remember_nearest(Some(pieces));
+        cache.last().remember_nearest(Some(pieces));
         // Others may have come near before these met.
         if lower < answer.time_lower {
             answer.contact = with_carried(bodies, pieces, |carried| distance_at(carried, config, lower))?;

@@ -110,7 +110,7 @@ pub(crate) const MORE: f64 = 1.0 + 1e-9;
 impl<C: PieceCaches> LeastOfPieces<'_, C> {
     fn run(mut self, between: &Between) -> Result<()> {
         let counts = self.bodies.map(|body| body.count());
-        let last = if self.is_verdict { self.cache.met(counts) } else { self.cache.nearest(counts) };
+        let last = if self.is_verdict { self.cache.last().met(counts) } else { self.cache.last().nearest(counts) };
         let mut is_open = true;
         if let Some(pieces) = last {
             is_open = self.learn(pieces)?;
@@ -175,9 +175,9 @@ impl<C: PieceCaches> LeastOfPieces<'_, C> {
             answer.answer.outcome = Outcome::Undecided;
         }
         if self.is_verdict {
-            self.cache.remember_met(self.named);
+            self.cache.last().remember_met(self.named);
         } else if self.named.is_some() {
-            self.cache.remember_nearest(self.named);
+            self.cache.last().remember_nearest(self.named);
         }
     }
 }

@@ -61,7 +61,7 @@ struct LeastSigned<'a> {
 impl LeastSigned<'_> {
     fn run(mut self, between: &Between) -> Result<CompoundSignedDistance> {
         let counts = self.bodies.map(|body| body.count());
-        let last = self.cache.nearest(counts);
+        let last = self.cache.last().nearest(counts);
         if let Some(pieces) = last {
             self.learn(pieces)?;
         }
@@ -84,7 +84,7 @@ impl LeastSigned<'_> {
             let [piece1, piece2] = counts.map(|count| count as u32);
             return Ok(CompoundSignedDistance { distance, piece1, piece2 });
         };
-        self.cache.remember_nearest(Some(pieces));
+        self.cache.last().remember_nearest(Some(pieces));
         let distance = SignedDistance { lower, ..found };
         Ok(CompoundSignedDistance { distance, piece1: pieces[0], piece2: pieces[1] })
     }
