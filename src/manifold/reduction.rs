@@ -12,6 +12,9 @@ const AS_DEEP: f64 = 1e-5;
 /// The part of the best area that the earlier points must have.
 const AS_LARGE: f64 = 0.9;
 
+/// Distances and areas count as equal that differ by this share.
+const ALIKE: f64 = 1e-3;
+
 /// The available places. If there are more, those stay that are the deepest or reach farthest in one of [`DIRECTIONS`]: no other
 /// reaches farther by more than 2 % of the manifold.
 const ROOM: usize = 64;
@@ -122,11 +125,11 @@ fn these<'a, P: Place>(places: &'a [P], keys: &[u32; FOUR]) -> Option<Four<'a, P
 
 fn best_of<P: Place>(places: &[P]) -> Four<'_, P> {
     let first = &places[most(places, |place| -place.gap())];
-    let second = &places[most(places, |place| apart(first, place).norm_squared())];
+    let second = &places[first_most(places, |place| apart(first, place).norm_squared())];
     let line = apart(first, second);
     let side = |place: &P| line.perp(&apart(first, place));
     let extreme = |sign: f64| {
-        let place = &places[most(places, |place| sign * side(place))];
+        let place = &places[first_most(places, |place| sign * side(place))];
         (sign * side(place) > place.error() * line.norm()).then_some(place)
     };
     [Some(first), Some(second), extreme(1.0), extreme(-1.0)]
@@ -152,6 +155,13 @@ fn most<P>(places: &[P], measure: impl Fn(&P) -> f64) -> usize {
         }
     }
     best.0
+}
+
+/// The first place with nearly the most of something. Corners of a regular body tie, and a motion that is nothing would exchange them.
+#[inline(always)]
+fn first_most<P>(places: &[P], measure: impl Fn(&P) -> f64) -> usize {
+    let nearly = (1.0 - ALIKE) * measure(&places[most(places, &measure)]);
+    places.iter().position(|place| measure(place) >= nearly).unwrap_or(0)
 }
 
 /// Twice the area of a quadrilateral whose first two places are one diagonal; one that is missing is where the first is.

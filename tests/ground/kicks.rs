@@ -114,6 +114,45 @@ fn four_points_hold_up_a_body() {
     assert!(most > 12, "{most}");
 }
 
+/// Bodies at rest on hills tremble: of a thousand reduced points all but one are there in the next step. Corners of a drum tie:
+/// chosen by the most alone, one of 400 was exchanged.
+#[test]
+fn points_at_rest_keep_their_ids() {
+    let mut random = Random::new(0x1d5);
+    let bodies = movers(&mut random);
+    let (mut known, mut all) = (0, 0);
+    for round in 0..180 {
+        let (vertices, triangles) = super::hills(&mut random, 16, f64::tan(16_f64.to_radians()));
+        let ground = Ground::from_triangles(&vertices, &triangles).unwrap();
+        let shape = &bodies[round % bodies.len()];
+        let (turn, tremble) = (random.rotation(), random.pick(&[1e-9, 1e-7, 1e-5]));
+        let aside = [random.uniform(5.0, 10.0), random.uniform(5.0, 10.0)];
+        // Down to a few thousandths of overlap.
+        let overlaps = |z: f64| {
+            let pose = Pose::new(&turn, &Vector::new(aside[0], aside[1], z));
+            !contacts(shape, &pose, &ground, 0.0, true).points.is_empty()
+        };
+        let mut z = 4.0;
+        while !overlaps(z) && z > -4.0 {
+            z -= 3e-3;
+        }
+        let mut before: Vec<u64> = Vec::new();
+        for _ in 0..40 {
+            let place = Vector::new(aside[0], aside[1], z) + random.vector() * tremble;
+            let pose = Pose::new(&(rotation(&random.direction(), tremble * random.signed()) * turn), &place);
+            let ids: Vec<u64> =
+                contacts(shape, &pose, &ground, 0.02, true).points.iter().map(|point| point.id).collect();
+            if !before.is_empty() {
+                all += ids.len();
+                known += ids.iter().filter(|id| before.contains(id)).count();
+            }
+            before = ids;
+        }
+    }
+    println!("{known} of {all}");
+    assert!(all > 2000 && 1000 * (all - known) <= all, "{known} of {all}");
+}
+
 /// A triangular prism along y, as a ground: its ridge is at z = 0 and has this angle inside.
 fn roof(angle: f64, cells: u32) -> Ground {
     let (drop, aside) = (4.0 * (0.5 * angle).cos(), 4.0 * (0.5 * angle).sin());
