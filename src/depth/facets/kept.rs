@@ -14,7 +14,8 @@
 //! = s. The second gives (l − e)cos θ + R·sin θ ≥ l if R ≥ l·tan(θ/2) + e·cot θ, which is convex up to 90°: it holds up to there if
 //! at both ends, and beyond 90° as above. If e is no more than rounding, the second disc proves l − e alone. □
 //!
-//! The second disc is on a face that looks at the other body; or, where one side is near, on the facet and on that across the side.
+//! The second disc is on a face that looks at the other body, or on the corners of a contact face; or, where one side is near, on
+//! the facet and on that across the side.
 //! Of such a fold by an angle φ the condition is r ≥ t·tan(φ/2), rounding apart, and that is so wherever the facet is the least.
 //!
 //! *From above*: along m the bodies overlap by no more than both reach.
@@ -354,8 +355,8 @@ fn shortest_of_unit<L>(frame: &Frame<L>) -> f64 {
     if frame.rigid { 1.0 } else { SHORTENED }
 }
 
-/// The wide one of two discs: a face of a body less one low point of the other, which is on a face that looks at it; or on the
-/// facet and the one across its nearest side.
+/// The wide one of two discs: a face of a body less one low point of the other, which is on a face that looks at it; the corners
+/// of a contact face less such a point; or the facet and the one across its nearest side.
 struct WideDisc<'a, L> {
     /// Across the facet's nearest side; its body is the one whose face it is.
     wrap: GiftWrap<'a, L>,
