@@ -157,7 +157,7 @@ fn most<P>(places: &[P], measure: impl Fn(&P) -> f64) -> usize {
     best.0
 }
 
-/// The first place with nearly the most of something. Corners of a regular body tie, and a motion that is nothing would exchange them.
+/// The first place with nearly the most of something. Corners of a regular body tie: the least motion would exchange them.
 #[inline(always)]
 fn first_most<P>(places: &[P], measure: impl Fn(&P) -> f64) -> usize {
     let nearly = (1.0 - ALIKE) * measure(&places[most(places, &measure)]);
