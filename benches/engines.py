@@ -67,7 +67,7 @@ def play_all(folder, path):
 
 HERO = os.path.join(PICTURES, "card-house.svg")
 HERO_SCENE, HERO_WIDTH, HERO_HEIGHT = "card house", 410, 280
-WHOLE, LOWER_HALF = 'viewBox="0 0 600 760"', 'viewBox="0 345 600 410"'
+WHOLE, LOWER_HALF = ('viewBox="0 0 600 760"', '<rect '), ('viewBox="0 345 600 410"', '<rect y="345" ')
 
 
 def hero():
@@ -79,8 +79,10 @@ def hero():
     parts = [f'<svg xmlns="http://www.w3.org/2000/svg" width="{2 * HERO_WIDTH + 10}" height="{HERO_HEIGHT + 20}" '
              f'font-family="sans-serif" font-size="13">\n<rect width="100%" height="100%" fill="white"/>']
     for k, (name, panel) in enumerate(zip(("contacts by FCL", "contacts by swiftprox"), panels, strict=True)):
+        for whole, lower in zip(WHOLE, LOWER_HALF):
+            panel = panel.replace(whole, lower)
         parts.append(f'<text x="{k * (HERO_WIDTH + 10)}" y="14">{name}</text>\n'
-                     f'<svg x="{k * (HERO_WIDTH + 10)}" y="20" width="{HERO_WIDTH}" height="{HERO_HEIGHT}" {panel.replace(WHOLE, LOWER_HALF)}')
+                     f'<svg x="{k * (HERO_WIDTH + 10)}" y="20" width="{HERO_WIDTH}" height="{HERO_HEIGHT}" {panel}')
     return "\n".join(parts) + "\n</svg>\n"
 
 
