@@ -1,8 +1,8 @@
 #!/bin/sh
 # Checks the library for other systems, and tests it on other processors. What cannot be had here is said by name and left out.
 #
-#   cross.sh [PART ...]        check; aarch64, under qemu-user; i686, natively with a C library of its own; windows, under wine.
-#                              No part: all of these. native: what hosts of other systems run, without an emulator
+#   cross.sh [PART ...]        check; macos and msvc, linked; aarch64, under qemu-user; i686, natively with a C library of its own;
+#                              windows, under wine. No part: all of these. native: what hosts of other systems run, without an emulator
 #
 # rustup has the targets: without it only those are here that the system's Rust came with.
 set -eu
@@ -80,10 +80,58 @@ c_tests_on_windows() {
     (cd "$folder" && $runner ./hello.exe)
 }
 
-[ $# -gt 0 ] || set -- check aarch64 i686 windows
+# Links the shared library for a system that nothing emulates here: TARGET, what links.
+link_for() {
+    cargo rustc --locked --quiet --profile checked --lib --features allocator --crate-type cdylib --target "$1" \
+        --config "target.$1.linker = '$2'"
+    echo "$1: linked"
+}
+
+# Writes a program of the shell that links: its name, its text.
+write_linker() {
+    mkdir -p build/link
+    printf '#!/bin/sh\n%s\n' "$2" >"build/link/$1"
+    chmod +x "build/link/$1"
+}
+
+# The library and the C tests, by zig, which has stubs of macOS's system libraries; not of iconv, which nothing here calls.
+link_for_macos() {
+    zig=$PWD/build/zig-venv/bin/python
+    [ -x "$zig" ] || python3 -m venv build/zig-venv
+    "$zig" -c 'import ziglang' 2>/dev/null || "$zig" -m pip install --quiet --retries 1 ziglang ||
+        { echo "macos: left out, as zig cannot be had" && return; }
+    write_linker macos "for one; do shift; [ \"\$one\" = -liconv ] || set -- \"\$@\" \"\$one\"; done
+        exec '$zig' -m ziglang cc -target aarch64-macos \"\$@\""
+    link_for aarch64-apple-darwin "$PWD/build/link/macos"
+    for program in $WINDOWS $WINDOWS_WRITING; do
+        build/link/macos -std=gnu11 -Iinclude -Ic_tests "c_tests/$program.c" target/aarch64-apple-darwin/checked/libswiftprox.dylib \
+            -o build/link/program
+    done
+    echo 'macos: C tests linked'
+}
+
+# The library by Rust's linker, with MinGW's import libraries, and stand-ins for what Microsoft's compiler brings to each program.
+link_for_msvc() {
+    linker=$(find "$(rustc --print sysroot)" -name rust-lld | head -n 1)
+    [ "$linker" ] || { echo 'msvc: left out, as this Rust has no rust-lld' && return; }
+    write_linker msvc "for one; do shift; case \$one in *.lib) [ ! -e \"\$one\" ] || set -- \"\$@\" \"\$one\" ;; *) set -- \"\$@\" \"\$one\" ;; esac; done
+        cd /usr/x86_64-w64-mingw32/lib
+        exec '$linker' -flavor link \"\$@\" /nodefaultlib /noentry '$PWD/build/link/msvc.o' libkernel32.a libntdll.a libws2_32.a \\
+            libuserenv.a libmsvcr120.a"
+    echo 'int _fltused, _tls_index; char _tls_used[40], of_types[1] __asm__("\"??_7type_info@@6B@\""); void __chkstk(void) {}' |
+        x86_64-w64-mingw32-gcc -x c -c - -o build/link/msvc.o
+    link_for x86_64-pc-windows-msvc "$PWD/build/link/msvc"
+}
+
+[ $# -gt 0 ] || set -- check macos msvc aarch64 i686 windows
 for part in "$@"; do
     case $part in
     check) check ;;
+    macos) ! has_target aarch64-apple-darwin || link_for_macos ;;
+    msvc)
+        scripts/require.sh x86_64-w64-mingw32-gcc=gcc-mingw-w64-x86-64 || continue
+        ! has_target x86_64-pc-windows-msvc || link_for_msvc
+        ;;
     aarch64)
         scripts/require.sh aarch64-linux-gnu-g++=g++-aarch64-linux-gnu qemu-aarch64=qemu-user cmake=cmake python3=python3 || continue
         test_on aarch64 aarch64-linux-gnu 'qemu-aarch64;-L;/usr/aarch64-linux-gnu' '' ''
