@@ -1,4 +1,5 @@
 #include "page_data.h"
+#include <swiftprox/compound.h>
 #include <swiftprox/draw.h>
 #include <swiftprox/scene.h>
 
@@ -101,6 +102,14 @@ static uint32_t number_shape(struct page_data *data, const swiftprox_shape *shap
     return (uint32_t)data->shape_count++;
 }
 
+/* A convex piece of an object or of its compound, and its pose there, which objects do not tell. */
+static swiftprox_status get_piece(const struct player *player, swiftprox_object_id id, const swiftprox_object_info *info,
+                                  uint32_t piece, const swiftprox_shape **shape, double local[12])
+{
+    return info->compound ? swiftprox_compound_get_piece(info->compound, piece, shape, local)
+                          : swiftprox_scene_get_piece(player->scene, id, piece, shape);
+}
+
 /* The bodies of an object that is seen for the first time. */
 static int add_bodies(struct page_data *data, const struct player *player, uint32_t number, swiftprox_object_id id)
 {
@@ -112,8 +121,12 @@ static int add_bodies(struct page_data *data, const struct player *player, uint3
     if (info.ground && swiftprox_ground_get_info(info.ground, &of_ground) != SWIFTPROX_OK) {
         return player_failed();
     }
+    swiftprox_compound_info of_compound = {0};
+    if (info.compound && swiftprox_compound_get_info(info.compound, &of_compound) != SWIFTPROX_OK) {
+        return player_failed();
+    }
     const bool is_ground = info.ground && of_ground.triangle_count <= PAGE_MOST_GROUND_TRIANGLES;
-    const size_t count = is_ground ? 1 : info.piece_count;
+    const size_t count = is_ground ? 1 : info.piece_count + of_compound.piece_count;
     struct page_body *const bodies =
         with_room(data->bodies, &data->body_capacity, data->body_count + count, sizeof *data->bodies);
     if (!bodies) {
@@ -123,16 +136,17 @@ static int add_bodies(struct page_data *data, const struct player *player, uint3
     struct page_object *const object = &data->objects[number];
     *object = (struct page_object){.id = id, .first_body = (uint32_t)data->body_count};
     for (uint32_t piece = 0; piece < count; piece++) {
+        struct page_body body = {.object = number, .piece = piece, .fixed = info.fixed != 0};
         const swiftprox_shape *shape = NULL;
-        if (!is_ground && swiftprox_scene_get_piece(player->scene, id, piece, &shape) != SWIFTPROX_OK) {
+        if (!is_ground && get_piece(player, id, &info, piece, &shape, body.local) != SWIFTPROX_OK) {
             return player_failed();
         }
         const uint32_t shape_number = number_shape(data, shape, is_ground ? info.ground : NULL);
         if (shape_number == PAGE_NO_BODY) {
             return FAILED;
         }
-        bodies[data->body_count++] =
-            (struct page_body){.object = number, .piece = piece, .shape = shape_number, .fixed = info.fixed != 0};
+        body.shape = shape_number;
+        bodies[data->body_count++] = body;
         object->piece_count++;
     }
     return GOOD;
@@ -215,18 +229,31 @@ static int add_move(struct page_data *data, uint32_t body, bool is_there)
     return GOOD;
 }
 
-/* Where a body is: a ground has no pieces. */
+/* The pose at which `pose` places what is at `local`. */
+static void place(double placed[12], const double pose[12], const double local[12])
+{
+    for (int i = 0; i < 12; i++) {
+        const double *const row = pose + i / 4 * 4, *const column = local + i % 4;
+        placed[i] = row[0] * column[0] + row[1] * column[4] + row[2] * column[8] + (i % 4 == 3 ? row[3] : 0);
+    }
+}
+
+/* Where a body is: the scene tells it of pieces of objects, which may move, of other bodies it has that of the object. */
 static swiftprox_status get_pose(const struct page_data *data, const struct player *player, uint32_t body, double pose[12])
 {
     const struct page_body *const asked = &data->bodies[body];
     const swiftprox_object_id id = data->objects[asked->object].id;
-    if (!data->shapes[asked->shape].ground) {
-        return swiftprox_scene_get_piece_pose(player->scene, id, asked->piece, pose);
-    }
     swiftprox_object_info info = {.struct_size = sizeof info};
     const swiftprox_status status = swiftprox_scene_get_object_info(player->scene, id, &info);
-    memcpy(pose, info.pose, sizeof info.pose);
-    return status;
+    if (status != SWIFTPROX_OK || !(info.ground || info.compound)) {
+        return status != SWIFTPROX_OK ? status : swiftprox_scene_get_piece_pose(player->scene, id, asked->piece, pose);
+    }
+    if (info.compound) {
+        place(pose, info.pose, asked->local);
+    } else {
+        memcpy(pose, info.pose, sizeof info.pose);
+    }
+    return SWIFTPROX_OK;
 }
 
 /* Whether one of the object's bodies is elsewhere is told by all bits of its pose. */
@@ -320,7 +347,7 @@ static size_t bytes_of_pair(const struct page_pair *pair)
            (size_t)pair->line_count * LINE_BYTES;
 }
 
-/* Compounds have none, nor has a ground that is too large to be drawn: the page shows their pairs alone. */
+/* A ground that is too large to be drawn has none: the page shows its pairs alone. */
 static uint32_t find_body(const struct page_data *data, const struct player *player, swiftprox_object_id id, uint32_t piece)
 {
     uint32_t number;
@@ -508,22 +535,22 @@ static void add_line(void *user, swiftprox_draw_kind kind, const double *start, 
     }
 }
 
-/* The march of a pair, asked anew; none of a shape that is in no scene, nor of bodies that have gone. */
-static bool add_march(struct march *march, const struct player *player, const swiftprox_pair_result *result)
+/* The march of a pair, asked anew; none of a shape that is in no scene, nor of a ground. */
+static bool add_march(struct march *march)
 {
-    const swiftprox_object_id ids[2] = {result->object1, result->object2};
-    const uint32_t pieces[2] = {result->piece1, result->piece2};
-    double poses[2][12];
+    const struct page_data *const data = march->data;
     swiftprox_placed placed[2];
     swiftprox_draw draw = SWIFTPROX_DRAW_DEFAULT;
     draw.kinds = 1u << SWIFTPROX_DRAW_KIND_FEATURE | 1u << SWIFTPROX_DRAW_KIND_MARCH;
     draw.user = march;
     draw.line = add_line;
     for (int i = 0; i < 2; i++) {
-        placed[i].pose = poses[i];
-        if (march->pair->bodies[i] == PAGE_NO_BODY ||
-            swiftprox_scene_get_piece(player->scene, ids[i], pieces[i], &placed[i].shape) != SWIFTPROX_OK ||
-            swiftprox_scene_get_piece_pose(player->scene, ids[i], pieces[i], poses[i]) != SWIFTPROX_OK) {
+        if (march->pair->bodies[i] == PAGE_NO_BODY) {
+            return true;
+        }
+        const struct page_body *const body = &data->bodies[march->pair->bodies[i]];
+        placed[i] = (swiftprox_placed){data->shapes[body->shape].shape, body->pose};
+        if (!placed[i].shape) {
             return true;
         }
     }
@@ -564,7 +591,7 @@ static int add_pairs(struct page_data *data, const struct player *player, const 
         has_memory = add_points(data, player, pair, found, contact);
         if (has_memory && step->pair_count <= LEAST_PAIRS) {
             struct march march = {data, step, pair, &line_capacity, true};
-            has_memory = add_march(&march, player, &pairs[at]);
+            has_memory = add_march(&march);
         }
         data->pair_bytes += bytes_of_pair(pair);
     }

@@ -1,7 +1,7 @@
 /* What a page of a scene shows (tools/page/): its shapes, where its bodies are in each step, and what its pairs were answered.
  *
- * A body is a convex piece of an object, or a ground. Bodies are drawn, so that their places are rounded: see struct page_move.
- * What is said of pairs are the doubles of the answers. */
+ * A body is a convex piece of an object or of its compound, or a ground. Bodies are drawn, so that their places are rounded: see
+ * struct page_move. What is said of pairs are the doubles of the answers. */
 #ifndef SWIFTPROX_TOOLS_PAGE_DATA_H
 #define SWIFTPROX_TOOLS_PAGE_DATA_H
 
@@ -30,8 +30,9 @@ struct page_body {
     uint32_t object; /* numbered as swiftprox-replay prints it */
     uint32_t piece;
     uint32_t shape;
-    bool fixed;      /* when it was first seen */
-    double pose[12]; /* the last that was seen */
+    bool fixed;       /* when it was first seen */
+    double local[12]; /* of a compound's piece: its pose in the compound */
+    double pose[12];  /* the last that was seen */
 };
 
 struct page_object {

@@ -1,10 +1,11 @@
-/* Records a short scene for test_replay.py, or one with a ground for test_page.py:  record_scene FILE [ground] */
+/* Records a short scene for test_replay.py, or one for test_page.py:  record_scene FILE [ground|compound] */
 #include <math.h>
 #include <stdio.h>
 #include <stdlib.h>
 #include <string.h>
 
 #include <swiftprox.h>
+#include <swiftprox/compound.h>
 #include <swiftprox/ground.h>
 #include <swiftprox/replay.h>
 #include <swiftprox/scene.h>
@@ -55,6 +56,43 @@ static void record_ground(const char *path)
     swiftprox_ground_release(ground);
 }
 
+/* Two cubes with a gap of 1, the second turned, are one object. It stands, turned too, where another cube sinks into the second by
+ * a quarter; then it moves away, and then it is gone. */
+static void record_compound(const char *path)
+{
+    static const double CUBE[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
+    static const double PIECES[24] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 3, 1, 0, 0, 0, 0, 0, 1, 0};
+    static const double THERE[12] = {0, -1, 0, 10, 1, 0, 0, 0, 0, 0, 1, 0};
+    static const double BESIDE[12] = {1, 0, 0, 8.25, 0, 1, 0, 2.5, 0, 0, 1, 0.25};
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
+    swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
+    const swiftprox_compound *compound;
+    const swiftprox_shape *cube;
+    swiftprox_object_id ids[2];
+    swiftprox_scene *scene;
+    swiftprox_scene_answer answer;
+    demand(swiftprox_shape_create_from_points(CUBE, 8, NULL, &cube));
+    demand(swiftprox_compound_create((const swiftprox_shape *[]){cube, cube}, PIECES, 2, &compound));
+    demand(swiftprox_scene_create(NULL, &scene));
+    demand(swiftprox_scene_record(scene, path));
+    options.compound = compound;
+    memcpy(options.pose, THERE, sizeof options.pose);
+    demand(swiftprox_scene_add_object(scene, NULL, 0, &options, &ids[0]));
+    options = (swiftprox_object_options)SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
+    memcpy(options.pose, BESIDE, sizeof options.pose);
+    demand(swiftprox_scene_add_object(scene, &cube, 1, &options, &ids[1]));
+    query.detail = SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
+    demand(swiftprox_scene_query_contact(scene, &query, &answer));
+    move(scene, ids[0], 0);
+    demand(swiftprox_scene_query_contact(scene, &query, &answer));
+    demand(swiftprox_scene_remove_object(scene, ids[0]));
+    demand(swiftprox_scene_query_contact(scene, &query, &answer));
+    demand(swiftprox_scene_record(scene, NULL));
+    demand(swiftprox_scene_destroy(scene));
+    swiftprox_compound_release(compound);
+    swiftprox_shape_release(cube);
+}
+
 int main(int argc, char **argv)
 {
     static const double CUBE[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
@@ -68,7 +106,7 @@ int main(int argc, char **argv)
         return EXIT_FAILURE;
     }
     if (argc > 2) {
-        record_ground(argv[1]);
+        (strcmp(argv[2], "ground") == 0 ? record_ground : record_compound)(argv[1]);
         return EXIT_SUCCESS;
     }
     demand(swiftprox_shape_create_from_points(CUBE, 8, NULL, &cube));

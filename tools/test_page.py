@@ -230,6 +230,25 @@ class Data(Page):
         gaps = groups(numbers(data["contact.gaps"], "d"), 2)
         self.assertTrue(all(lower <= -0.25 <= upper for lower, upper in gaps))
 
+    def test_the_pieces_of_a_compound_are_drawn_and_named(self):
+        """Each under the pose of the object, by numbers that doubles have: the second piece is turned, in an object that is too."""
+        head, data = blocks(self.make(self.recording("compound"), "--verify"))
+        self.assertEqual(len(head["shapes"]), 1)
+        self.assertEqual(groups(numbers(data["bodies"], "I"), 4), [[0, 0, 0, 0], [0, 1, 0, 0], [1, 0, 0, 0]])
+        self.assertEqual([words[1] for words in groups(numbers(data["steps"], "I"), STEP_WORDS)], [3, 2, 2])
+        places = groups(numbers(data["move.places"], "f"), 3)
+        seen = [[round(place[k] + head["origin"][k], 6) for k in range(3)] for place in places[:5]]
+        self.assertEqual(seen, [[9.5, 0.5, 0.5], [9.5, 2.5, 0.5], [8.75, 3, 0.75], [0.5, 0.5, 0.5], [2.5, 0.5, 0.5]])
+        half, scale = math.sqrt(0.5), head["turnScale"]
+        turns = [[round(part / scale, 4) for part in turn] for turn in groups(numbers(data["move.turns"], "h"), 4)]
+        self.assertEqual(turns[:5], [[0, 0, round(z, 4), round(w, 4)] for z, w in ((half, half), (1, 0), (0, 1), (0, 1), (half, half))])
+        self.assertEqual(numbers(data["move.bodies"], "I"), [0, 1, 2, 0, 1, 0, 1])
+        self.assertTrue(all(math.isnan(place[0]) for place in places[5:]))
+        self.assertEqual(groups(numbers(data["pair.bodies"], "I"), 2), [[1, 2]])
+        codes = list(data["pair.codes"])
+        self.assertEqual((codes[0], codes[7] + 256 * codes[8]), (INTERSECTING, 4))
+        self.assertIn(MARCH, list(data["march.kinds"]))
+
     def test_the_nearest_pairs_are_kept_where_all_have_no_room(self):
         count, steps = 340, 7
         draw = random.Random(1)
@@ -330,6 +349,7 @@ class Browser(Page):
             self.a_crowd_is_drawn_once_and_without_edges_that_nobody_sees(tab)
             self.a_large_scene_waits_and_throws_no_shadows(tab)
             self.a_ground_is_lit_and_picked(tab)
+            self.a_compound_is_picked_by_its_pieces(tab)
 
     def boxes(self):
         """Three boxes beside each other; the third moves over the second, then into it."""
@@ -513,6 +533,24 @@ class Browser(Page):
         self.assertEqual(self.around(tab, spots["ground"], 1), {tuple(paper)})
         tab.click(*spots["ground"])
         self.assertEqual(tab.run("page.state.body"), 0xffffffff)
+        tab.key("g")
+
+    def a_compound_is_picked_by_its_pieces(self, tab):
+        self.open(tab, self.make(self.recording("compound"), "--query", "contact", "--max-distance", "2"))
+        tab.key("g")
+        tab.frame()
+        paper = {tuple(tab.run("partsOf(readColours().paper).slice(0, 3)"))}
+        for body in (0, 1):
+            self.assertNotEqual(self.around(tab, tab.run(f"page.spotOfBody({body})"), 0), paper)
+        rows = tab.run("Array.from(document.querySelectorAll('#list tbody tr'), row => row.cells[0].textContent)")
+        self.assertEqual(rows, ["0.1 and 1", "0.0 and 1"])
+        tab.click(*tab.run("page.spotOfBody(0)"))  # it stands before the others
+        self.assertEqual(tab.run("page.state.body"), 0)
+        self.assertIn("Body 0.0 is picked", tab.run("document.getElementById('pair').textContent"))
+        tab.key("Escape")
+        tab.run("document.querySelector('#list tbody tr').click()")
+        self.assertEqual(tab.run("page.state.picked"), [1, 2])
+        self.assertIn("4 points", tab.run("document.getElementById('pair').textContent"))
         tab.key("g")
 
     def test_without_webgl_edges_are_drawn_and_words_say_so(self):

@@ -1,14 +1,17 @@
-//! A scene with grounds, drawn: the edges of all triangles, where the ground is.
+//! Scenes with grounds and compounds, drawn: all edges where they are.
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
+use swiftprox::compound::{Compound, Piece};
 use swiftprox::draw::{Draw, DrawKind};
 use swiftprox::ground::{Ground, HeightGrid};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::object::ObjectOptions;
 use swiftprox::scene::Scene;
+use swiftprox::shape::Shape;
 use testkit::random::Random;
+use testkit::shapes::hull;
 
 /// Ends of a line by their bits, the lesser first.
 type Line = [[u64; 3]; 2];
@@ -127,5 +130,36 @@ fn all_sides_of_a_soup_are_drawn() {
         let sheet = draw(Ground::from_triangles(&vertices, &triangles).unwrap(), pose);
         let keys = |edges: HashMap<Line, usize>| edges.into_keys().collect::<HashSet<Line>>();
         assert!(keys(sheet.edges) == keys(wanted));
+    }
+}
+
+/// A compound is drawn as the same pieces are that make an object, each edge once.
+#[test]
+fn a_compound_is_drawn_by_its_pieces() {
+    let mut random = Random::new(0xd4a3);
+    for round in 0..30 {
+        let cloud = |random: &mut Random| (0..9).map(|_| random.vector()).collect::<Vec<_>>();
+        let shapes: Vec<Arc<Shape>> = (0..3).map(|_| Arc::new(hull(&cloud(&mut random)))).collect();
+        let pieces: Vec<Piece> = (0..1 + round % 6)
+            .map(|k| {
+                let pose = if k == 0 { Pose::IDENTITY } else { anywhere(&mut random) };
+                Piece { shape: shapes[random.below(3)].clone(), pose }
+            })
+            .collect();
+        let options = ObjectOptions { pose: anywhere(&mut random), ..Default::default() };
+        let [mut whole, mut parts] = [Scene::new(), Scene::new()];
+        whole.add_compound(Arc::new(Compound::new(&pieces).unwrap()), &options).unwrap();
+        let id = parts.add_object(pieces.iter().map(|piece| piece.shape.clone()).collect(), &options).unwrap();
+        for (k, piece) in (0..).zip(&pieces).skip(1) {
+            parts.set_piece_pose(id, k, &piece.pose).unwrap();
+        }
+        let sheets = [whole, parts].map(|scene| {
+            let mut sheet = Sheet::default();
+            scene.draw(&mut sheet);
+            sheet
+        });
+        assert!(sheets[0].edges == sheets[1].edges && sheets[0].edges.len() > pieces.len());
+        assert!(sheets[0].edges.values().all(|count| *count == 1));
+        assert_eq!(sheets.map(|sheet| sheet.boxes), [12, 12]);
     }
 }
