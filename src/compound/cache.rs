@@ -1,6 +1,8 @@
 //! The cache of a pair of compounds: pieces that met the last time, the nearest, and the caches of some pairs of pieces.
 
-use crate::base::memory::filled;
+use crate::base::memory::{filled, with_capacity};
+use crate::depth::{DepthCache, DepthFacets};
+use crate::manifold::Reference;
 use crate::pair::PairCache;
 
 /// So many pairs of pieces are remembered at a time.
@@ -87,6 +89,8 @@ pub(crate) struct GrowingCache {
     slots: Vec<PairSlot>,
     /// For the pieces that are asked while there is no memory.
     spare: PairCache,
+    /// Of the pieces that the last query of contacts asked, in order.
+    contacts: Vec<ContactSlot>,
 }
 
 /// Slots at first.
@@ -101,6 +105,81 @@ impl GrowingCache {
             self.slots[slot_number(slot.pieces, count)] = slot;
         }
         true
+    }
+
+    /// For a query of contacts that asks so many pairs of pieces in order: what the last one left. Give it back with
+    /// [`GrowingCache::keep_contacts`].
+    pub fn take_contacts(&mut self, count: usize) -> KeptContacts {
+        KeptContacts {
+            before: std::mem::take(&mut self.contacts),
+            next: 0,
+            // None, where memory is lacking, is cold and as good.
+            now: with_capacity(count.min(MOST_CONTACTS)).unwrap_or_default(),
+            spare: ContactSlot::default(),
+        }
+    }
+
+    /// Keeps what a query of contacts has found for the next one.
+    pub fn keep_contacts(&mut self, kept: KeptContacts) {
+        self.contacts = kept.now;
+    }
+}
+
+/// So many pairs of pieces keep their contacts, 180 bytes each.
+const MOST_CONTACTS: usize = 256;
+
+/// What two pieces remember of their contact.
+#[derive(Debug, Clone, Copy, Default)]
+pub(crate) struct ContactSlot {
+    pieces: [u32; 2],
+    pub cache: PairCache,
+    reference: Reference,
+    depth: DepthFacets,
+}
+
+impl ContactSlot {
+    /// Changes what is remembered of the manifold and, of pieces that intersect, of the depth.
+    pub fn change<T>(
+        &mut self,
+        intersects: bool,
+        change: impl FnOnce(&mut Reference, Option<&mut DepthCache>) -> T,
+    ) -> T {
+        if !intersects {
+            self.depth = DepthFacets::default();
+            return change(&mut self.reference, None);
+        }
+        let mut depth = DepthCache::of_facets(&self.depth);
+        let changed = change(&mut self.reference, Some(&mut depth));
+        self.depth = depth.facets();
+        changed
+    }
+}
+
+/// The contacts of two compounds during a query: those of before and, step by step beside them, those of now.
+pub(crate) struct KeptContacts {
+    before: Vec<ContactSlot>,
+    next: usize,
+    now: Vec<ContactSlot>,
+    /// For pieces without room.
+    spare: ContactSlot,
+}
+
+impl KeptContacts {
+    /// The memory of two pieces, which come behind those of the last call.
+    pub fn of(&mut self, pieces: [u32; 2]) -> &mut ContactSlot {
+        debug_assert!(self.now.last().is_none_or(|last| last.pieces < pieces));
+        while self.before.get(self.next).is_some_and(|slot| slot.pieces < pieces) {
+            self.next += 1;
+        }
+        let own = self.before.get(self.next).filter(|slot| slot.pieces == pieces);
+        let own = own.copied().unwrap_or(ContactSlot { pieces, ..ContactSlot::default() });
+        if self.now.len() == self.now.capacity() {
+            self.spare = own;
+            return &mut self.spare;
+        }
+        self.now.push(own);
+        let last = self.now.len() - 1;
+        &mut self.now[last]
     }
 }
 

@@ -39,6 +39,15 @@ pub struct DepthCache {
 /// Vertices in no triangle that are kept all the same: to find them takes longer.
 const MOST_UNUSED: usize = 6;
 
+/// What a [`DepthCache`] holds beside a polytope: of small bodies all there is, in a sixteenth of the room.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+pub(crate) struct DepthFacets {
+    direction: [u32; 3],
+    resting: [u32; 3],
+    pairs: [VertexPair; 3],
+    counts: [u8; 4],
+}
+
 /// Beyond all kinds of facets.
 const APART: u32 = 16;
 
@@ -61,6 +70,20 @@ impl Default for DepthCache {
 }
 
 impl DepthCache {
+    /// One that holds no polytope.
+    pub(crate) fn of_facets(&DepthFacets { direction, resting, pairs, counts }: &DepthFacets) -> DepthCache {
+        let mut cache = DepthCache { direction, resting, counts, ..DepthCache::default() };
+        cache.pairs[..pairs.len()].copy_from_slice(&pairs);
+        cache
+    }
+
+    /// Without the polytope.
+    pub(crate) fn facets(&self) -> DepthFacets {
+        let [a, b, c, ..] = self.pairs;
+        let counts = if self.has_polytope() { [0; 4] } else { self.counts };
+        DepthFacets { direction: self.direction, resting: self.resting, pairs: [a, b, c], counts }
+    }
+
     /// Puts the kept polytope into an empty one, its positions computed for the pair's poses, and returns where to begin. The
     /// polytope stays empty where none is kept, or what is kept has vertices that the bodies have not; it need not be a cycle.
     #[inline(always)]

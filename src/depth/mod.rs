@@ -26,6 +26,7 @@ use crate::placed::Pair;
 use crate::shape::Placed;
 pub use answer::{DepthAnswer, DepthConfig, DepthEnding, DepthStatistics};
 pub use cache::DepthCache;
+pub(crate) use cache::DepthFacets;
 use filling::fill;
 pub(crate) use proof::{ProofFrom, proof};
 pub(crate) use resting::{DepthPlaces, prove_at_rest};

@@ -306,6 +306,52 @@ fn contacts_are_those_of_pieces() {
     assert!(cfg!(miri) || points > 300, "{points}");
 }
 
+/// What a scene remembers of contacts of compounds that move slowly, into each other and apart, changes no outcome, and no depth
+/// beyond its interval.
+#[test]
+fn contacts_that_are_remembered_are_right() {
+    let mut random = Random::new(0xc0b5);
+    let (mut listed, mut deep) = (0, 0);
+    for round in 0..if cfg!(miri) { 1 } else { 8 } {
+        let detail = [ContactDetail::Manifold, ContactDetail::ReducedManifold][round % 2];
+        let query = SceneQuery { detail, ..up_to(0.05) };
+        let compounds = [ring(24), heap(&mut random, 6)].map(|pieces| Arc::new(Compound::new(&pieces).unwrap()));
+        let mut places: Vec<(Matrix, Vector)> = (0..6).map(|_| (random.rotation(), random.vector() * 1.2)).collect();
+        let add = |scene: &mut Scene, k: usize, (turn, place): &(Matrix, Vector)| {
+            let pose = Pose::new(turn, place);
+            let options = ObjectOptions { pose, user_data: k as u64, ..ObjectOptions::default() };
+            scene.add_compound(compounds[k % 2].clone(), &options).unwrap()
+        };
+        let mut scene = Scene::new();
+        let ids: Vec<ObjectId> = places.iter().enumerate().map(|(k, place)| add(&mut scene, k, place)).collect();
+        let ways: Vec<(Vector, Vector)> =
+            (0..6).map(|_| (random.direction() * 0.01, random.direction() * 0.01)).collect();
+        let name =
+            |pair: &PairResult| ([pair.user_data1, pair.user_data2], [pair.piece1, pair.piece2], pair.answer.outcome);
+        for step in 0..if cfg!(miri) { 2 } else { 40 } {
+            for (((turn, place), (axis, way)), id) in places.iter_mut().zip(&ways).zip(&ids) {
+                *turn = rotation(&axis.normalize(), axis.norm()) * *turn;
+                *place += if step < 20 { *way } else { -way };
+                scene.set_pose(*id, &Pose::new(turn, place)).unwrap();
+            }
+            let mut fresh = Scene::new();
+            places.iter().enumerate().for_each(|(k, place)| _ = add(&mut fresh, k, place));
+            let (warm, cold) = (scene.query_contact(&query).unwrap(), fresh.query_contact(&query).unwrap());
+            assert!(warm.pairs.iter().map(name).eq(cold.pairs.iter().map(name)), "{round} {step}");
+            for (one, other) in warm.contacts.contacts.iter().zip(cold.contacts.contacts) {
+                assert_eq!(one.depth.outcome, other.depth.outcome);
+                if one.depth.outcome == Outcome::Intersecting {
+                    assert!(one.depth.lower <= other.depth.upper && other.depth.lower <= one.depth.upper);
+                    deep += 1;
+                }
+                assert_eq!(one.manifold.point_count == 0, other.manifold.point_count == 0, "{round} {step}");
+            }
+            listed += warm.pairs.len();
+        }
+    }
+    assert!(cfg!(miri) || (listed > 5_000 && deep > 2_000), "{listed} {deep}");
+}
+
 /// Pairs of very many contacts are found anew each time.
 #[test]
 fn many_contacts_at_rest_stay() {

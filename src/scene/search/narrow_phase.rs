@@ -16,7 +16,7 @@ use crate::base::error::Result;
 use crate::base::locks::{locked, unlocked};
 use crate::base::math::UNIT_ROUNDOFF as U;
 use crate::base::simd::prefetch;
-use crate::compound::{GrowingCache, PieceCaches};
+use crate::compound::GrowingCache;
 use crate::manifold::Reference;
 use crate::pair::{DecidedBy, DepthCache, DepthEnding, Outcome, PairAnswer, PairCache, PairConfig};
 use crate::scene::near::contact_memory::ContactMemory;
@@ -505,19 +505,21 @@ impl<'a> Pass<'a> {
     ) -> Result<bool> {
         let (near, mut lower) = compounds.near_pieces(self.tolerance)?;
         let (mut first, mut count, mut intersects) = (UNLISTED, 0_usize, false);
+        let mut kept = cache.take_contacts(near.len());
         for pieces in near {
             findings.slots.make_room(BLOCK + 1)?;
             let Findings { slots, contacts, statistics, .. } = &mut *findings;
             let answer = &mut slots.next().answer;
             *answer = PairAnswer::default();
+            let own = kept.of(pieces);
             let is_listed = compounds.with_pieces(pieces, |placed| {
-                (self.solver)(placed, cache.of(pieces), &self.request.config, answer)?;
+                (self.solver)(placed, &mut own.cache, &self.request.config, answer)?;
                 statistics.count(answer);
                 let is_listed = is_listed(answer.outcome, self.is_verdict);
                 if is_listed {
-                    let mut depth = DepthCache::default();
-                    let deep = (answer.outcome == Outcome::Intersecting).then_some(&mut depth);
-                    details.find(placed, answer, &mut Reference::default(), deep, contacts)?;
+                    own.change(answer.outcome == Outcome::Intersecting, |reference, depth| {
+                        details.find(placed, answer, reference, depth, contacts)
+                    })?;
                 }
                 Ok(is_listed)
             })?;
@@ -531,9 +533,11 @@ impl<'a> Pass<'a> {
             let stops = self.list_pieces(pair, compounds.named(pieces), mark, findings)?;
             (first, count, intersects) = (first.min(mark.result), count + 1, intersects | mark.intersects);
             if stops {
+                cache.keep_contacts(kept);
                 return Ok(true);
             }
         }
+        cache.keep_contacts(kept);
         let [a, b] = pair.proxies.map(|row| row as usize);
         pair.apart_until = self.apart_until(lower, a, b);
         (mark.result, mark.intersects) = (first, intersects);
