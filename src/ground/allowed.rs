@@ -3,11 +3,13 @@
 //! at a peak those of the body's faces. Best is the one along which they are farthest apart, or overlap least.
 
 use super::PlacedGround;
+use super::facing::FacingFaces;
 use super::lowest::{PlacedTriangle, is_inside, local_point};
 use super::normals::TILT;
 use super::reach::GroundReach;
 use super::vertices::Vertices;
 use crate::answer::{feature_of_vertices, label};
+use crate::base::error::Result;
 use crate::base::math::{Matrix, UNIT_ROUNDOFF, Vector, is_unit, length};
 use crate::body::polyhedron::MergedFace;
 use crate::pair::{Feature, FeatureKind, Outcome, Placed, SignedDistance};
@@ -82,7 +84,10 @@ impl<'a> NormalSearch<'a> {
 
     /// The best normal. Rounding may hide which of two that are about as good is better.
     /// `vertex` is the lowest along the triangle's own.
-    pub fn best(&self, vertex: u32) -> LeastOverlap {
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn best(&self, vertex: u32, facing: &mut FacingFaces) -> Result<LeastOverlap> {
         let PlacedTriangle { own, marks, up, .. } = self.triangle;
         let low = Low { normal: *up, vertex, point: self.point(vertex) };
         let mut best = self.upwards(&low);
@@ -94,11 +99,13 @@ impl<'a> NormalSearch<'a> {
         let mut peaks = (0..3).filter(|k| marks.may_be_peak(*k)).peekable();
         if best.gap < 0.0
             && peaks.peek().is_some()
+            && self.body.shape.polyhedron().dimension == 3
             && let Some(inverse) = self.body.pose.rotation().try_inverse()
         {
-            peaks.for_each(|k| self.at_peak(k as u32, &inverse, &mut best));
+            let faces = facing.at(self.body.shape.polyhedron(), &inverse, self.triangle)?;
+            peaks.for_each(|k| self.at_peak(k as u32, &inverse, faces, &mut best));
         }
-        best
+        Ok(best)
     }
 
     fn lowest(&self, normal: &Vector, start: u32) -> Low {
@@ -157,19 +164,18 @@ impl<'a> NormalSearch<'a> {
         }
     }
 
-    /// Looks for a better normal at a corner, among those of the body's faces: where overlaps are least inside a peak's cone, three
-    /// vertices are lowest. `inverse` is that of the body's rotation.
-    fn at_peak(&self, k: u32, inverse: &Matrix, best: &mut LeastOverlap) {
+    /// Looks for a better normal at a corner, among those of these faces of the body: where overlaps are least inside a peak's
+    /// cone, three vertices are lowest. `inverse` is that of the body's rotation.
+    fn at_peak(&self, k: u32, inverse: &Matrix, faces: &[u32], best: &mut LeastOverlap) {
         let (polyhedron, pose) = (self.body.shape.polyhedron(), self.body.pose);
-        if polyhedron.dimension < 3 {
-            return;
-        }
+        debug_assert!(polyhedron.dimension == 3);
         let corner = self.triangle.corners[k as usize];
         let local = inverse * (corner - pose.translation()) - polyhedron.centre;
         // No normal at the corner leads out along a side of it.
         let sides = [1, 2].map(|by| self.triangle.corners[(k as usize + by) % 3] - corner);
         let most = sides.map(|side| 4.0 * TILT * side.norm());
-        for (face, plane) in (0..).zip(&polyhedron.faces) {
+        for &face in faces {
+            let plane = &polyhedron.faces[face as usize];
             // In the body's frame, where lengths are a little others if its rotation is not quite rigid.
             let gap = plane.planes.value(0, &local);
             if !(gap > 1.05 * best.gap && gap <= 0.0) {

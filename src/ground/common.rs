@@ -28,6 +28,8 @@ pub(super) struct Meet<'a> {
     pub reach: &'a GroundReach,
     pub triangle: &'a PlacedTriangle,
     pub contact: &'a SignedDistance,
+    /// The body's lowest vertex along its normal.
+    pub lowest: u32,
     /// Whether the contact's own points are on both.
     pub is_over: bool,
     /// Whether corners and sides of the triangle make points, too.
@@ -47,8 +49,7 @@ pub(super) fn add_common(meet: &Meet, points: &mut Vec<ManifoldPoint>) -> Result
     if !is_plain {
         return Ok(None);
     }
-    let lowest = meet.body.lowest(&normal, 0);
-    let Some(face) = most_parallel(polyhedron, lowest, &pose.rotate_back(&-normal)) else { return Ok(None) };
+    let Some(face) = most_parallel(polyhedron, meet.lowest, &pose.rotate_back(&-normal)) else { return Ok(None) };
     let down = pose.rotate(&polyhedron.faces[face as usize].normal);
     let cosines = [-down.dot(&normal), meet.triangle.up.dot(&normal)];
     let reference = if cosines[1] > cosines[0] { 1 } else { 0 };
@@ -264,7 +265,8 @@ mod tests {
         near_hills(0xc0e, 240, |near, random| {
             let triangle = near.triangle;
             let normal = (triangle.up + random.vector() * 0.05).normalize();
-            let lowest = near.vertices.point(near.vertices.lowest(&normal, 0));
+            let vertex = near.vertices.lowest(&normal, 0);
+            let lowest = near.vertices.point(vertex);
             let gap = normal.dot(&(lowest - triangle.corners[0]));
             let contact = SignedDistance {
                 outcome: Outcome::Intersecting,
@@ -283,6 +285,7 @@ mod tests {
                 reach: near.reach,
                 triangle,
                 contact: &contact,
+                lowest: vertex,
                 is_over: true,
                 keeps_inner: true,
                 max_distance,

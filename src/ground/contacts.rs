@@ -5,6 +5,7 @@ use super::allowed::NormalSearch;
 use super::answer::GroundContacts;
 use super::common::{Meet, add_common};
 use super::corner::{FaceVerdict, behind_face};
+use super::facing::FacingFaces;
 use super::footing::{Footing, Stand};
 use super::grouping::{group, least_gap};
 use super::inside::triangle_over;
@@ -74,7 +75,7 @@ pub(crate) fn add_contacts(
         let reach = GroundReach::new(body, ground)?;
         let (bounds, enough) = (reach.bounds, config.max_distance / reach.stretch);
         let within = PairConfig { max_distance: config.max_distance, ..PairConfig::default() };
-        let Room { triangle, touches, points, vertices, passed, .. } = &mut found.room;
+        let Room { triangle, touches, points, vertices, passed, facing, .. } = &mut found.room;
         let vertices = Vertices::place(body, vertices)?;
         touches.clear();
         points.clear();
@@ -98,6 +99,7 @@ pub(crate) fn add_contacts(
             enough,
             lowest: 0,
             footing: Footing::new(reach.size),
+            facing: FacingFaces::new(facing),
             passed,
             passed_through: false,
             looks_again: false,
@@ -130,6 +132,7 @@ struct Meeting<'a> {
     /// The vertex that was lowest over the last triangle.
     lowest: u32,
     footing: Footing,
+    facing: FacingFaces<'a>,
     /// Triangles inside a plane that no corner of the body is over, and whether the body may reach through one.
     passed: &'a mut Vec<u32>,
     passed_through: bool,
@@ -189,9 +192,9 @@ impl Meeting<'_> {
                     self.touch(placed, &nearest, true, None)?;
                     return Ok(());
                 }
-                (Some(nearest), search.best(self.lowest))
+                (Some(nearest), search.best(self.lowest, &mut self.facing)?)
             }
-            TriangleFinding::Meeting => (None, search.best(self.lowest)),
+            TriangleFinding::Meeting => (None, search.best(self.lowest, &mut self.facing)?),
             TriangleFinding::Through => (None, search.own(self.lowest)),
         };
         let gap = best.gap - self.body.shape.swept_radius();
@@ -309,7 +312,9 @@ impl Meeting<'_> {
         let first_point = self.points.len();
         let (body, reach, max_distance) = (&self.vertices, self.reach, self.all.max_distance);
         let keeps_inner = self.keeps_inner(triangle);
-        let meet = Meet { body, reach, triangle, contact, is_over, keeps_inner, max_distance };
+        let normal = Vector::from(contact.normal);
+        let lowest = body.lowest(&normal, 0);
+        let meet = Meet { body, reach, triangle, contact, lowest, is_over, keeps_inner, max_distance };
         let reference = match add_common(&meet, self.points)? {
             Some(reference) => reference,
             None => {
@@ -333,9 +338,18 @@ impl Meeting<'_> {
         }
         let (lower, upper) = least_gap(&self.points[first_point..]);
         let count = (self.points.len() - first_point) as u32;
-        let &SignedDistance { outcome, normal, .. } = contact;
-        let manifold = Manifold { outcome, reference, lower, upper, normal, point_count: count, found_count: count };
-        push(self.touches, TriangleTouch { triangle: triangle.own.label, manifold, first_point, beside })?;
+        let outcome = contact.outcome;
+        let manifold = Manifold {
+            outcome,
+            reference,
+            lower,
+            upper,
+            normal: contact.normal,
+            point_count: count,
+            found_count: count,
+        };
+        let lowest = normal.dot(&self.vertices.point(lowest));
+        push(self.touches, TriangleTouch { triangle: triangle.own.label, manifold, first_point, lowest, beside })?;
         Ok(true)
     }
 
@@ -404,9 +418,16 @@ impl Meeting<'_> {
         for at in first..self.touches.len() {
             let touch = &self.touches[at];
             let (normal, deep) = (Vector::from(touch.manifold.normal), -touch.least_gap()[1]);
+            let mut corners = None;
             let is_needless = self.touches[first..kept].iter().any(|other| {
                 let is_back = normal.dot(&Vector::from(other.manifold.normal)) < 0.0;
-                (deep > 2.0 * most_deep(other) || is_back && deep > 0.0) && self.frees(other, touch.triangle)
+                (deep > 2.0 * most_deep(other) || is_back && deep > 0.0) && {
+                    let corners = corners.get_or_insert_with(|| {
+                        let points = self.ground.ground.layout().points(touch.triangle);
+                        points.map(|corner| self.ground.pose.transform(&corner))
+                    });
+                    self.frees(other, corners)
+                }
             });
             if !is_needless {
                 self.touches.swap(kept, at);
@@ -416,13 +437,11 @@ impl Meeting<'_> {
         self.touches.truncate(kept);
     }
 
-    /// Whether a body that a contact has pushed out is clear of a triangle along the contact's normal.
-    fn frees(&self, contact: &TriangleTouch, triangle: u32) -> bool {
+    /// Whether a body that a contact has pushed out is clear of a triangle, along the contact's normal.
+    fn frees(&self, contact: &TriangleTouch, corners: &[Vector; 3]) -> bool {
         let normal = Vector::from(contact.manifold.normal);
-        let vertex = self.vertices.lowest(&normal, 0);
-        let low = normal.dot(&self.vertices.point(vertex)) - self.body.shape.swept_radius();
-        let corners = self.ground.ground.triangle(triangle).corners;
-        let heights = corners.map(|corner| normal.dot(&self.ground.pose.transform(&corner)));
+        let low = contact.lowest - self.body.shape.swept_radius();
+        let heights = corners.map(|corner| normal.dot(&corner));
         let high = heights.into_iter().fold(f64::NEG_INFINITY, f64::max);
         low - contact.least_gap()[0] >= high - TILT * self.body.shape.polyhedron().radius
     }

@@ -25,6 +25,7 @@ mod footing;
 mod corner;
 mod simplex;
 mod common;
+mod facing;
 mod allowed;
 mod inside;
 mod contacts;

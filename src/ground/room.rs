@@ -13,6 +13,8 @@ pub(super) struct Room {
     pub vertices: Vec<PointBlock>,
     /// Triangles inside a plane that no corner of the body is over.
     pub passed: Vec<u32>,
+    /// Faces of the body that look down.
+    pub facing: Vec<u32>,
     /// The touches that a walk has found, triangle by triangle …
     pub touches: Vec<TriangleTouch>,
     /// … and the points of it.
@@ -26,6 +28,8 @@ pub(super) struct TriangleTouch {
     pub triangle: u32,
     pub manifold: Manifold,
     pub first_point: usize,
+    /// How high the body's lowest vertex is along the normal.
+    pub lowest: f64,
     /// The body's lowest point, if it is beside the triangle: so deep it is in it.
     pub beside: Option<ManifoldPoint>,
 }
