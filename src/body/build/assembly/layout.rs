@@ -107,10 +107,10 @@ pub(super) fn edge_between(
 }
 
 /// The slack that a short edge of merged faces adds to a quick look. Its vertices are in the faces' planes within
-/// [`crate::body::build::merge::merge_bound`], so it leans out of them by s = |n·ê| of up to 16uρ over its length. A quick look takes
-/// for the cone of the normals the directions across the edge between the normals' parts across it, n − (n·ê)ê. As combinations
-/// of the normals these miss by s each, and no point of the body is farther from the edge than 2ρ. The looks allow for the lean
-/// of a triangle's edge by rounding: the product is right to 3u, and s up to 5u is within the 12u that they have for this.
+/// [`merge_bound`](crate::body::build::merge::merge_bound), so it leans out of them by s = |n·ê| of up to 16uρ over its length. A
+/// quick look takes for the cone of the normals the directions across the edge between the normals' parts across it, n − (n·ê)ê. As
+/// combinations of the normals these miss by s each, and no point of the body is farther from the edge than 2ρ. The looks allow for
+/// the lean of a triangle's edge by rounding: the product is right to 3u, and s up to 5u is within the 12u that they have for this.
 pub(super) fn slack_of_leaning(edge: &Edge, radius: f64) -> f64 {
     let along = plane_normal(&edge.planes, 0);
     let leaning = edge.normals.map(|normal| normal.dot(&along).abs()).into_iter().fold(0.0, f64::max);
