@@ -1,6 +1,6 @@
 /*
  * Objects of several pieces: those of SWIFT 1.x, whose pairs of pieces are listed one by one, and decompositions of SWIFT++,
- * which are one object with several contacts; copies of pieces, levels of detail, and decomposition files in all forms, damaged
+ * which are one object with one contact; copies of pieces, levels of detail, and decomposition files in all forms, damaged
  * ones as well.
  */
 #include "legacy_rod.h"
@@ -158,26 +158,22 @@ void decompositions(const Folder& folder)
         SWIFT_Real x, y, z;
         scene.Get_Center_Of_Mass(rod, x, y, z);
         CHECK(is_near(x, 0) && is_near(y, 0.5) && is_near(z, 0.5));
-        /* One object, one pair: the pieces are 2.5 and 1.5 away, the nearest first. */
+        /* One object, one pair, one contact: the pieces are 2.5 and 1.5 away. */
         move_to(scene, other, 3, 0.25, 0.75);
         int pairs, *ids, *counts, *types, *feature_ids;
         SWIFT_Real *distances, *points, *normals;
         CHECK(!scene.Query_Exact_Distance(false, SWIFT_INFINITY, pairs, &ids, &distances) && pairs == 1 && is_near(distances[0], 1.5));
         CHECK(!scene.Query_Contact_Determination(false, SWIFT_INFINITY, pairs, &ids, &counts, &distances, &points, &normals, &types,
                                                  &feature_ids));
-        CHECK(pairs == 1 && counts[0] == 2 && is_near(distances[0], 1.5) && is_near(distances[1], 2.5));
-        CHECK(is_near(points[0], 1) && is_near(points[6], 0) && is_near3(normals + 3, -1, 0, 0));
-        CHECK(scene.Get_Answer(1) != NULL && scene.Get_Answer(2) == NULL);
-        /* Numbers of the mesh that was decomposed; the face between the pieces has none. */
-        int at = 0;
-        for (int i = 0; i < 4; ++i) {
-            const int offset = file.has_maps ? 10 : 0;
-            if (i % 2 == 0 && types[i] == SWIFT_FACE) {
-                CHECK(i == 2 ? feature_ids[at] == -1 : feature_ids[at] >= 2 * offset + 18);
-            } else if (i % 2 == 0) {
-                CHECK(feature_ids[at] >= offset + (i == 2 ? 4 : 8) && feature_ids[at] < offset + (i == 2 ? 8 : 12));
-            }
-            at += types[i] == SWIFT_EDGE ? 2 : 1;
+        CHECK(pairs == 1 && counts[0] == 1 && is_near(distances[0], 1.5));
+        CHECK(is_near(points[0], 1) && is_near3(normals, -1, 0, 0));
+        CHECK(scene.Get_Answer(0) != NULL && scene.Get_Answer(1) == NULL);
+        /* Numbers of the mesh that was decomposed. */
+        const int offset = file.has_maps ? 10 : 0;
+        if (types[0] == SWIFT_FACE) {
+            CHECK(feature_ids[0] >= 2 * offset + 18 && feature_ids[0] < 2 * offset + 20);
+        } else {
+            CHECK(feature_ids[0] >= offset + 8 && feature_ids[0] < offset + 12);
         }
         int* pids;
         CHECK(!scene.Query_Contact_Determination(false, 10, pairs, &ids, &distances, NULL, NULL, &pids) && pairs == 1 && pids[0] == 0);
@@ -186,6 +182,8 @@ void decompositions(const Folder& folder)
         CHECK(scene.Query_Contact_Determination(false, SWIFT_INFINITY, pairs, &ids, &counts, &distances, &points, &normals, &types,
                                                 &feature_ids));
         CHECK(pairs == 1 && counts[0] == -1 && is_same(distances[0], -1));
+        swiftprox_depth_answer depth;
+        CHECK(scene.Get_Depth(0, depth) && is_near(depth.depth, 0.25));
         CHECK(scene.Query_Intersection(false, pairs, &ids) && pairs == 1);
         CHECK(scene.Query_Tolerance_Verification(false, 3, pairs, &ids) && pairs == 1);
 
@@ -202,7 +200,7 @@ void decompositions(const Folder& folder)
         CHECK(!scene.Query_Contact_Determination(false, 10, pairs, &ids, &distances, NULL, NULL, &pids) && pairs == 2);
         CHECK(is_near(distances[0], 1.5) && is_near(distances[1], 2.5) && pids[1] == 0 && pids[3] == 1 && pids[2] == 0);
         CHECK(!scene.Query_Contact_Determination(false, 10, pairs, &ids, &counts, &distances) && pairs == 2);
-        CHECK(counts[0] == 2 && counts[1] == 1);
+        CHECK(counts[0] == 1 && counts[1] == 1);
         const Rotation quarter(2, 2 * std::atan(1.0));
         CHECK(scene.Add_General_Object(path.c_str(), turned, true, quarter.m, right, 2, GAP, BOX_SETTING_CHOOSE, 0, 0));
         scene.Get_Center_Of_Mass(turned, x, y, z);
@@ -210,6 +208,19 @@ void decompositions(const Folder& folder)
         CHECK(scene.Add_Object(NULL, NULL, 0, 0, copy, false, quarter.m, left, 1, 0, 0, 0, NULL, turned));
         scene.Get_Center_Of_Mass(copy, x, y, z);
         CHECK(is_near(x, -2) && is_near(y, 1) && is_near(z, 1));
+
+        /* A copy of it is an object of pieces alone, and no piece beside others: pids would name several. */
+        Messages messages;
+        const int oids[2] = {-1, rod};
+        CHECK(scene.Add_Pieced_Object(NULL, NULL, NULL, NULL, 1, copy, false, NULL, NULL, NULL, NULL, NULL, NULL, NULL, &rod));
+        CHECK(copy == 6 && messages.take().empty());
+        CHECK(!scene.Add_Pieced_Object(vertices, faces, eight, twelve, 2, copy, false, NULL, NULL, NULL, NULL, NULL, NULL, NULL,
+                                       oids));
+        CHECK(copy == 6 && messages.has("Error (Add_Object obj 7 piece 1): a piece cannot be a copy of a decomposed object"));
+        scene.Deactivate();
+        scene.Activate(copy, other);
+        CHECK(scene.Query_Contact_Determination(false, 10, pairs, &ids, &distances, NULL, NULL, &pids) && pairs == 1);
+        CHECK(ids[0] == other && ids[1] == copy && pids[0] == 0 && pids[1] == 0);
     }
 }
 

@@ -72,7 +72,10 @@ public:
                             SWIFT_Real box_enl_rel = DEFAULT_BOX_ENLARGE_REL, SWIFT_Real box_enl_abs = DEFAULT_BOX_ENLARGE_ABS,
                             SWIFT_Real cube_aspect_ratio = DEFAULT_CUBE_ASPECT_RATIO);
 
-    /* Several convex pieces under one id; queries list pairs of pieces. Arrays that are NULL mean the default for all pieces. */
+    /*
+     * Several convex pieces under one id; queries list pairs of pieces. Arrays that are NULL mean the default for all pieces. A
+     * copy of a decomposed object may be the only piece, and no other.
+     */
     bool Add_Pieced_Object(const SWIFT_Real* const* vertices, const int* const* faces, const int* num_vertices,
                            const int* num_faces, int num_pieces, int& id, bool fixed = DEFAULT_FIXED,
                            const SWIFT_Orientation* orient = DEFAULT_ORIENTATIONS,
@@ -192,9 +195,8 @@ public:
                                     int& num_pairs, int** oids, SWIFT_Real** distances);
 
     /*
-     * SWIFT++: `num_contacts` contacts for each pair, which follow each other in the other arrays; -1 for an intersecting pair,
-     * which takes one place and four feature ids. Where neither object is a decomposition there is one contact; else the nearest is
-     * the first, and each is farther than those before it, by more than 1e-9 of the two radii: no point comes twice.
+     * SWIFT++: `num_contacts` is 1 for each pair, the nearest contact of the two, or -1 for an intersecting pair, which takes one
+     * place and four feature ids. SWIFT++ added what it had found on the way to the nearest, in the order of its trees.
      */
     bool Query_Contact_Determination(bool early_exit, SWIFT_Real tolerance, int& num_pairs, int** oids, int** num_contacts,
                                      SWIFT_Real** distances = NO_DISTANCES, SWIFT_Real** nearest_pts = NO_NEAREST_PTS,
@@ -219,8 +221,10 @@ public:
     /* With true, of a mesh added later that is refused otherwise the convex hull counts; face ids are -1 then. At first false. */
     void Set_Take_Hull(bool take_hull);
 
-    /* The scene, and the name of an object in it (null for no object), for calls of swiftprox that change neither objects nor
-     * pairs. */
+    /*
+     * The scene, and the name of an object in it (null for no object), for calls of swiftprox that change neither objects nor
+     * pairs. A decomposed object of several pieces is a compound there.
+     */
     swiftprox_scene* Get_Native_Scene() const;
     swiftprox_object_id Get_Native_Object(int id) const;
 

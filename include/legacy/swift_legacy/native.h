@@ -6,6 +6,7 @@
 #include <cstring>
 #include <limits>
 #include <swiftprox.h>
+#include <swiftprox/compound.h>
 #include <swiftprox/geometry.h>
 #include <swiftprox/scene.h>
 #include <swiftprox/tuning.h>

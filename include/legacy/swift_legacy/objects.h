@@ -128,31 +128,25 @@ private:
     }
 };
 
+/* Several parts are a piece each; one part of several pieces is a compound in the scene. */
 struct Object {
     swiftprox_object_id native;
     bool is_live;
     bool is_fixed;
     std::vector<Part> parts;
-    std::vector<Piece> pieces; /* of all parts, in the order in which the scene has them */
-    std::vector<int> part_of;  /* the part of each piece */
     bool has_boxes;
 
     Object() : native(), is_live(false), is_fixed(false), has_boxes(false) {}
 
-    /* Whether a part is made of several pieces. */
-    bool is_united() const
+    /* The part, and the geometry, of a piece that the scene names. */
+    int part_of(uint32_t piece) const
     {
-        return pieces.size() > parts.size();
+        return parts.size() == 1 ? 0 : static_cast<int>(piece);
     }
 
-    /* Takes the parts, which are empty then. */
-    void take(std::vector<Part>& from)
+    const Geometry& geometry_of(uint32_t piece) const
     {
-        parts.swap(from);
-        for (std::size_t part = 0; part < parts.size(); ++part) {
-            pieces.insert(pieces.end(), parts[part].pieces.begin(), parts[part].pieces.end());
-            part_of.insert(part_of.end(), parts[part].pieces.size(), static_cast<int>(part));
-        }
+        return parts.size() == 1 ? *parts[0].pieces[piece] : *parts[piece].pieces[0];
     }
 
     void place_boxes(const double* pose)
@@ -166,7 +160,7 @@ struct Object {
 
 class Objects {
 public:
-    Objects() : united_(0), moving_(0), are_ranked_(true) {}
+    Objects() : moving_(0), are_ranked_(true) {}
 
     bool has(int id) const
     {
@@ -207,8 +201,8 @@ public:
         created_.reserve(objects_.size());
     }
 
-    /* As the next object, one that has taken its parts. */
-    void add(swiftprox_object_id native, bool is_fixed, Object& prepared)
+    /* As the next object; it takes the parts, which are empty then. */
+    void add(swiftprox_object_id native, bool is_fixed, std::vector<Part>& parts)
     {
         const int id = next_id();
         Object& object = (*this)[id];
@@ -216,12 +210,9 @@ public:
         object.is_live = true;
         object.is_fixed = is_fixed;
         object.has_boxes = false;
-        object.parts.swap(prepared.parts);
-        object.pieces.swap(prepared.pieces);
-        object.part_of.swap(prepared.part_of);
+        object.parts.swap(parts);
         free_.pop_back();
         created_.push_back(id);
-        united_ += object.is_united() ? 1 : 0;
         moving_ += is_fixed ? 0 : 1;
         are_ranked_ = false;
     }
@@ -229,7 +220,6 @@ public:
     void remove(int id)
     {
         Object& object = (*this)[id];
-        united_ -= object.is_united() ? 1 : 0;
         moving_ -= object.is_fixed ? 0 : 1;
         object = Object();
         free_.push_back(id);
@@ -247,11 +237,6 @@ public:
     std::size_t moving_count() const
     {
         return moving_;
-    }
-
-    bool any_is_united() const
-    {
-        return united_ > 0;
     }
 
     void forget_boxes()
@@ -283,7 +268,6 @@ private:
     std::vector<int> free_;       /* the next one last */
     std::vector<int> created_;
     std::vector<int> ranks_;
-    int united_;
     std::size_t moving_;
     bool are_ranked_;
 };

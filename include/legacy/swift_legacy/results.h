@@ -114,17 +114,13 @@ struct Entry {
     }
 };
 
-/* Pieces of one part that find one point say distances that differ by rounding: by less than this part of the two parts' radii. */
-const double CONTACT_MARGIN = 1e-9;
-
 class Results {
 public:
     Results() : is_early_(false) {}
 
     void clear()
     {
-        nearest_.clear();
-        keep_nearest();
+        listed_.clear();
     }
 
     /*
@@ -133,22 +129,21 @@ public:
      */
     void take(const swiftprox_scene_answer& answer, const Objects& objects)
     {
-        keep_nearest();
         is_early_ = answer.found != NULL;
         if (is_early_) {
-            nearest_.assign(1, Entry(*answer.found));
+            listed_.assign(1, Entry(*answer.found));
             return;
         }
-        nearest_.resize(answer.count);
+        listed_.resize(answer.count);
         if (answer.count == 1) {
-            nearest_[0] = Entry(answer.pairs[0]);
+            listed_[0] = Entry(answer.pairs[0]);
             return;
         }
         ranks_.resize(answer.count);
         int before = 0;
         bool is_in_order = true;
         for (std::size_t i = 0; i < answer.count; ++i) {
-            nearest_[i] = Entry(answer.pairs[i]);
+            listed_[i] = Entry(answer.pairs[i]);
             ranks_[i] = objects.rank_of(static_cast<int>(answer.pairs[i].user_data2));
             is_in_order = is_in_order && before <= ranks_[i];
             before = ranks_[i];
@@ -160,92 +155,57 @@ public:
 
     std::vector<Entry>& listed()
     {
-        return nearest_;
-    }
-
-    /* Makes one entry of all pairs of pieces of the same two parts. */
-    void unite_parts(const Objects& objects)
-    {
-        std::vector<Entry> all;
-        all.swap(nearest_);
-        for (std::size_t begin = 0, end = 0; begin < all.size(); begin = end) {
-            const Object& object1 = objects[static_cast<int>(all[begin].found->user_data1)];
-            const Object& object2 = objects[static_cast<int>(all[begin].found->user_data2)];
-            while (end < all.size() && all[end].lower_id == all[begin].lower_id && all[end].higher_id == all[begin].higher_id) {
-                ++end;
-            }
-            const ByParts by_parts(object1, object2);
-            std::stable_sort(all.begin() + static_cast<std::ptrdiff_t>(begin), all.begin() + static_cast<std::ptrdiff_t>(end),
-                             by_parts);
-            for (std::size_t first = begin, last = begin; first < end; first = last) {
-                while (last < end && !by_parts(all[first], all[last])) {
-                    ++last;
-                }
-                unite(&all[first], &all[first] + (last - first), by_parts.margin(all[first]));
-            }
-        }
+        return listed_;
     }
 
     int count() const
     {
-        return is_early_ ? 0 : static_cast<int>(nearest_.size());
+        return is_early_ ? 0 : static_cast<int>(listed_.size());
     }
 
     /* Entry k of the distances; null where there is none. */
     const Found* found(int k) const
     {
-        const std::vector<Entry>& shown = contacts();
-        return is_early_ || k < 0 || static_cast<std::size_t>(k) >= shown.size() ? NULL : shown[static_cast<std::size_t>(k)].found;
-    }
-
-    /* Queries that do not tell contacts apart list the nearest one of each pair. */
-    void keep_nearest()
-    {
-        contacts_.clear();
-        contact_counts_.clear();
+        const bool is_there = !is_early_ && k >= 0 && static_cast<std::size_t>(k) < listed_.size();
+        return is_there ? listed_[static_cast<std::size_t>(k)].found : NULL;
     }
 
     int* write_ids()
     {
-        int* ids = room_in(ids_, 2 * nearest_.size());
-        for (std::size_t k = 0; k < nearest_.size(); ++k) {
-            ids[2 * k] = nearest_[k].lower_id;
-            ids[2 * k + 1] = nearest_[k].higher_id;
+        int* ids = room_in(ids_, 2 * listed_.size());
+        for (std::size_t k = 0; k < listed_.size(); ++k) {
+            ids[2 * k] = listed_[k].lower_id;
+            ids[2 * k + 1] = listed_[k].higher_id;
         }
         return ids;
     }
 
     int* write_parts(const Objects& objects)
     {
-        const std::vector<Entry>& shown = contacts();
-        int* parts = room_in(parts_, 2 * shown.size());
-        for (std::size_t k = 0; k < shown.size(); ++k) {
-            const Found& found = *shown[k].found;
+        int* parts = room_in(parts_, 2 * listed_.size());
+        for (std::size_t k = 0; k < listed_.size(); ++k) {
+            const Found& found = *listed_[k].found;
             const std::size_t first = 2 * k + (is_swapped(found) ? 1 : 0);
-            parts[first] = objects[static_cast<int>(found.user_data1)].part_of[found.piece1];
-            parts[4 * k + 1 - first] = objects[static_cast<int>(found.user_data2)].part_of[found.piece2];
+            parts[first] = objects[static_cast<int>(found.user_data1)].part_of(found.piece1);
+            parts[4 * k + 1 - first] = objects[static_cast<int>(found.user_data2)].part_of(found.piece2);
         }
         return parts;
     }
 
     int* write_counts()
     {
-        if (!contacts_.empty()) {
-            return begin_of(contact_counts_);
-        }
-        int* counts = room_in(counts_, nearest_.size());
-        for (std::size_t k = 0; k < nearest_.size(); ++k) {
-            counts[k] = nearest_[k].distance < 0 ? -1 : 1;
+        int* counts = room_in(counts_, listed_.size());
+        for (std::size_t k = 0; k < listed_.size(); ++k) {
+            counts[k] = listed_[k].distance < 0 ? -1 : 1;
         }
         return counts;
     }
 
     SWIFT_Real* write_distances()
     {
-        const std::vector<Entry>& shown = contacts();
-        SWIFT_Real* distances = room_in(distances_, shown.size());
-        for (std::size_t k = 0; k < shown.size(); ++k) {
-            distances[k] = shown[k].distance;
+        SWIFT_Real* distances = room_in(distances_, listed_.size());
+        for (std::size_t k = 0; k < listed_.size(); ++k) {
+            distances[k] = listed_[k].distance;
         }
         return distances;
     }
@@ -253,11 +213,11 @@ public:
     /* The lower ends of the intervals, and what the upper ends are beyond them. */
     SWIFT_Real* write_lower_ends(SWIFT_Real** errors)
     {
-        SWIFT_Real* lower_ends = room_in(distances_, nearest_.size());
-        SWIFT_Real* widths = room_in(errors_, nearest_.size());
-        for (std::size_t k = 0; k < nearest_.size(); ++k) {
-            const swiftprox_pair_answer& answer = nearest_[k].found->answer;
-            if (nearest_[k].distance < 0) {
+        SWIFT_Real* lower_ends = room_in(distances_, listed_.size());
+        SWIFT_Real* widths = room_in(errors_, listed_.size());
+        for (std::size_t k = 0; k < listed_.size(); ++k) {
+            const swiftprox_pair_answer& answer = listed_[k].found->answer;
+            if (listed_[k].distance < 0) {
                 lower_ends[k] = -1;
                 widths[k] = 0;
             } else {
@@ -274,16 +234,15 @@ public:
     /* Distances, points and normals, those of which the pointer is not null, in one go: what is found is large. */
     void write_contacts(SWIFT_Real** distances, SWIFT_Real** points, SWIFT_Real** normals)
     {
-        const std::vector<Entry>& shown = contacts();
-        const std::size_t count = shown.size();
+        const std::size_t count = listed_.size();
         SWIFT_Real* distance = room_for(distances, count, distances_);
         SWIFT_Real* point = room_for(points, 6 * count, points_);
         SWIFT_Real* normal = room_for(normals, 3 * count, normals_);
         for (std::size_t k = 0; k < count; ++k) {
-            const swiftprox_pair_answer& answer = shown[k].found->answer;
-            const bool swaps = is_swapped(*shown[k].found);
+            const swiftprox_pair_answer& answer = listed_[k].found->answer;
+            const bool swaps = is_swapped(*listed_[k].found);
             if (distance != NULL) {
-                *distance++ = shown[k].distance;
+                *distance++ = listed_[k].distance;
             }
             if (point != NULL) {
                 copy_scaled(swaps ? answer.local2 : answer.local1, 1, point);
@@ -300,14 +259,13 @@ public:
     /* Each pointer may be null. */
     void write_features(const Objects& objects, IntersectingFeatures intersecting, int** types, int** ids)
     {
-        const std::vector<Entry>& shown = contacts();
         feature_types_.clear();
         feature_ids_.clear();
-        for (std::size_t k = 0; k < shown.size(); ++k) {
-            const Found& found = *shown[k].found;
+        for (std::size_t k = 0; k < listed_.size(); ++k) {
+            const Found& found = *listed_[k].found;
             const swiftprox_pair_answer& answer = found.answer;
-            const Geometry& geometry1 = *objects[static_cast<int>(found.user_data1)].pieces[found.piece1];
-            const Geometry& geometry2 = *objects[static_cast<int>(found.user_data2)].pieces[found.piece2];
+            const Geometry& geometry1 = objects[static_cast<int>(found.user_data1)].geometry_of(found.piece1);
+            const Geometry& geometry2 = objects[static_cast<int>(found.user_data2)].geometry_of(found.piece2);
             FeaturePair pair = {{FeatureSide(geometry1, answer.feature1, answer.local1),
                                  FeatureSide(geometry2, answer.feature2, answer.local2)}};
             if (is_swapped(found)) {
@@ -333,39 +291,12 @@ public:
 
 private:
     bool is_early_; /* the query ended at the one entry that there is */
-    std::vector<Entry> nearest_;  /* one for each listed pair */
-    std::vector<Entry> contacts_; /* those of all pairs, where pairs have several; else empty */
-    std::vector<int> contact_counts_;
-    std::vector<Entry> sorted_;   /* these three for sorting */
+    std::vector<Entry> listed_;
+    std::vector<Entry> sorted_; /* these three for sorting */
     std::vector<int> ranks_;
     std::vector<std::size_t> places_;
     std::vector<int> ids_, parts_, counts_, feature_types_, feature_ids_;
     std::vector<SWIFT_Real> distances_, errors_, points_, normals_;
-
-    struct ByParts {
-        const Object* object1;
-        const Object* object2;
-
-        ByParts(const Object& first, const Object& second) : object1(&first), object2(&second) {}
-
-        std::pair<int, int> parts(const Entry& entry) const
-        {
-            return std::make_pair(object1->part_of[entry.found->piece1], object2->part_of[entry.found->piece2]);
-        }
-
-        bool operator()(const Entry& a, const Entry& b) const
-        {
-            return parts(a) < parts(b);
-        }
-
-        /* By how much a contact has to be nearer than another one of its two parts not to be the same. */
-        double margin(const Entry& entry) const
-        {
-            const std::pair<int, int> of = parts(entry);
-            return CONTACT_MARGIN * (object1->parts[static_cast<std::size_t>(of.first)].radius +
-                                     object2->parts[static_cast<std::size_t>(of.second)].radius);
-        }
-    };
 
     /* By counting; entries of one rank stay as they are. */
     void sort_by_rank(std::size_t rank_count)
@@ -377,41 +308,11 @@ private:
         for (std::size_t rank = 1; rank <= rank_count; ++rank) {
             places_[rank] += places_[rank - 1];
         }
-        sorted_.resize(nearest_.size());
+        sorted_.resize(listed_.size());
         for (std::size_t i = 0; i < ranks_.size(); ++i) {
-            sorted_[places_[static_cast<std::size_t>(ranks_[i])]++] = nearest_[i];
+            sorted_[places_[static_cast<std::size_t>(ranks_[i])]++] = listed_[i];
         }
-        nearest_.swap(sorted_);
-    }
-
-    const std::vector<Entry>& contacts() const
-    {
-        return contacts_.empty() ? nearest_ : contacts_;
-    }
-
-    /* Adds an entry: the first intersecting pair of pieces, else those that are nearer than all before them, the nearest first. */
-    void unite(const Entry* begin, const Entry* end, double margin)
-    {
-        const std::size_t before = contacts_.size();
-        for (const Entry* entry = begin; entry != end; ++entry) {
-            if (entry->distance < 0) {
-                contacts_.resize(before);
-                contacts_.push_back(*entry);
-                contact_counts_.push_back(-1);
-                nearest_.push_back(*entry);
-                return;
-            }
-            const bool is_first = contacts_.size() == before;
-            const double gain = is_first ? 0 : contacts_.back().found->answer.distance - entry->found->answer.distance;
-            if (is_first || gain > margin) {
-                contacts_.push_back(*entry);
-            } else if (gain > 0) {
-                contacts_.back() = *entry;
-            }
-        }
-        std::reverse(contacts_.begin() + static_cast<std::ptrdiff_t>(before), contacts_.end());
-        contact_counts_.push_back(static_cast<int>(contacts_.size() - before));
-        nearest_.push_back(contacts_[before]);
+        listed_.swap(sorted_);
     }
 
     /* An array of so many numbers, where it is asked for. */

@@ -34,14 +34,14 @@ inline bool SWIFT_Scene::has_object(int id, const char* method) const
     return has;
 }
 
-/* Hands the parts over to the scene. */
+/* Hands the parts over to the scene. Several pieces of one part are a compound: pairs of objects have one answer, by its tree. */
 inline bool SWIFT_Scene::insert(const char* method, std::vector<swift_legacy::Part>& parts, bool fixed, int& id)
 {
-    swift_legacy::Object object;
-    object.take(parts);
     std::vector<const swiftprox_shape*> shapes;
-    for (std::size_t piece = 0; piece < object.pieces.size(); ++piece) {
-        shapes.push_back(object.pieces[piece]->shape);
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        for (std::size_t piece = 0; piece < parts[i].pieces.size(); ++piece) {
+            shapes.push_back(parts[i].pieces[piece]->shape);
+        }
     }
     objects_.reserve();
     const int next = objects_.next_id();
@@ -49,12 +49,20 @@ inline bool SWIFT_Scene::insert(const char* method, std::vector<swift_legacy::Pa
     options.fixed = fixed ? 1 : 0;
     options.user_data = static_cast<uint64_t>(next);
     swiftprox_object_id native;
-    const swiftprox_status status = swiftprox_scene_add_object(scene_, &shapes[0], shapes.size(), &options, &native);
+    swiftprox_status status = SWIFTPROX_OK;
+    if (shapes.size() > parts.size()) {
+        status = swiftprox_compound_create(&shapes[0], NULL, shapes.size(), &options.compound);
+        shapes.clear();
+    }
+    if (status == SWIFTPROX_OK) {
+        status = swiftprox_scene_add_object(scene_, shapes.empty() ? NULL : &shapes[0], shapes.size(), &options, &native);
+        swiftprox_compound_release(options.compound);
+    }
     if (status != SWIFTPROX_OK) {
         swift_legacy::report_failure(swift_legacy::about_piece(method, next, 0));
         return false;
     }
-    objects_.add(native, fixed, object);
+    objects_.add(native, fixed, parts);
     id = next;
     return true;
 }
@@ -80,6 +88,11 @@ inline bool SWIFT_Scene::add_pieces(const std::vector<swift_legacy::LevelArrays>
     for (std::size_t i = 0; i < pieces.size(); ++i) {
         const int piece = static_cast<int>(i);
         if (!builder.build(piece, pieces[i], arrays.source(piece), arrays.settings(piece), parts[i])) {
+            return false;
+        }
+        if (parts[i].pieces.size() > 1 && parts.size() > 1) {
+            swift_legacy::report(swift_legacy::about_piece(adder.method, objects_.next_id(), piece) +
+                                 "a piece cannot be a copy of a decomposed object, unless it is the only one");
             return false;
         }
     }
@@ -266,7 +279,7 @@ inline bool SWIFT_Scene::Copy_Object(int copy_oid, int& id)
         return false;
     }
     objects_.reserve();
-    swift_legacy::Object copy = objects_[copy_oid];
+    std::vector<swift_legacy::Part> parts = objects_[copy_oid].parts;
     const int next = objects_.next_id();
     swiftprox_object_id native;
     if (swiftprox_scene_copy_object(scene_, objects_[copy_oid].native, &native) != SWIFTPROX_OK) {
@@ -278,7 +291,7 @@ inline bool SWIFT_Scene::Copy_Object(int copy_oid, int& id)
     check(swiftprox_scene_get_object_info(scene_, native, &info), "Copy_Object");
     info.user_data = static_cast<uint64_t>(next);
     check(swiftprox_scene_set_object_info(scene_, native, &info), "Copy_Object");
-    objects_.add(native, objects_[copy_oid].is_fixed, copy);
+    objects_.add(native, objects_[copy_oid].is_fixed, parts);
     id = next;
     return true;
 }
@@ -300,8 +313,11 @@ inline void SWIFT_Scene::Get_Center_Of_Mass(int id, SWIFT_Real& x, SWIFT_Real& y
         return;
     }
     swift_legacy::SurfaceCentroid centroid;
-    for (std::size_t i = 0; i < objects_[id].pieces.size(); ++i) {
-        centroid.add(objects_[id].pieces[i]->body());
+    const std::vector<swift_legacy::Part>& parts = objects_[id].parts;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        for (std::size_t piece = 0; piece < parts[i].pieces.size(); ++piece) {
+            centroid.add(parts[i].pieces[piece]->body());
+        }
     }
     x = static_cast<SWIFT_Real>(centroid[0]);
     y = static_cast<SWIFT_Real>(centroid[1]);

@@ -141,7 +141,7 @@ inline void SWIFT_Scene::keep_overlapping_boxes()
 inline const swift_legacy::Part& SWIFT_Scene::part(uint64_t id, uint32_t piece) const
 {
     const swift_legacy::Object& object = objects_[static_cast<int>(id)];
-    return object.parts[static_cast<std::size_t>(object.part_of[piece])];
+    return object.parts[static_cast<std::size_t>(object.part_of(piece))];
 }
 
 /* Asks, and lists what is found; true if a tested pair intersects. After a failure nothing is listed. */
@@ -172,9 +172,6 @@ inline bool SWIFT_Scene::ask(const swift_legacy::Question& question, int& num_pa
     if (lists_by_boxes) {
         keep_overlapping_boxes();
     }
-    if (objects_.any_is_united()) {
-        results_.unite_parts(objects_);
-    }
     num_pairs = results_.count();
     if (oids != NULL) {
         *oids = results_.write_ids();
@@ -186,7 +183,6 @@ inline bool SWIFT_Scene::Query_Intersection(bool early_exit, int& num_pairs, int
 {
     const swift_legacy::Question question(swiftprox_scene_query_intersection, early_exit, 0);
     const bool intersects = ask(question, num_pairs, oids);
-    results_.keep_nearest();
     return intersects;
 }
 
@@ -196,7 +192,6 @@ inline bool SWIFT_Scene::Query_Tolerance_Verification(bool early_exit, SWIFT_Rea
     const swift_legacy::Question question(swiftprox_scene_query_distance, false,
                                           swift_legacy::native_tolerance(tolerance, swift_legacy::BOUND_EXCLUDED));
     ask(question, num_pairs, oids);
-    results_.keep_nearest();
     const bool is_any_near = num_pairs > 0;
     if (early_exit) {
         results_.clear();
@@ -212,7 +207,6 @@ inline bool SWIFT_Scene::Query_Exact_Distance(bool early_exit, SWIFT_Real tolera
     const swift_legacy::Question question(swiftprox_scene_query_distance, early_exit,
                                           swift_legacy::native_tolerance(tolerance, bound));
     const bool intersects = ask(question, num_pairs, oids);
-    results_.keep_nearest();
     if (distances != NULL) {
         *distances = results_.write_distances();
     }
@@ -227,7 +221,6 @@ inline bool SWIFT_Scene::Query_Approximate_Distance(bool early_exit, SWIFT_Real 
                                     swift_legacy::native_tolerance(max_distance, swift_legacy::BOUND_INCLUDED));
     question.absolute_error = swift_legacy::native_error(error_tolerance);
     const bool intersects = ask(question, num_pairs, oids);
-    results_.keep_nearest();
     SWIFT_Real* lower_ends = results_.write_lower_ends(errors);
     if (distances != NULL) {
         *distances = lower_ends;
@@ -242,7 +235,6 @@ inline bool SWIFT_Scene::Query_Contact_Determination(bool early_exit, SWIFT_Real
     const swift_legacy::Question question(swiftprox_scene_query_contact, early_exit,
                                           swift_legacy::native_tolerance(tolerance, swift_legacy::BOUND_INCLUDED));
     const bool intersects = ask(question, num_pairs, oids);
-    results_.keep_nearest();
     if (pids != NULL) {
         *pids = results_.write_parts(objects_);
     }
@@ -260,7 +252,6 @@ inline bool SWIFT_Scene::Query_Approximate_Distance(bool early_exit, SWIFT_Real 
     question.absolute_error = swift_legacy::native_error(abs_error);
     question.relative_error = swift_legacy::native_error(rel_error);
     const bool intersects = ask(question, num_pairs, oids);
-    results_.keep_nearest();
     if (distances != NULL) {
         *distances = results_.write_distances();
     }
@@ -306,17 +297,17 @@ inline bool SWIFT_Scene::Get_Depth(int k, swiftprox_depth_answer& depth) const
     }
     const swiftprox_object_id ids[2] = {found->object1, found->object2};
     const uint32_t pieces[2] = {found->piece1, found->piece2};
-    const swiftprox_shape* shapes[2];
     swiftprox_object_info infos[2];
+    swiftprox_placed objects[2];
     for (int side = 0; side < 2; ++side) {
         infos[side].struct_size = sizeof infos[side];
-        if (swiftprox_scene_get_piece(scene_, ids[side], pieces[side], &shapes[side]) != SWIFTPROX_OK ||
-            swiftprox_scene_get_object_info(scene_, ids[side], &infos[side]) != SWIFTPROX_OK) {
+        if (swiftprox_scene_get_object_info(scene_, ids[side], &infos[side]) != SWIFTPROX_OK) {
             swift_legacy::report_failure_of("Get_Depth");
             return false;
         }
+        objects[side].shape = objects_[static_cast<int>(infos[side].user_data)].geometry_of(pieces[side]).shape;
+        objects[side].pose = infos[side].pose;
     }
-    const swiftprox_placed objects[2] = {{shapes[0], infos[0].pose}, {shapes[1], infos[1].pose}};
     swiftprox_depth_cache cold;
     std::memset(&cold, 0, sizeof cold);
     const swiftprox_status status = swiftprox_pair_depth(objects[0], objects[1], &cold, NULL, &depth);
