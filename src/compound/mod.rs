@@ -32,7 +32,7 @@ pub use answer::{
 pub(crate) use between::check_pose;
 pub use body::{Compound, Piece};
 pub use cache::CompoundCache;
-pub(crate) use cache::GrowingCache;
+pub(crate) use cache::{GrowingCache, PieceCaches};
 pub(crate) use cast::cast_pieces;
 pub use cast::{cast, verify_cast};
 pub use contacts::contacts;

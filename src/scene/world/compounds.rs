@@ -4,10 +4,11 @@
 use crate::base::error::{Error, Result};
 use crate::base::math::Pose;
 use crate::compound::{
-    self, Compound, CompoundAnswer, GrowingCache, MORE, PlacedPieces, SinglePiece, near_pieces, with_pieces,
+    self, Compound, CompoundAnswer, GrowingCache, MORE, PieceCaches, PlacedPieces, SinglePiece, near_pieces,
+    with_pieces,
 };
 use crate::ground::Ground;
-use crate::pair::{self, Outcome, PairAnswer, PairCache, PairConfig, Placed, Query};
+use crate::pair::{self, Outcome, PairAnswer, PairConfig, Placed, Query};
 use crate::scene::world::grounds::GroundPair;
 use crate::shape::Shape;
 
@@ -53,8 +54,7 @@ impl<'a> CompoundPair<'a> {
             *answer = found.answer;
             let pieces = [found.piece1, found.piece2];
             if query == Query::Contact && answer.outcome == Outcome::Intersecting {
-                let mut cold = PairCache::default();
-                with_pieces(bodies, pieces, |placed| pair::contact(placed, &mut cold, &exact, answer))?;
+                with_pieces(bodies, pieces, |placed| pair::contact(placed, cache.of(pieces), &exact, answer))?;
             }
             Ok(self.named(pieces))
         })

@@ -1,4 +1,4 @@
-/* A body of convex pieces from files, and a ball that falls on it:  compound FILE ...
+/* A body of convex pieces from files, and a ball that falls on it:  pieces FILE ...
  *
  * Each group of an OBJ file is a piece, as CoACD and V-HACD write them. An OBJ file without groups is one, and so is any other
  * mesh: the files of a collision folder of URDF or MJCF are the pieces of one body. */
@@ -19,7 +19,7 @@ static size_t piece_count;
 static void demand(int is_good, const char *what, const char *why)
 {
     if (!is_good) {
-        fprintf(stderr, "compound: %s: %s\n", what, why);
+        fprintf(stderr, "pieces: %s: %s\n", what, why);
         exit(EXIT_FAILURE);
     }
 }
