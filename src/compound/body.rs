@@ -161,6 +161,15 @@ impl Compound {
         self.pieces.len()
     }
 
+    /// The boxes of its tree so many levels below the root, for pictures: the middle and half of three edges of each.
+    ///
+    /// # Errors
+    /// [`Error::Memory`].
+    #[doc(hidden)]
+    pub fn tree_boxes(&self, level: usize) -> Result<Vec<[Vector; 4]>> {
+        self.tree.boxes(level)
+    }
+
     /// Memory held, in bytes; shapes do not count: others share them.
     pub fn bytes(&self) -> usize {
         size_of::<Compound>() + size_of_val(&self.pieces[..]) + self.tree.heap_bytes()

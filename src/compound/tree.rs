@@ -91,6 +91,25 @@ impl PieceTree {
         TreeView { nodes: &self.nodes, oriented: &self.oriented }
     }
 
+    /// The turned boxes so many levels below the root, and those of leaves above: the middle and half of three edges of each.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    pub fn boxes(&self, level: usize) -> Result<Vec<[Vector; 4]>> {
+        let (mut boxes, mut open) = (Vec::new(), vec![(0, level)]);
+        while let Some((number, below)) = open.pop() {
+            let node = &self.nodes[number as usize];
+            if below > 0 && node.piece().is_none() {
+                node.children().into_iter().try_for_each(|child| push(&mut open, (child, below - 1)))?;
+                continue;
+            }
+            let Oriented { fitted: Fitted { centre, half }, axes } = self.oriented[number as usize];
+            let of = |numbers: [f64; 4], by: f64| Vector::new(numbers[0], numbers[1], numbers[2]) * by;
+            push(&mut boxes, [of(centre, 1.0), of(axes[0], half[0]), of(axes[1], half[1]), of(axes[2], half[2])])?;
+        }
+        Ok(boxes)
+    }
+
     /// Memory held beside the struct, in bytes.
     pub fn heap_bytes(&self) -> usize {
         size_of_val(&self.nodes[..]) + size_of_val(&self.oriented[..])
