@@ -30,7 +30,8 @@ fn main() {
     Shim { peer: "callgrind", sources: &["src/callgrind.c"], flags: valgrind }.link(cc::Build::new().std("gnu99"));
     let packages = python_packages();
     let coal = packages.as_deref().and_then(coal);
-    Shim { peer: "coal", sources: &["src/peers/coal.cpp"], flags: coal }.link(cc::Build::new().cpp(true).std("c++17"));
+    Shim { peer: "coal", sources: &["src/peers/coal.cpp", "src/compound/coal.cpp"], flags: coal }
+        .link(cc::Build::new().cpp(true).std("c++17"));
     let mujoco = packages.as_deref().and_then(mujoco);
     Shim { peer: "mujoco", sources: &["src/peers/mujoco.c"], flags: mujoco }.link(cc::Build::new().std("c99"));
     Shim { peer: "jolt", sources: &["src/peers/jolt.cpp", "src/ground/jolt.cpp"], flags: jolt() }

@@ -1,104 +1,115 @@
-//! Verdicts and distances of two bodies of 80 to 500 pieces: this library's compounds beside parry3d-f64's, pose by pose.
+//! Bodies of 16 to 500 pieces: this library's compounds beside parry3d-f64's and, for two bodies, coal's. Verdicts and distances of
+//! two, contacts of two at rest, an arm among obstacles, and scenes in which all move.
 
+mod arm;
+mod coal;
+mod crowd;
 mod ours;
+mod pairs;
 mod parry;
+mod resting;
 mod scenes;
 
 use std::fmt::Write;
 use std::ops::Range;
 
-use testkit::PosePair;
-
 use crate::options::Options;
 use crate::report;
 use crate::timing::{Time, Timed, time_methods};
-use scenes::{MOTIONS, bodies};
 
-/// What is asked.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Asked {
-    Verdict,
-    Distance,
-}
-
-const ASKED: [(&str, Asked); 2] = [("verdict", Asked::Verdict), ("distance", Asked::Distance)];
-
-/// Two bodies, pose by pose.
-pub trait Bodies {
+/// A way to answer the questions of a scene, one by one.
+pub trait Method {
     fn name(&self) -> &'static str;
 
     /// Drops all coherence.
-    fn forget(&mut self);
+    fn forget(&mut self) {}
 
-    /// The distance; of a verdict 0 for bodies that intersect and 1 for others.
-    fn ask(&mut self, poses: &PosePair) -> f64;
+    /// The answer to question k: a distance, 0 for what meets and 1 for what does not, or a number of contacts.
+    fn ask(&mut self, k: usize) -> f64;
 }
 
-/// A method and the poses that it is asked about.
-struct Run<'a> {
-    method: Box<dyn Bodies + 'a>,
-    poses: &'a [PosePair],
-}
-
-impl Timed for Run<'_> {
+impl Timed for Box<dyn Method + '_> {
     fn forget(&mut self) {
-        self.method.forget();
+        (**self).forget();
     }
 
     fn run_backwards(&mut self, count: usize) {
-        for poses in self.poses[..count].iter().rev() {
-            std::hint::black_box(self.method.ask(poses));
+        for k in (0..count).rev() {
+            std::hint::black_box(self.ask(k));
         }
     }
 
     fn run(&mut self, queries: Range<usize>) {
-        for poses in &self.poses[queries] {
-            std::hint::black_box(self.method.ask(poses));
+        for k in queries {
+            std::hint::black_box(self.ask(k));
         }
     }
+}
+
+/// A question about a scene.
+#[derive(Clone, Copy)]
+struct Scene {
+    asked: &'static str,
+    bodies: &'static str,
+    /// Of one body.
+    pieces: usize,
+    motion: &'static str,
 }
 
 /// A method on a scene.
 struct Row {
-    asked: &'static str,
-    bodies: &'static str,
-    pieces: usize,
-    motion: &'static str,
+    scene: Scene,
     method: &'static str,
     count: usize,
-    hits: usize,
+    /// How many poses intersect, or how many pairs or contacts are listed.
+    found: usize,
     time: Time,
 }
 
-pub fn run(options: &Options) -> Result<(), String> {
-    let mut rows = Vec::new();
-    for (name, points) in bodies() {
-        let ours = ours::compound(&points).map_err(|error| format!("{name}: {error}"))?;
-        let theirs = parry::compound(&points).map_err(|error| format!("{name}: {error}"))?;
-        for motion in MOTIONS.iter().filter(|motion| scenes::has(name, motion)) {
-            let poses = scenes::poses(motion, &ours, options.count).map_err(|error| format!("{name}: {error}"))?;
-            for (asked, what) in ASKED {
-                let methods: [Box<dyn Bodies>; 2] =
-                    [Box::new(ours::Ours::new(&ours, what)), Box::new(parry::Parry::new(&theirs, what))];
-                let mut runs: Vec<Run> = methods.into_iter().map(|method| Run { method, poses: &poses }).collect();
-                let answers: Vec<Vec<f64>> =
-                    runs.iter_mut().map(|run| poses.iter().map(|poses| run.method.ask(poses)).collect()).collect();
-                check(&answers).map_err(|error| format!("{name}, {motion}, {asked}: {error}"))?;
-                let hits = answers[0].iter().filter(|answer| **answer == 0.0).count();
-                let times = time_methods(&mut runs, poses.len(), options.passes);
-                rows.extend(runs.iter().zip(times).map(|(run, time)| Row {
-                    asked,
-                    bodies: name,
-                    pieces: points.len(),
-                    motion,
-                    method: run.method.name(),
-                    count: poses.len(),
-                    hits,
-                    time,
-                }));
+impl Scene {
+    /// Asks and times all methods, the first of them this library. `found` counts what answers say.
+    ///
+    /// # Errors
+    /// An answer differs from this library's by more than `allowed`.
+    fn measure(
+        self,
+        mut methods: Vec<Box<dyn Method + '_>>,
+        [count, passes]: [usize; 2],
+        allowed: f64,
+        found: impl Fn(f64) -> usize,
+    ) -> Result<Vec<Row>, String> {
+        let answers: Vec<Vec<f64>> =
+            methods.iter_mut().map(|method| (0..count).map(|k| method.ask(k)).collect()).collect();
+        for (method, others) in methods.iter().zip(&answers) {
+            let mut pairs = answers[0].iter().zip(others).enumerate();
+            // A NaN differs, too.
+            if let Some((k, (a, b))) = pairs.find(|(_, (a, b))| !matches!((*a - *b).abs(), d if d <= allowed)) {
+                let Scene { asked, bodies, motion, .. } = self;
+                return Err(format!("{bodies}, {motion}, {asked} {k}: {a:e}, by {} {b:e}", method.name()));
             }
         }
+        let times = time_methods(&mut methods, count, passes);
+        let rows = methods.iter().zip(times).zip(answers).map(|((method, time), answers)| Row {
+            scene: self,
+            method: method.name(),
+            count,
+            found: answers.into_iter().map(&found).sum(),
+            time,
+        });
+        Ok(rows.collect())
     }
+}
+
+/// Of verdicts and distances: 1 for what meets.
+fn met(answer: f64) -> usize {
+    usize::from(answer == 0.0)
+}
+
+pub fn run(options: &Options) -> Result<(), String> {
+    let mut rows = pairs::measure(options)?;
+    rows.extend(resting::measure(options)?);
+    rows.extend(arm::measure(options)?);
+    rows.extend(crowd::measure(options)?);
     print(&rows);
     if let Some(path) = &options.csv {
         report::write(path, options.passes, &csv(&rows))?;
@@ -106,38 +117,24 @@ pub fn run(options: &Options) -> Result<(), String> {
     Ok(())
 }
 
-/// Answers agree where parry's rounding leaves any.
-fn check(answers: &[Vec<f64>]) -> Result<(), String> {
-    const ALLOWED: f64 = 1e-6;
-    let differs = |(k, (a, b)): (usize, (&f64, &f64))| ((a - b).abs() > ALLOWED).then(|| format!("{k}: {a:e}, {b:e}"));
-    match answers[0].iter().zip(&answers[1]).enumerate().find_map(differs) {
-        Some(found) => Err(format!("ours and parry's differ at pose {found}")),
-        None => Ok(()),
-    }
-}
-
 fn csv(rows: &[Row]) -> String {
-    let mut text = "asked,bodies,pieces,motion,method,count,hits,best_ns,median_ns\n".to_string();
-    for Row { asked, bodies, pieces, motion, method, count, hits, time: Time { best, median } } in rows {
-        let _ = writeln!(text, "{asked},{bodies},{pieces},{motion},{method},{count},{hits},{best:.1},{median:.1}");
+    let mut text = "asked,bodies,pieces,motion,method,count,found,best_ns,median_ns\n".to_string();
+    for Row { scene: Scene { asked, bodies, pieces, motion }, method, count, found, time } in rows {
+        let Time { best, median } = time;
+        let _ = writeln!(text, "{asked},{bodies},{pieces},{motion},{method},{count},{found},{best:.1},{median:.1}");
     }
     text
 }
 
-/// For each question and motion and for each two bodies: ns a query, and how many times as long parry takes.
+/// Of each method ns a query, and how many times as long as ours.
 fn print(rows: &[Row]) {
-    println!("| asked | motion | bodies | ours, ns | parry / ours |\n|---|---|---|--:|--:|");
-    for (asked, _) in ASKED {
-        for motion in MOTIONS {
-            let of_motion: Vec<&[Row]> =
-                rows.chunks(2).filter(|pair| pair[0].asked == asked && pair[0].motion == motion).collect();
-            let ratio = |pair: &[Row]| pair[1].time.best / pair[0].time.best;
-            for pair in &of_motion {
-                let own = pair[0].time.best;
-                println!("| {asked} | {motion} | {} | {own:.0} | {:.2} |", pair[0].bodies, ratio(pair));
-            }
-            let logarithms: f64 = of_motion.iter().map(|pair| ratio(pair).ln()).sum();
-            println!("| {asked} | {motion} | mean | | {:.2} |", (logarithms / of_motion.len() as f64).exp());
+    println!("| asked | motion | bodies | method | found | ns | times ours |\n|---|---|---|---|--:|--:|--:|");
+    let mut own = f64::NAN;
+    for Row { scene: Scene { asked, bodies, motion, .. }, method, found, time, .. } in rows {
+        if *method == ours::NAME {
+            own = time.best;
         }
+        let ratio = time.best / own;
+        println!("| {asked} | {motion} | {bodies} | {method} | {found} | {:.0} | {ratio:.2} |", time.best);
     }
 }

@@ -3,23 +3,33 @@
 use std::sync::Arc;
 
 use swiftprox::compound::{Compound, CompoundAnswer, CompoundCache, Piece, distance, intersection};
+use swiftprox::error::Error;
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{Outcome, PairConfig};
 use swiftprox::shape::{Shape, ShapeOptions};
 use testkit::PosePair;
 
-use super::{Asked, Bodies};
+use super::Method;
+use super::pairs::Asked;
 
-pub fn compound(pieces: &[Vec<Vector>]) -> Result<Compound, swiftprox::error::Error> {
-    let piece = |points: &Vec<Vector>| {
-        let shape = Arc::new(Shape::from_points(points, &ShapeOptions::default())?);
-        Ok(Piece { shape, pose: Pose::IDENTITY })
-    };
-    Compound::new(&pieces.iter().map(piece).collect::<Result<Vec<_>, swiftprox::error::Error>>()?)
+pub const NAME: &str = "swiftprox";
+
+pub fn shapes(pieces: &[Vec<Vector>]) -> Result<Vec<Arc<Shape>>, Error> {
+    pieces.iter().map(|points| Ok(Arc::new(Shape::from_points(points, &ShapeOptions::default())?))).collect()
+}
+
+pub fn compound(pieces: &[Vec<Vector>]) -> Result<Compound, Error> {
+    let piece = |shape| Piece { shape, pose: Pose::IDENTITY };
+    Compound::new(&shapes(pieces)?.into_iter().map(piece).collect::<Vec<_>>())
+}
+
+pub fn poses_of(pair: &PosePair) -> [Pose; 2] {
+    [0, 12].map(|first| Pose { rows: std::array::from_fn(|row| std::array::from_fn(|k| pair[first + 4 * row + k])) })
 }
 
 pub struct Ours<'a> {
     compound: &'a Compound,
+    poses: &'a [PosePair],
     asked: Asked,
     config: PairConfig,
     cache: CompoundCache,
@@ -27,26 +37,23 @@ pub struct Ours<'a> {
 }
 
 impl<'a> Ours<'a> {
-    pub fn new(compound: &'a Compound, asked: Asked) -> Ours<'a> {
+    pub fn new(compound: &'a Compound, poses: &'a [PosePair], asked: Asked) -> Ours<'a> {
         let (config, cache) = (PairConfig::default(), CompoundCache::default());
-        Ours { compound, asked, config, cache, answer: CompoundAnswer::default() }
+        Ours { compound, poses, asked, config, cache, answer: CompoundAnswer::default() }
     }
 }
 
-impl Bodies for Ours<'_> {
+impl Method for Ours<'_> {
     fn name(&self) -> &'static str {
-        "swiftprox"
+        NAME
     }
 
     fn forget(&mut self) {
         self.cache = CompoundCache::default();
     }
 
-    fn ask(&mut self, poses: &PosePair) -> f64 {
-        let pose = |first: usize| Pose {
-            rows: std::array::from_fn(|row| std::array::from_fn(|k| poses[first + 4 * row + k])),
-        };
-        let poses = [pose(0), pose(12)];
+    fn ask(&mut self, k: usize) -> f64 {
+        let poses = poses_of(&self.poses[k]);
         let bodies = [self.compound.at(&poses[0]), self.compound.at(&poses[1])];
         let query = if self.asked == Asked::Verdict { intersection } else { distance };
         if let Err(error) = query(bodies, &mut self.cache, &self.config, &mut self.answer) {

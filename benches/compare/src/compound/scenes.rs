@@ -10,14 +10,20 @@ use testkit::random::{Random, rotation};
 pub const MOTIONS: [&str; 6] = ["random", "near", "orbit", "slow", "far", "linked"];
 
 /// The corners of each piece.
-type Pieces = Vec<Vec<Vector>>;
+pub type Pieces = Vec<Vec<Vector>>;
 
 /// No body reaches farther from its origin.
 const RADIUS: f64 = 1.4;
 
 /// Each of them is asked against itself.
-pub fn bodies() -> [(&'static str, Pieces); 3] {
-    [("gear", gear(40)), ("torus-64", torus(64)), ("torus-500", torus(500))]
+pub fn bodies() -> [(&'static str, Pieces); 5] {
+    [
+        ("gear", gear(40)),
+        ("torus-16", torus(16)),
+        ("torus-64", torus(64)),
+        ("torus-180", torus(180)),
+        ("torus-500", torus(500)),
+    ]
 }
 
 /// Only rings can be linked.
@@ -32,19 +38,52 @@ fn sector([from, to]: [f64; 2], radii: [f64; 2], half_height: f64) -> Vec<Vector
     [at(from), at(to)].as_flattened().as_flattened().to_vec()
 }
 
-fn torus(count: usize) -> Pieces {
+pub fn torus(count: usize) -> Pieces {
     let turn = std::f64::consts::TAU / count as f64;
     (0..count).map(|k| sector([k as f64 * turn, (k + 1) as f64 * turn], [0.7, 1.3], 0.3)).collect()
 }
 
 /// Sectors of a hub, a tooth on each.
-fn gear(teeth: usize) -> Pieces {
+pub fn gear(teeth: usize) -> Pieces {
     let turn = std::f64::consts::TAU / teeth as f64;
     let at = |k: usize, step: f64| (k as f64 + step) * turn;
     let of_tooth = |k: usize| {
         [sector([at(k, 0.0), at(k, 1.0)], [0.5, 1.2], 0.15), sector([at(k, 0.25), at(k, 0.75)], [1.15, 1.38], 0.15)]
     };
     (0..teeth).flat_map(of_tooth).collect()
+}
+
+/// A seat on four legs, and a back, 1 wide and deep; its feet are 0.5 below the origin.
+pub fn chair() -> Pieces {
+    let cuboid = |low: [f64; 3], high: [f64; 3]| -> Vec<Vector> {
+        (0..8usize).map(|corner| Vector::from_fn(|k, _| if corner >> k & 1 == 0 { low[k] } else { high[k] })).collect()
+    };
+    let leg = |x: f64, y: f64| cuboid([x - 0.05, y - 0.05, -0.5], [x + 0.05, y + 0.05, 0.0]);
+    vec![
+        cuboid([-0.6, -0.6, 0.0], [0.6, 0.6, 0.08]),
+        cuboid([-0.6, 0.5, 0.08], [0.6, 0.6, 1.0]),
+        leg(-0.55, -0.55),
+        leg(0.55, -0.55),
+        leg(-0.55, 0.55),
+        leg(0.55, 0.55),
+    ]
+}
+
+/// A hollow link of 20 pieces along z, its foot at the origin.
+pub fn tube(radius: f64, bore: f64, length: f64) -> Pieces {
+    const SIDES: usize = 10;
+    let turn = std::f64::consts::TAU / SIDES as f64;
+    let half = |middle: f64| {
+        (0..SIDES).map(move |k| {
+            let piece = sector([k as f64 * turn, (k + 1) as f64 * turn], [bore, radius], 0.25 * length);
+            piece.into_iter().map(|point| point + Vector::z() * middle).collect()
+        })
+    };
+    half(0.25 * length).chain(half(0.75 * length)).collect()
+}
+
+pub fn scaled(pieces: &Pieces, factor: f64) -> Pieces {
+    pieces.iter().map(|points| points.iter().map(|point| point * factor).collect()).collect()
 }
 
 /// Body 2 stays at the origin, turned; body 1 moves.
