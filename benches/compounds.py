@@ -18,10 +18,9 @@ MOTIONS = {"random": "random", "near": "near", "orbit": "1°", "slow": "0.1°", 
 METHODS = {
     "swiftprox": Style("swiftprox", charts.BLUE),
     "parry": Style("parry3d, Compound", charts.RED, marker="s"),
-    "coal-pieces": Style("coal, pieces in managers", charts.GREEN, charts.DASHED, "^"),
-    "coal-tree": Style("coal, BVH of triangles", charts.ORANGE, charts.DOTTED, "v"),
+    "coal": Style("coal, pieces in managers", charts.GREEN, charts.DASHED, "^"),
 }
-PEERS = ("parry", "coal-pieces", "coal-tree")
+PEERS = ("parry", "coal")
 # Up to how many times as long a peer takes as we do.
 RATIOS = ((1, charts.BAD[1]), (2, charts.BAD[0]), (10, charts.GOOD), (float("inf"), charts.NAVY))
 
@@ -62,7 +61,7 @@ def ratio_cell(times, asked, bodies, motion):
         return Cell("–", "", charts.REFUSED)
     ratio, peer = min((times[asked, bodies, motion, peer] / own, peer) for peer in PEERS if (asked, bodies, motion, peer) in times)
     colour = next(colour for limit, colour in RATIOS if ratio < limit)
-    return Cell(digits(ratio), peer.split("-")[0] if asked == "verdict" else "", colour)
+    return Cell(digits(ratio), peer, colour)
 
 
 def digits(value):
@@ -80,7 +79,7 @@ def ratios(head, rows):
             lines.append(Line(f"{asked}, {bodies.split('-')[0]} of {pieces:.0f}", cells, gap_before=k == 0 and asked == "distance"))
     legend = [(colour, f"below {limit}" if limit < float("inf") else "more") for limit, colour in RATIOS]
     return Cells("Two bodies of convex pieces: time of the quickest other library over ours", machine(head),
-                 "of a verdict the quickest of parry's Compound, coal's pieces and coal's tree, which is named; of a distance of the first two",
+                 "beside it which that is: parry's Compound, or coal's managers with an object a piece",
                  [(name, "") for name in MOTIONS.values()], lines, legend, 140)
 
 
@@ -91,13 +90,12 @@ def pair_table(rows):
     for r in two:
         of.setdefault((r["asked"], r["motion"], r["method"]), []).append(r["best_ns"])
     mean = {key: geometric_mean(times) for key, times in of.items()}
-    lines = ["| motion | verdict, ns | parry | coal, pieces | coal, tree | distance, ns | parry | coal, pieces |",
-             "|---|" + "--:|" * 7]
+    lines = ["| motion | verdict, ns | parry | coal | distance, ns | parry | coal |", "|---|" + "--:|" * 6]
     for motion, name in MOTIONS.items():
         cells = [name]
-        for asked, peers in (("verdict", PEERS), ("distance", PEERS[:2])):
+        for asked in ("verdict", "distance"):
             own = mean[asked, motion, "swiftprox"]
-            found = [mean.get((asked, motion, peer)) for peer in peers]
+            found = [mean.get((asked, motion, peer)) for peer in PEERS]
             cells += [f"{own:,.0f}"] + [digits(time / own) if time else "–" for time in found]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)

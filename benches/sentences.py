@@ -84,24 +84,6 @@ def speed_table():
     return "\n".join(head + [f"| {name} | " + " | ".join(times[step] for times in columns) + " |" for step, name in MOTIONS.items()])
 
 
-COMPOUND_MOTIONS = {"random": "random", "near": "near", "orbit": "1°", "slow": "0.1°", "far": "far", "linked": "linked"}
-
-
-def compound_table():
-    """Geometric means over the bodies of verdicts and distances, and how many times as long parry takes."""
-    times = {}
-    for row in rows_of(COMPOUNDS):
-        times.setdefault((row["motion"], row["asked"], row["method"]), []).append(float(row["best_ns"]))
-    lines = ["| motion | verdict, ns (parry) | distance, ns (parry) |", "|---|--:|--:|"]
-    for motion, name in COMPOUND_MOTIONS.items():
-        def cell(asked):
-            ours, theirs = (geometric_mean(times[motion, asked, method]) for method in ("swiftprox", "parry"))
-            return f"{ours:,.0f} ({theirs / ours:.2f})"
-
-        lines.append(f"| {name} | {cell('verdict')} | {cell('distance')} |")
-    return "\n".join(lines)
-
-
 def commits():
     """Tables and meshes are of the same commit as queries."""
     if commit_of(BUILD) != commit_of(SPEED):
@@ -120,8 +102,7 @@ def check(page, said):
 def main():
     queries = f"<!-- table: queries -->\n{speed_table()}\n<!-- end -->"
     check("docs/benchmarks.md", (queries, *commits(), table_times(), mesh_times(), second_thread()))
-    check("docs/compounds.md",
-          (f"<!-- table: compounds -->\n{compound_table()}\n<!-- end -->", f"at {commit_of(COMPOUNDS)}"))
+    check("docs/compounds.md", (f"at {commit_of(COMPOUNDS)}",))
     check("docs/choosing.md", (f"<!-- table: queries -->\n{query_table()}\n<!-- end -->", f"<!-- table: depths -->\n{depth_table()}\n<!-- end -->"))
 
 

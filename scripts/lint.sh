@@ -17,6 +17,7 @@ python3 benches/figures.py --check benches/results/figures-*.csv
 python3 benches/plot.py --check
 python3 benches/casts.py --check benches/results/casts.csv
 python3 benches/grounds.py --check benches/results/grounds.csv benches/results/grounds-rays.csv
+python3 benches/compounds.py --check benches/results/compounds.csv
 python3 benches/engines.py --check benches/results/engines.csv
 python3 benches/bodies.py --check
 python3 benches/sentences.py

@@ -1,20 +1,17 @@
-// coal's verdicts and distances of two equal bodies of many pieces: by a manager for each, with a collision object a piece, or by its
-// hierarchy over all triangles. The second body stays, so that the first alone is moved, to where it is seen from the second.
+// coal's verdicts and distances of two equal bodies of many pieces, by a manager for each with a collision object a piece. The second
+// body stays, so that the first alone is moved, to where it is seen from the second.
 
+#include <algorithm>
 #include <limits>
 #include <memory>
 #include <vector>
 
-#include <coal/BVH/BVH_model.h>
 #include <coal/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <coal/broadphase/default_broadphase_callbacks.h>
-#include <coal/collision.h>
 #include <coal/collision_object.h>
-#include <coal/distance.h>
 #include <coal/shape/convex.h>
 
 using Convex = coal::Convex<coal::Triangle>;
-using Tree = coal::BVHModel<coal::OBBRSS>;
 
 namespace {
 
@@ -27,7 +24,6 @@ struct Body {
 
 struct coal_compound {
     std::vector<std::shared_ptr<Convex>> pieces;
-    std::shared_ptr<Tree> tree;
     Body bodies[2];
     std::vector<coal::Transform3s> poses;
 };
@@ -39,21 +35,7 @@ static coal::Transform3s transform(const double *m)
     return coal::Transform3s(rotation, coal::Vec3s(m[3], m[7], m[11]));
 }
 
-static double ask_tree(const coal_compound &compound, const coal::Transform3s &pose, bool asks_distance)
-{
-    const coal::Transform3s identity = coal::Transform3s::Identity();
-    if (asks_distance) {
-        coal::DistanceRequest request;
-        request.enable_signed_distance = false;
-        coal::DistanceResult result;
-        return std::max(0.0, coal::distance(compound.tree.get(), pose, compound.tree.get(), identity, request, result));
-    }
-    coal::CollisionRequest request;
-    coal::CollisionResult result;
-    return coal::collide(compound.tree.get(), pose, compound.tree.get(), identity, request, result) > 0 ? 0 : 1;
-}
-
-static double ask_pieces(coal_compound &compound, const coal::Transform3s &pose, bool asks_distance)
+static double ask(coal_compound &compound, const coal::Transform3s &pose, bool asks_distance)
 {
     Body *bodies = compound.bodies;
     for (auto &object : bodies[0].objects) {
@@ -75,14 +57,10 @@ static double ask_pieces(coal_compound &compound, const coal::Transform3s &pose,
 extern "C" {
 
 coal_compound *coal_compound_create(const double *coordinates, const size_t *vertex_counts, const unsigned *corners,
-                                    const size_t *triangle_counts, size_t piece_count, int is_tree)
+                                    const size_t *triangle_counts, size_t piece_count)
 {
     try {
         std::unique_ptr<coal_compound> made(new coal_compound);
-        if (is_tree) {
-            made->tree = std::make_shared<Tree>();
-            made->tree->beginModel();
-        }
         for (size_t k = 0; k < piece_count; ++k) {
             auto points = std::make_shared<std::vector<coal::Vec3s>>();
             for (size_t i = 0; i < vertex_counts[k]; ++i, coordinates += 3) {
@@ -92,17 +70,8 @@ coal_compound *coal_compound_create(const double *coordinates, const size_t *ver
             for (size_t i = 0; i < triangle_counts[k]; ++i, corners += 3) {
                 triangles->emplace_back(corners[0], corners[1], corners[2]);
             }
-            if (is_tree) {
-                made->tree->addSubModel(*points, *triangles);
-            } else {
-                made->pieces.push_back(std::make_shared<Convex>(points, static_cast<unsigned>(vertex_counts[k]), triangles,
-                                                                static_cast<unsigned>(triangle_counts[k])));
-            }
-        }
-        if (is_tree) {
-            made->tree->endModel();
-            made->tree->computeLocalAABB();
-            return made.release();
+            made->pieces.push_back(std::make_shared<Convex>(points, static_cast<unsigned>(vertex_counts[k]), triangles,
+                                                            static_cast<unsigned>(triangle_counts[k])));
         }
         for (Body &body : made->bodies) {
             for (auto &piece : made->pieces) {
@@ -128,8 +97,7 @@ void coal_compound_load(coal_compound *compound, const double *poses, size_t cou
 double coal_compound_ask(coal_compound *compound, size_t k, int asks_distance)
 {
     try {
-        const coal::Transform3s &pose = compound->poses[k];
-        return compound->tree ? ask_tree(*compound, pose, asks_distance) : ask_pieces(*compound, pose, asks_distance);
+        return ask(*compound, compound->poses[k], asks_distance);
     } catch (...) {
         return std::numeric_limits<double>::quiet_NaN();
     }

@@ -1,19 +1,11 @@
-//! coal's bodies of many pieces, where coal was there when this was compiled.
+//! coal's bodies of many pieces, where coal was there when this was compiled: a manager, its dynamic tree, with a collision object for
+//! each piece.
 
 use swiftprox::math::Vector;
 use testkit::PosePair;
 
 use super::Method;
 use super::pairs::Asked;
-
-/// What coal makes of a body.
-#[derive(Debug, Clone, Copy, PartialEq)]
-pub enum Kind {
-    /// A manager, its dynamic tree, with a collision object for each piece.
-    Pieces,
-    /// `BVHModel<OBBRSS>` of all pieces' triangles.
-    Tree,
-}
 
 #[repr(C)]
 struct Handle {
@@ -28,7 +20,6 @@ unsafe extern "C" {
         corners: *const u32,
         triangle_counts: *const usize,
         piece_count: usize,
-        is_tree: i32,
     ) -> *mut Handle;
     fn coal_compound_load(compound: *mut Handle, poses: *const f64, count: usize);
     fn coal_compound_ask(compound: *mut Handle, k: usize, asks_distance: i32) -> f64;
@@ -36,7 +27,6 @@ unsafe extern "C" {
 }
 
 pub struct Coal {
-    kind: Kind,
     #[cfg_attr(not(coal), expect(dead_code))]
     asked: Asked,
     #[cfg_attr(not(coal), expect(dead_code))]
@@ -49,7 +39,7 @@ impl Coal {
     /// # Errors
     /// coal refuses a piece.
     #[cfg(coal)]
-    pub fn new(pieces: &[Vec<Vector>], kind: Kind, poses: &[PosePair], asked: Asked) -> Result<Option<Coal>, String> {
+    pub fn new(pieces: &[Vec<Vector>], poses: &[PosePair], asked: Asked) -> Result<Option<Coal>, String> {
         let meshes = pieces.iter().map(|points| testkit::models::hull_mesh(points).map_err(|error| error.to_string()));
         let meshes: Vec<_> = meshes.collect::<Result<_, _>>()?;
         let coordinates: Vec<f64> =
@@ -69,7 +59,6 @@ impl Coal {
                 corners.concat().as_ptr(),
                 triangle_counts.as_ptr(),
                 pieces.len(),
-                i32::from(kind == Kind::Tree),
             )
         };
         if handle.is_null() {
@@ -77,11 +66,11 @@ impl Coal {
         }
         // SAFETY: 24 numbers each.
         unsafe { coal_compound_load(handle, poses.as_flattened().as_ptr(), poses.len()) };
-        Ok(Some(Coal { kind, asked, handle }))
+        Ok(Some(Coal { asked, handle }))
     }
 
     #[cfg(not(coal))]
-    pub fn new(_: &[Vec<Vector>], _: Kind, _: &[PosePair], _: Asked) -> Result<Option<Coal>, String> {
+    pub fn new(_: &[Vec<Vector>], _: &[PosePair], _: Asked) -> Result<Option<Coal>, String> {
         Ok(None)
     }
 }
@@ -98,10 +87,7 @@ impl Drop for Coal {
 
 impl Method for Coal {
     fn name(&self) -> &'static str {
-        match self.kind {
-            Kind::Pieces => "coal-pieces",
-            Kind::Tree => "coal-tree",
-        }
+        "coal"
     }
 
     #[cfg(coal)]

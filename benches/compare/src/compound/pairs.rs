@@ -1,9 +1,9 @@
 //! Verdicts and distances of two equal bodies, pose by pose.
 
+use super::coal::Coal;
 use super::ours::{self, Ours};
 use super::parry::{self, Parry};
 use super::{Method, Row, Scene, met, scenes};
-use super::{coal::Coal, coal::Kind};
 use crate::options::Options;
 
 /// What is asked.
@@ -28,15 +28,8 @@ pub fn measure(options: &Options) -> Result<Vec<Row>, String> {
             for (asked, what) in ASKED {
                 let mut methods: Vec<Box<dyn Method + '_>> =
                     vec![Box::new(Ours::new(&ours, &poses, what)), Box::new(Parry::new(&theirs, &poses, what))];
-                let kinds: &[Kind] = match what {
-                    Asked::Verdict => &[Kind::Pieces, Kind::Tree],
-                    // Of its triangles twice as slow as parry.
-                    Asked::Distance => &[Kind::Pieces],
-                };
-                for kind in kinds {
-                    if let Some(coal) = Coal::new(&points, *kind, &poses, what)? {
-                        methods.push(Box::new(coal));
-                    }
+                if let Some(coal) = Coal::new(&points, &poses, what)? {
+                    methods.push(Box::new(coal));
                 }
                 let scene = Scene { asked, bodies: name, pieces: points.len(), motion };
                 rows.extend(scene.measure(methods, [poses.len(), options.passes], ALLOWED, met)?);
