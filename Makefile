@@ -22,7 +22,7 @@
 # make casts                  casts beside parry3d, FCL, Bullet and samples, rays beside parry3d: benches/results/casts.csv, the chart and
 #                             tables of docs/motions.md
 # make grounds                contacts of 1,000 bodies with 20,000 triangles, and rays, beside parry3d and Jolt: benches/results/grounds.csv, grounds-rays.csv
-# make compounds              bodies of many pieces beside parry3d and coal: verdicts, distances, contacts, an arm and scenes, some six
+# make compounds              bodies of many pieces beside parry3d and coal: verdicts, distances, contacts, an arm and scenes, some three
 #                             minutes; benches/results/compounds.csv, charts and tables of docs/compounds.md, its picture
 # make python-bench           the Python package beside coal, python-fcl and MuJoCo: the table of docs/python.md
 # make hard-motions           casts MOTIONS=800000 adversarial motions and judges each: examples/hard_motions.rs, twenty minutes

@@ -1,5 +1,5 @@
-// coal's verdicts and distances of two equal bodies of many pieces, by a manager for each with a collision object a piece. The second
-// body stays, so that the first alone is moved, to where it is seen from the second.
+// coal's verdicts and distances of two equal bodies of many pieces, by a manager for each with an object a piece. The second body
+// stays, so that the first alone is moved, to where it is seen from the second.
 
 #include <algorithm>
 #include <limits>

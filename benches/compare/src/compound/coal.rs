@@ -1,5 +1,4 @@
-//! coal's bodies of many pieces, where coal was there when this was compiled: a manager, its dynamic tree, with a collision object for
-//! each piece.
+//! coal's bodies of many pieces, where coal was there when this was compiled: a manager, its dynamic tree, with an object a piece.
 
 use swiftprox::math::Vector;
 use testkit::PosePair;

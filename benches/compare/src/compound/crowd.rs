@@ -1,4 +1,4 @@
-//! Scenes in which all bodies move: verdicts, distances up to a tolerance and contacts, a result for each two bodies or each contact.
+//! Scenes in which all bodies move: verdicts, distances up to a tolerance, contacts.
 
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -138,8 +138,8 @@ impl Method for InScene<'_> {
     }
 }
 
-/// Its hierarchy over the bodies, refitted in each step, and its queries of compounds for what is near. Contacts are kept for each two
-/// bodies while they are near.
+/// Its hierarchy over the bodies, refitted in each step, and its queries of compounds for what is near. Contacts are kept while two
+/// bodies are near.
 struct Parry {
     compound: ParryCompound,
     steps: Vec<Vec<ParryPose>>,
