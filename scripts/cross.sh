@@ -97,9 +97,9 @@ write_linker() {
 # The library and the C tests, by zig, which has stubs of macOS's system libraries; not of iconv, which nothing here calls.
 link_for_macos() {
     zig=$PWD/build/zig-venv/bin/python
-    [ -x "$zig" ] || python3 -m venv build/zig-venv
-    "$zig" -c 'import ziglang' 2>/dev/null || "$zig" -m pip install --quiet --retries 1 ziglang ||
-        { echo "macos: left out, as zig cannot be had" && return; }
+    { [ -x "$zig" ] || python3 -m venv build/zig-venv; } &&
+        { "$zig" -c 'import ziglang' 2>/dev/null || "$zig" -m pip install --quiet --retries 1 ziglang; } ||
+        { echo 'macos: left out, as zig cannot be had' && return; }
     write_linker macos "for one; do shift; [ \"\$one\" = -liconv ] || set -- \"\$@\" \"\$one\"; done
         exec '$zig' -m ziglang cc -target aarch64-macos \"\$@\""
     link_for aarch64-apple-darwin "$PWD/build/link/macos"
