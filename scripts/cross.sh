@@ -13,7 +13,7 @@ CHECKED='x86_64-pc-windows-gnu x86_64-pc-windows-msvc x86_64-apple-darwin aarch6
 # Tests whose programs are not started by CTest, and so not through the emulator; such as know nothing of the processor; and those
 # that take minutes under an emulator.
 LEFT_OUT='_under_|^(package|subdirectory|fetch_content|find_package|against|oracle|cpp_.*g|legacy_(cxx|clang|float)|instructions|ratios|setup'
-LEFT_OUT="$LEFT_OUT|command_lines|replay_page|reference|swiftprox-|newcomer|sample|man|doc|doxygen|crowd|tower|memory$|progress$)"
+LEFT_OUT="$LEFT_OUT|command_lines|replay_page|reference|swiftprox-|newcomer|sample|man|doc|doxygen|crowd|tower|abi$|memory$|progress$)"
 
 # Of 32 bits: these count on sizes of 64, and `depth` on other roundings, which the header keeps to x86-64 and AArch64.
 LEFT_OUT_32='|^(depth|bad_input|mesh_reader|files)$'
