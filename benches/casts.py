@@ -5,7 +5,6 @@ usage: casts.py RESULTS.csv
        casts.py --check RESULTS.csv      nothing is written, and it fails where page or chart do not say what the file says
 """
 import os
-import sys
 
 import charts
 import claims
@@ -89,15 +88,12 @@ def ray_table(rows):
 
 
 def main():
-    arguments = sys.argv[1:]
-    check = arguments[:1] == ["--check"]
-    if len(arguments) != 1 + check:
-        sys.exit(__doc__)
-    head, rows = read(arguments[-1])
+    [path], check = claims.files_and_check(1, __doc__)
+    head, rows = read(path)
     with_numbers(rows, ("count", "hits", "best_ns", "mean_queries", "misses", "false_hits", "off", "unknown"))
     casts, rays = ([r for r in rows if r["asked"] == asked] for asked in ("cast", "ray"))
     made = {"casts": cast_table(casts), "rays": ray_table(rays)}
-    claims.show(PAGE, made, (os.path.join(charts.FOLDER, "casts.svg"), chart(head[0], casts)), arguments[-1], check)
+    claims.show(PAGE, made, (os.path.join(charts.FOLDER, "casts.svg"), chart(head[0], casts)), path, check)
 
 
 if __name__ == "__main__":

@@ -298,6 +298,15 @@ def fill(page, made):
     return re.sub(r"<!-- table: (\w+) -->\n.*?<!-- end -->", anew, page, flags=re.DOTALL)
 
 
+def files_and_check(count, usage):
+    """The files that a program of charts is called with, so many, and whether --check stands before them."""
+    arguments = sys.argv[1:]
+    check = arguments[:1] == ["--check"]
+    if len(arguments) != count + check:
+        sys.exit(usage)
+    return arguments[check:], check
+
+
 def show(page, made, drawn, csv_path, check):
     """Fills a page's tables and draws a chart, (path, chart). With `check` nothing is written, and the program ends where page or chart
     do not say what the CSV file says."""

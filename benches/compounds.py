@@ -6,7 +6,6 @@ usage: compounds.py RESULTS.csv
        compounds.py --check RESULTS.csv      nothing is written, and it fails where page or charts do not say what the file says
 """
 import os
-import sys
 
 import charts
 import claims
@@ -123,11 +122,7 @@ def scene_table(rows):
 
 
 def main():
-    arguments = sys.argv[1:]
-    check = arguments[:1] == ["--check"]
-    if len(arguments) != 1 + check:
-        sys.exit(__doc__)
-    path = arguments[-1]
+    [path], check = claims.files_and_check(1, __doc__)
     head, rows = read(path)
     with_numbers(rows, ("pieces", "count", "found", "best_ns"))
     made = {"compounds": pair_table(rows), "scenes": scene_table(rows)}

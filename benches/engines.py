@@ -134,10 +134,8 @@ def main():
     arguments = sys.argv[1:]
     if arguments[:1] == ["--play"] and len(arguments) == 3:
         return play_all(*arguments[1:])
-    check = arguments[:1] == ["--check"]
-    if len(arguments) != 1 + check:
-        sys.exit(__doc__)
-    head, played = rows.read(arguments[-1])
+    [path], check = claims.files_and_check(1, __doc__)
+    head, played = rows.read(path)
     rows.with_numbers(played, COLUMNS)
     where = rows.machine(head[0])
     made = {engine.lower(): table(played, engine) for engine in rows.in_order(row["engine"] for row in played)}
@@ -149,7 +147,7 @@ def main():
     else:
         with open(HERO, "w", encoding="utf-8") as file:
             file.write(hero())
-    claims.show(PAGE, made, (os.path.join(charts.FOLDER, "engines.svg"), chart(where, played)), arguments[-1], check)
+    claims.show(PAGE, made, (os.path.join(charts.FOLDER, "engines.svg"), chart(where, played)), path, check)
 
 
 if __name__ == "__main__":

@@ -6,7 +6,6 @@ usage: grounds.py CONTACTS.csv RAYS.csv
        grounds.py --check CONTACTS.csv RAYS.csv      nothing is written, and it fails where page or chart do not say what the files say
 """
 import os
-import sys
 
 import charts
 import claims
@@ -51,11 +50,7 @@ def ray_table(rows):
 
 
 def main():
-    arguments = sys.argv[1:]
-    check = arguments[:1] == ["--check"]
-    if len(arguments) != 2 + check:
-        sys.exit(__doc__)
-    contacts, rays = arguments[-2:]
+    [contacts, rays], check = claims.files_and_check(2, __doc__)
     head, rows = read(contacts)
     with_numbers(rows, ("count", "best_ns", "points", "normals", "ghosts"))
     _, of_rays = read(rays)

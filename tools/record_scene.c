@@ -24,10 +24,12 @@ static void move(swiftprox_scene *scene, swiftprox_object_id id, double x)
     demand(swiftprox_scene_set_pose(scene, id, pose));
 }
 
+/* Of side 1. */
+static const double CUBE[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
+
 /* A ground of six cells, of which one is a hole, is moved to where a cube sinks into it by a quarter. */
 static void record_ground(const char *path)
 {
-    static const double CUBE[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
     static const double AWAY[12] = {1, 0, 0, 20, 0, 1, 0, 0, 0, 0, 1, 0};
     static const double THERE[12] = {1, 0, 0, -4.25, 0, 1, 0, -6.5, 0, 0, 1, 0.25};
     const double heights[12] = {0, 0, 0, 0, 0, 0, 0, 0, NAN, 0, 0, 0.5};
@@ -60,7 +62,6 @@ static void record_ground(const char *path)
  * a quarter; then it moves away, and then it is gone. */
 static void record_compound(const char *path)
 {
-    static const double CUBE[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
     static const double PIECES[24] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, -1, 0, 3, 1, 0, 0, 0, 0, 0, 1, 0};
     static const double THERE[12] = {0, -1, 0, 10, 1, 0, 0, 0, 0, 0, 1, 0};
     static const double BESIDE[12] = {1, 0, 0, 8.25, 0, 1, 0, 2.5, 0, 0, 1, 0.25};
@@ -95,7 +96,6 @@ static void record_compound(const char *path)
 
 int main(int argc, char **argv)
 {
-    static const double CUBE[24] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0, 0, 0, 1, 1, 0, 1, 0, 1, 1, 1, 1, 1};
     const double there[12] = {1, 0, 0, 3.5, 0, 1, 0, 0.25, 0, 0, 1, 0};
     const swiftprox_shape *cube;
     swiftprox_object_id ids[4];

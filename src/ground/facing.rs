@@ -50,3 +50,41 @@ impl FacingFaces<'_> {
         Ok(self.faces)
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::super::contacts::near_hills::near_hills;
+    use super::*;
+    use crate::random::Random;
+    use crate::shape::{Shape, ShapeOptions};
+
+    /// Of a body as skewed as poses may be no face is left out whose normal, as placed, is within a triangle's widest angle.
+    #[test]
+    fn no_face_that_a_peak_may_ask_for_is_left_out() {
+        let mut random = Random::new(0xfac);
+        let points: Vec<Vector> = (0..60).map(|_| random.direction()).collect();
+        let shape = Shape::from_points(&points, &ShapeOptions::default()).unwrap();
+        let polyhedron = shape.polyhedron();
+        let (mut asked, mut left_out) = (0, 0);
+        for _ in 0..4 {
+            let skew = Matrix::from_fn(|_, _| random.pick(&[-0.0049, 0.0, 0.0049]));
+            let rotation = random.rotation() * (Matrix::identity() + skew);
+            let inverse = rotation.try_inverse().unwrap();
+            let mut room = Vec::new();
+            let mut facing = FacingFaces::new(&mut room);
+            near_hills(0xfac, 30, |near, _| {
+                let Some(tan) = near.triangle.marks.tan_half() else { return };
+                let least = (1.0 - tan * tan) / (1.0 + tan * tan);
+                let faces = facing.at(polyhedron, &inverse, near.triangle).unwrap();
+                for (face, plane) in (0..).zip(&polyhedron.faces) {
+                    let inward = -(inverse.transpose() * plane.normal).normalize();
+                    let is_asked = inward.dot(&near.triangle.up) >= least;
+                    assert!(!is_asked || faces.contains(&face), "{inward:?} {tan} {:?}", near.triangle.up);
+                    asked += usize::from(is_asked);
+                    left_out += usize::from(!faces.contains(&face));
+                }
+            });
+        }
+        assert!(cfg!(miri) || asked > 1_000 && left_out > 1_000, "{asked} {left_out}");
+    }
+}
