@@ -5,7 +5,7 @@ use swiftprox::manifold::{ManifoldCache, ManifoldConfig};
 use swiftprox::math::{Pose, Vector};
 use swiftprox::pair::{
     DepthAnswer, DepthCache, DepthConfig, Outcome, PairAnswer, PairCache, PairConfig, SignedDistance,
-    SignedDistanceCache, depth, distance, signed_distance,
+    SignedDistanceCache, contact, depth, distance, signed_distance,
 };
 use swiftprox::shape::Shape;
 use testkit::random::Random;
@@ -52,6 +52,34 @@ fn it_is_the_distance_or_minus_the_depth() {
         }
         assert!(seen.iter().all(|&count| count > 100), "{seen:?}");
     }
+}
+
+/// Of hulls in each other a contact, a depth and a manifold tell of one facet: features and normals are the same.
+#[test]
+fn contact_depth_and_manifold_tell_of_one_facet() {
+    let mut random = Random::new(45);
+    let mut compared = 0;
+    for _ in 0..300 {
+        let shapes = [(); 2].map(|()| hull(&(0..30).map(|_| random.vector()).collect::<Vec<_>>()));
+        let poses = [(); 2].map(|()| Pose::new(&random.rotation(), &(random.vector() * 0.5)));
+        let bodies = [shapes[0].at(&poses[0]), shapes[1].at(&poses[1])];
+        let mut touch = PairAnswer::default();
+        contact(bodies, &mut PairCache::default(), &PairConfig::default(), &mut touch).unwrap();
+        if touch.outcome != Outcome::Intersecting {
+            continue;
+        }
+        let (mut signed, mut deep) = (SignedDistance::default(), DepthAnswer::default());
+        let config = PairConfig::default();
+        signed_distance(bodies, &mut SignedDistanceCache::default(), &config, &mut signed).unwrap();
+        depth(bodies, &mut DepthCache::default(), &DepthConfig::default(), &mut deep).unwrap();
+        let all = ManifoldConfig::default();
+        let (manifold, _) =
+            query([&shapes[0], &shapes[1]], [&poses[0], &poses[1]], &mut ManifoldCache::default(), &all);
+        assert_eq!([touch.feature1, touch.feature2], [signed.feature1, signed.feature2], "{touch:?} {signed:?}");
+        assert_eq!([touch.normal, deep.normal, manifold.normal], [signed.normal; 3], "{touch:?} {signed:?}");
+        compared += 1;
+    }
+    assert!(compared > 250, "{compared}");
 }
 
 fn ask(shape: &Shape, poses: &[Pose; 2], cache: &mut SignedDistanceCache, config: &PairConfig) -> SignedDistance {
