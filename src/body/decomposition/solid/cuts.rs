@@ -2,7 +2,7 @@
 
 use crate::base::error::Result;
 use crate::base::math::{Matrix, Vector};
-use crate::base::memory::{collected, push};
+use crate::base::memory::{collected, extend, push};
 use crate::body::decomposition::solid::cell::{CellFacet, CuttingPlane, SolidCell};
 use crate::body::decomposition::solid::solid_piece::{BodyCheck, SolidPiece};
 
@@ -62,6 +62,7 @@ struct Hollow {
 impl Hollow {
     fn sampled(piece: &SolidPiece, check: &BodyCheck) -> Result<Hollow> {
         let mut hollow = Hollow { points: Vec::new(), total: 0.0 };
+        let (enough, mut near) = (0.5 * check.tolerance, 0);
         for i in 0..SAMPLES {
             // H. Niederreiter, "Random Number Generation and Quasi-Monte Carlo Methods", 1992: multiples of irrational numbers.
             let place = Vector::new(0.8191725133961645, 0.6710436067037893, 0.5497004779019703) * (i as f64 + 0.5);
@@ -69,7 +70,7 @@ impl Hollow {
             if !piece.holds(&point) {
                 continue;
             }
-            let distance = check.tree.distance(&point) - 0.5 * check.tolerance;
+            let distance = check.tree.distance_within(&point, enough, &mut near) - enough;
             if distance > 0.0 && !check.tree.winds_around(&point) {
                 push(&mut hollow.points, (point, distance))?;
                 hollow.total += distance;
@@ -84,21 +85,24 @@ impl Hollow {
     }
 }
 
-/// The hull of the points that are extreme along some directions.
+/// The hull of the points that are extreme along some directions, both ways.
 fn rough_hull(points: &[Vector], directions: &[Vector]) -> Result<Option<SolidPiece>> {
     if points.len() <= 40 {
         return SolidPiece::new(points);
     }
     let mut extreme = Vec::new();
     for direction in directions {
-        let mut best = (f64::NEG_INFINITY, 0);
+        let (mut high, mut low) = ((f64::NEG_INFINITY, 0), (f64::INFINITY, 0));
         for (k, point) in points.iter().enumerate() {
             let height = point.dot(direction);
-            if height > best.0 {
-                best = (height, k);
+            if height > high.0 {
+                high = (height, k);
+            }
+            if height < low.0 {
+                low = (height, k);
             }
         }
-        push(&mut extreme, best.1)?;
+        extend(&mut extreme, [high.1, low.1])?;
     }
     extreme.sort_unstable();
     extreme.dedup();
@@ -106,9 +110,9 @@ fn rough_hull(points: &[Vector], directions: &[Vector]) -> Result<Option<SolidPi
     SolidPiece::new(&some)
 }
 
-/// Towards the surface of a grid of five by five by five.
+/// Towards the surface of a grid of five by five by five, one of each two that are opposite.
 fn directions() -> Result<Vec<Vector>> {
-    let cells = (0..125).map(|i| [i % 5, i / 5 % 5, i / 25].map(|k| f64::from(k) - 2.0));
+    let cells = (0..62).map(|i| [i % 5, i / 5 % 5, i / 25].map(|k| f64::from(k) - 2.0));
     collected(cells.filter(|cell| cell.iter().any(|x| x.abs() == 2.0)).map(Vector::from))
 }
 

@@ -134,24 +134,9 @@ impl BodyCheck<'_> {
         known: &[&SolidPiece],
         progress: &mut Progress,
     ) -> Result<Option<Vector>> {
-        let mut worst = (Vector::zeros(), self.tolerance);
-        for [a, b, c] in &piece.triangles {
-            progress.steps(16, self.done, ALL)?;
-            let middle = (a + b + c) / 3.0;
-            for point in [middle, 0.5 * (a + b), 0.5 * (a + middle), 0.5 * (b + middle), 0.5 * (c + middle)] {
-                // What is no farther than the worst needs no winding number.
-                let distance = self.tree.distance(&point);
-                if distance > worst.1 && !self.tree.winds_around(&point) {
-                    worst = (point, distance);
-                }
-            }
-            // Of a union any point will do, of a piece to be cut the worst is sought.
-            if worst.1 > self.tolerance && !known.is_empty() {
-                break;
-            }
-        }
-        if worst.1 > self.tolerance {
-            return Ok(Some(worst.0));
+        // Of a union any point will do, of a piece to be cut the worst is sought.
+        if let Some(point) = self.sample_beyond(piece, !known.is_empty(), progress)? {
+            return Ok(Some(point));
         }
         // A plane above all of a box is above its parts: the planes that may cut a box are the first `cutting` ones.
         let mut planes = copied(&piece.planes)?;
@@ -171,7 +156,7 @@ impl BodyCheck<'_> {
             }
             let radius = half.norm();
             let distance = self.tree.distance_within(&centre, self.tolerance - radius, &mut near);
-            if distance + radius <= self.tolerance {
+            if distance + radius <= self.tolerance || self.is_near(&part, &planes[..cutting], near) {
                 continue;
             }
             let is_decided = distance >= radius || radius <= self.tolerance;
@@ -194,5 +179,50 @@ impl BodyCheck<'_> {
             }
         }
         Ok(None)
+    }
+
+    /// A point of the hull's triangles beyond the tolerance: the worst of some, or `any`.
+    fn sample_beyond(&self, piece: &SolidPiece, any: bool, progress: &mut Progress) -> Result<Option<Vector>> {
+        let (mut worst, mut found, mut near) = (self.tolerance, None, 0);
+        for [a, b, c] in &piece.triangles {
+            progress.steps(16, self.done, ALL)?;
+            let middle = (a + b + c) / 3.0;
+            for point in [middle, 0.5 * (a + b), 0.5 * (a + middle), 0.5 * (b + middle), 0.5 * (c + middle)] {
+                // What is no farther than the worst needs no winding number.
+                let distance = self.tree.distance_within(&point, worst, &mut near);
+                if distance > worst && !self.tree.winds_around(&point) {
+                    (worst, found) = (distance, Some(point));
+                }
+            }
+            if any && found.is_some() {
+                break;
+            }
+        }
+        Ok(found)
+    }
+
+    /// Whether a triangle is within the tolerance of a box, as far as it is below the plane that cuts most of it off: the distance
+    /// from a triangle is a convex function, so it is greatest at a corner of that.
+    fn is_near(&self, part: &HullPart, planes: &[CuttingPlane], near: u32) -> bool {
+        let is_near = |point: &Vector| self.tree.is_near(point, self.tolerance, near);
+        let corner = |k: usize| {
+            let sign = |axis: usize| if k >> axis & 1 == 0 { -1.0 } else { 1.0 };
+            part.centre + part.half.component_mul(&Vector::new(sign(0), sign(1), sign(2)))
+        };
+        let corners: [Vector; 8] = std::array::from_fn(corner);
+        let top =
+            |plane: &CuttingPlane| plane.normal.dot(&part.centre) + plane.normal.abs().dot(&part.half) - plane.height;
+        let Some(plane) = planes.iter().max_by(|a, b| top(a).total_cmp(&top(b))) else {
+            return corners.iter().all(is_near);
+        };
+        let heights = corners.map(|p| plane.normal.dot(&p) - plane.height);
+        (0..8).all(|k| {
+            let crossing = |other: usize| {
+                let place = heights[k] / (heights[k] - heights[other]);
+                corners[k] + (corners[other] - corners[k]) * place
+            };
+            let mut cut = [k | 1, k | 2, k | 4].into_iter().filter(|other| heights[k] * heights[*other] < 0.0);
+            (heights[k] > 0.0 || is_near(&corners[k])) && cut.all(|other| is_near(&crossing(other)))
+        })
     }
 }

@@ -97,7 +97,13 @@ impl SurfaceTree {
         best.sqrt()
     }
 
+    /// Whether a triangle is within a distance of a point.
+    pub fn is_near(&self, point: &Vector, distance: f64, triangle: u32) -> bool {
+        squared_distance(&self.triangles[triangle as usize], point) <= distance * distance
+    }
+
     /// The square of a point's distance from a node's box.
+    #[inline]
     fn gap(&self, n: u32, point: &Vector) -> f64 {
         let node = &self.nodes[n as usize];
         (node.low - point).sup(&(point - node.high)).sup(&Vector::zeros()).norm_squared()
