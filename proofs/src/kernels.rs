@@ -85,7 +85,7 @@ type Named = (&'static str, fn() -> Found);
 
 /// All of them, run on a machine that fuses and on one that does not.
 pub fn all() -> Vec<Kernel> {
-    let on_lanes: [Named; 11] = [
+    let on_lanes: [Named; 12] = [
         ("difference", difference),
         ("rotate_back", rotate_back),
         ("rigid", rigid),
@@ -95,6 +95,7 @@ pub fn all() -> Vec<Kernel> {
         ("fan", fan),
         ("plane_values", plane_block),
         ("remainder", remainder),
+        ("offset", offset),
         ("edges", edges),
         ("round", round),
     ];
@@ -701,12 +702,21 @@ fn wide() -> Found {
         .map(|(columns, direction, vertex)| wide_dot(&turned(&columns, &direction), &vertex));
     let gap = over_both(&normal, &between, below, above);
     let [e, f, g] = ["e", "f", "g"].map(|name| symbols(name, &mut random));
-    let products = matrix("x", &mut random);
-    let [x, y, z] = [products[0], products[1], matrix("y", &mut random)[0]];
-    let offset = sum_of(z[0], [x[0], x[1], x[2], y[0], y[1], y[2]]);
     let mut found = Found::default();
     found.root("difference", difference[0].0).root("gap", gap.0);
-    found.root("height", wide_height(e, f, g).0).root("offset", offset.0);
+    found.root("height", wide_height(e, f, g).0);
+    found
+}
+
+/// A component of the offset of bodies whose centres are not their origins, and of what its sums and products leave off.
+fn offset() -> Found {
+    let mut random = Random::new(0x6f);
+    let mut inputs = |name: &str| Symbolic([input(name, random.signed()); 4]);
+    let terms = ["t0", "t1", "t2", "t3", "t4", "t5", "t6"].map(&mut inputs);
+    let rests = ["r0", "r1", "r2", "r3", "r4", "r5", "r6"].map(&mut inputs);
+    let of_sums = ["s0", "s1", "s2", "s3", "s4", "s5"].map(&mut inputs);
+    let mut found = Found::default();
+    found.counted("sum", sum_of(terms).0.0[0], &[]).counted("rest", rest_of(rests, of_sums).0[0], &[]);
     found
 }
 

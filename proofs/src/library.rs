@@ -32,7 +32,7 @@ pub use swiftprox::pair::{
 };
 pub use swiftprox::placed::Pair;
 pub use swiftprox::placed::frame::{
-    Frame, RIGID, RIGID_DEFECT, RIGID_TOGETHER, difference_error, separation, sum_of, tolerance,
+    Frame, RIGID, RIGID_DEFECT, RIGID_TOGETHER, difference_error, rest_of, separation, sum_of, tolerance,
 };
 pub use swiftprox::placed::voronoi::{plane_slopes, plane_values};
 pub use swiftprox::ray::SIDE;

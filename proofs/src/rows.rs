@@ -122,8 +122,10 @@ pub fn rows(kernels: &[Kernel]) -> Vec<Row> {
         wide(&kernel.tape, *node)
     };
     let cancelled = low(&of("bounds", "separation"), &["cancelled"]);
-    // The offset, of its bound: rounded once, or in double-double where centres are not origins.
-    let of_offset = offset.max(of_wide("offset") / cancelled);
+    // Where centres are not origins: the terms' rounding and that of their sums is left off, and summed.
+    let left_off = (1.0 + most("offset", &["sum"])) * most("offset", &["rest"]);
+    // The offset, of its bound: rounded once, with that sum.
+    let of_offset = offset.max(left_off / cancelled);
     let (lower, upper) = (of("round_ends", "lower_of_segments"), of("round_ends", "upper_of_segments"));
     let (lower_points, upper_points) = (of("round_ends", "lower_of_points"), of("round_ends", "upper_of_points"));
     let taken = |lower: &Polynomial, name: &str| -in_u(&lower[&vec![name.to_string()]].high);
@@ -307,8 +309,9 @@ pub fn rows(kernels: &[Kernel]) -> Vec<Row> {
             "C",
         ),
         row("", "a turn, beside that", OF_TURN, of_turn, "C"),
-        // Of double-doubles, M the sum of the magnitudes of all terms. `separation` makes 2u of 16u·M.
-        row("frame `centred`", "of M, in u²", 2.0 * cancelled, of_wide("offset"), "C, Coq"),
+        // M is the sum of the magnitudes of all terms. `separation` makes 2u of 16u·M.
+        row("frame `with_centres`", "of M, in u²", 2.0 * cancelled, left_off, "C"),
+        // Of double-doubles.
         row(
             "predicates `DOUBLE_DOUBLE_FILTER`",
             "of the spread, in u²",

@@ -14,12 +14,12 @@ pub mod math;
 #[doc(hidden)]
 pub mod angles;
 #[doc(hidden)]
+pub mod double_double;
+#[doc(hidden)]
 pub mod simd;
 pub mod progress;
 pub(crate) mod sorting;
 pub(crate) mod locality;
-#[doc(hidden)]
-pub mod double_double;
 pub(crate) mod extended_range;
 #[doc(hidden)]
 pub mod predicates;

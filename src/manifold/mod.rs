@@ -283,9 +283,8 @@ fn sweep(
     let (between, cancelled) = if polyhedra.iter().any(|polyhedron| polyhedron.centre != Vector::zeros()) {
         between_centres(pair)
     } else {
-        ((poses[0].translation() - poses[1].translation()).into(), 0.0)
+        (poses[0].translation() - poses[1].translation(), 0.0)
     };
-    let between = Vector::from(between);
     let size = polyhedra[0].radius + polyhedra[1].radius + between.norm();
     // False for a NaN.
     if !(size < LARGEST) {

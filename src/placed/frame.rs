@@ -5,9 +5,8 @@
 //! mapped *into* a body by the transpose, which is exact for support functions with any R; only where marching maps a *point*
 //! into a body does the transpose stand for the inverse, and there it merely proposes.
 
-use crate::base::double_double::{DoubleDouble, two_product, two_sum};
 use crate::base::math::{Pose, UNIT_ROUNDOFF, Vector};
-use crate::base::scalar::{Ring, Scalar, constant};
+use crate::base::scalar::{Scalar, constant};
 use crate::base::simd::{self, Kernel, Lanes};
 use crate::body::polyhedron::{LARGEST, Polyhedron, SMALLEST};
 use crate::placed::Pair;
@@ -153,19 +152,8 @@ impl<'a, L: Lanes> Frame<'a, L> {
         }
         let [radius1, radius2] = [polyhedra[0].radius, polyhedra[1].radius];
         in_range &= (SMALLEST..=LARGEST).contains(&if radius1 > radius2 { radius1 } else { radius2 });
-        let mut origins = Origins {
-            offset: placed[0].columns[3].sub(placed[1].columns[3]),
-            cancelled: 0.0,
-            translations: [placed[0].columns[3], placed[1].columns[3]],
-        };
-        if polyhedra.iter().any(|polyhedron| polyhedron.centre != Vector::zeros()) {
-            let centred = centred(pair);
-            origins = Origins {
-                offset: L::load(&centred.offset),
-                cancelled: centred.cancelled,
-                translations: [L::load(&centred.translations[0]), L::load(&centred.translations[1])],
-            };
-        }
+        let is_centred = polyhedra.iter().all(|polyhedron| polyhedron.centre == Vector::zeros());
+        let origins = if is_centred { Origins::as_given(&placed) } else { Origins::with_centres(&placed, polyhedra) };
         Frame::assemble(polyhedra, &placed, &origins, in_range, skewed)
     }
 
@@ -175,12 +163,7 @@ impl<'a, L: Lanes> Frame<'a, L> {
     pub fn of_rigid(pair: &Pair<'a>) -> Frame<'a, L> {
         let Pair { polyhedra, poses } = *pair;
         let placed = [PoseInLanes::<L>::new(poses[0]), PoseInLanes::<L>::new(poses[1])];
-        let [translation1, translation2] = [placed[0].columns[3], placed[1].columns[3]];
-        let origins = Origins {
-            offset: translation1.sub(translation2),
-            cancelled: 0.0,
-            translations: [translation1, translation2],
-        };
+        let origins = Origins::as_given(&placed);
         Frame::assemble(polyhedra, &placed, &origins, PoseInLanes::are_rigid(&placed), [false; 2])
     }
 
@@ -285,7 +268,7 @@ pub fn difference_error<S: Scalar>(size: S, separation: S, length: S) -> S {
     constant::<S>(UNIT_ROUNDOFF) * (by_size * size + by_separation * separation + by_length * length)
 }
 
-/// [`Frame::separation`], from Δ² and the value of [`Centred::cancelled`].
+/// [`Frame::separation`], from Δ² and the value of [`Origins::cancelled`].
 #[inline(always)]
 pub fn separation<S: Scalar>(square: S, cancelled: S) -> S {
     square.sqrt() * constant(1.0 + 8.0 * UNIT_ROUNDOFF) + constant::<S>(16.0 * UNIT_ROUNDOFF) * cancelled
@@ -383,12 +366,70 @@ pub fn is_rigid_in_range(pose: &Pose) -> bool {
 
 /// The positions of the bodies' centred origins.
 struct Origins<L> {
-    /// That of body 1 minus that of body 2.
+    /// That of body 1 minus that of body 2: (T₁ + R₁c₁) − (T₂ + R₂c₂).
     offset: L,
-    /// The value of [`Centred::cancelled`].
+    /// The sum M of the magnitudes of the terms that the offset is the sum of: far more than |Δ| where they cancel. 0 where
+    /// centres are origins.
     cancelled: f64,
-    /// In the world.
+    /// T + R·c of both.
     translations: [L; 2],
+}
+
+impl<L: Lanes> Origins<L> {
+    /// Of bodies whose centres are their origins.
+    #[inline(always)]
+    fn as_given([first, second]: &[PoseInLanes<L>; 2]) -> Origins<L> {
+        let translations = [first.columns[3], second.columns[3]];
+        Origins { offset: translations[0].sub(translations[1]), cancelled: 0.0, translations }
+    }
+
+    /// Of any bodies. Both sums may agree in nearly all digits. So what rounding leaves off is summed, too (T. Ogita, S. M. Rump, S. Oishi,
+    /// "Accurate Sum and Dot Product", SIAM Journal on Scientific Computing 26(6), 2005). No term is in more than three sums: what
+    /// they and the products leave off is at most 4u·M together, and is rounded four times: 16u²·M. M's weight in [`separation`]
+    /// covers 2u·16u·M.
+    #[inline(always)]
+    fn with_centres(placed: &[PoseInLanes<L>; 2], polyhedra: [&Polyhedron; 2]) -> Origins<L> {
+        let [[x1, y1, z1, t1], [x2, y2, z2, t2]] = [placed[0].columns, placed[1].columns];
+        let [c1, c2] = [&polyhedra[0].centre, &polyhedra[1].centre];
+        let [apart, apart_rest] = t1.two_sum(t2.negate());
+        let [a, a_rest] = x1.two_product(L::splat(c1.x));
+        let [b, b_rest] = y1.two_product(L::splat(c1.y));
+        let [c, c_rest] = z1.two_product(L::splat(c1.z));
+        let [d, d_rest] = x2.two_product(L::splat(-c2.x));
+        let [e, e_rest] = y2.two_product(L::splat(-c2.y));
+        let [f, f_rest] = z2.two_product(L::splat(-c2.z));
+        let (offset, of_sums) = sum_of([apart, a, b, c, d, e, f]);
+        let rest = rest_of([apart_rest, a_rest, b_rest, c_rest, d_rest, e_rest, f_rest], of_sums);
+        let of_first = magnitude(a).add(magnitude(b)).add(magnitude(c));
+        let of_second = magnitude(d).add(magnitude(e)).add(magnitude(f));
+        Origins {
+            offset: offset.add(rest),
+            cancelled: magnitude(apart).add(of_first).add(of_second).norm1(),
+            translations: [a.add(b).add(c).add(t1), t2.sub(d.add(e).add(f))],
+        }
+    }
+}
+
+#[inline(always)]
+fn magnitude<L: Lanes>(x: L) -> L {
+    x.max(x.negate())
+}
+
+/// The sum of seven terms, each of which is in at most three sums, and what they leave off.
+#[inline(always)]
+pub fn sum_of<L: Lanes>([a, b, c, d, e, f, g]: [L; 7]) -> (L, [L; 6]) {
+    let ([ab, r0], [cd, r1], [ef, r2]) = (a.two_sum(b), c.two_sum(d), e.two_sum(f));
+    let ([abcd, r3], [efg, r4]) = (ab.two_sum(cd), ef.two_sum(g));
+    let [sum, r5] = abcd.two_sum(efg);
+    (sum, [r0, r1, r2, r3, r4, r5])
+}
+
+/// The sum of what terms and sums leave off, each rounded at most four times.
+#[inline(always)]
+pub fn rest_of<L: Lanes>([a, b, c, d, e, f, g]: [L; 7], [r0, r1, r2, r3, r4, r5]: [L; 6]) -> L {
+    let halves = [a.add(b).add(c.add(d)), e.add(f).add(g.add(r0))];
+    let others = [r1.add(r2).add(r3.add(r4)), r5];
+    halves[0].add(halves[1]).add(others[0].add(others[1]))
 }
 
 /// Whether poses are acceptable and within range.
@@ -402,56 +443,23 @@ fn look_closer(poses: [&Pose; 2]) -> (bool, [bool; 2]) {
     (are_acceptable(poses), poses.map(|pose| !(pose.rotation_defect() <= RIGID)))
 }
 
-/// The additional data for bodies whose centres are not their origins.
-struct Centred {
-    /// (T₁ + R₁c₁) − (T₂ + R₂c₂).
-    offset: [f64; 4],
-    /// The sum M of the magnitudes of the terms that the offset is the sum of: far more than |Δ| where they cancel.
-    cancelled: f64,
-    /// T + R·c of both.
-    translations: [[f64; 4]; 2],
-}
+/// The centred origin of body 1 minus that of body 2, and the value of [`Origins::cancelled`].
+struct BetweenCentres<'a>(&'a Pair<'a>);
 
-/// M's weight in `separation` covers the error of the offset: 2u·16u·M.
-#[cold]
-fn centred(pair: &Pair) -> Centred {
-    let Pair { polyhedra, poses } = *pair;
-    let ([x, y, z], cancelled) = between_centres(pair);
-    let translations = [0, 1].map(|i| {
-        let world = poses[i].transform(&polyhedra[i].centre);
-        [world.x, world.y, world.z, 0.0]
-    });
-    Centred { offset: [x, y, z, 0.0], cancelled, translations }
-}
+impl Kernel for BetweenCentres<'_> {
+    type Output = (Vector, f64);
 
-/// (T₁ + R₁c₁) − (T₂ + R₂c₂), and the sum M of the magnitudes of the terms that it is the sum of.
-///
-/// Summed in double-double arithmetic and rounded once: the two sums may agree in nearly all digits. Each of the six sums errs by
-/// at most 3u² of a partial sum, all by 18u²·M.
-pub fn between_centres(pair: &Pair) -> ([f64; 3], f64) {
-    let Pair { polyhedra, poses } = *pair;
-    let mut offset = [0.0; 3];
-    let mut cancelled = 0.0;
-    for (i, out) in offset.iter_mut().enumerate() {
-        let apart = two_sum(poses[0].rows[i][3], -poses[1].rows[i][3]);
-        cancelled += apart.hi.abs();
-        let mut products = [DoubleDouble::default(); 6];
-        for (body, sign) in [(0, 1.0), (1, -1.0)] {
-            for k in 0..3 {
-                let product = two_product(poses[body].rows[i][k], sign * polyhedra[body].centre[k]);
-                products[3 * body + k] = product;
-                cancelled += product.hi.abs();
-            }
-        }
-        *out = sum_of(apart, products).hi;
+    #[inline(always)]
+    fn run<L: Lanes>(&mut self) -> (Vector, f64) {
+        let Pair { polyhedra, poses } = *self.0;
+        let origins = Origins::with_centres(&poses.map(PoseInLanes::<L>::new), polyhedra);
+        (origins.offset.to_vector(), origins.cancelled)
     }
-    (offset, cancelled)
 }
 
-/// One after another.
-#[inline]
-pub fn sum_of<D: Ring>(first: D, terms: [D; 6]) -> D {
-    terms.into_iter().fold(first, |sum, term| sum + term)
+/// (T₁ + R₁c₁) − (T₂ + R₂c₂), as in a [`Frame`], and the sum of the magnitudes of the terms that it is the sum of.
+pub fn between_centres(pair: &Pair) -> (Vector, f64) {
+    simd::dispatch(&mut BetweenCentres(pair))
 }
 
 #[cfg(test)]

@@ -2,12 +2,15 @@
 
 use super::Work;
 use super::twins::{PortableTwins, Twins};
+use crate::base::double_double::two_product;
 use crate::base::math::Vector;
 
 /// Four doubles. For a vector in three dimensions, lanes 0 to 2 are the components and lane 3 is unspecified.
 pub trait Lanes: Copy {
     /// Two vectors in single precision.
     type Twins: Twins;
+    /// Whether [`Lanes::mul_add`] is fused.
+    const IS_FUSED: bool;
     /// Two vectors, rounded to single precision.
     fn twins(self, second: Self) -> Self::Twins;
     /// All lanes equal.
@@ -97,6 +100,25 @@ pub trait Lanes: Copy {
     fn cross(self, other: Self) -> Self {
         self.mul(other.rotate()).sub(self.rotate().mul(other)).rotate()
     }
+
+    /// The sum, and what its rounding has left off (D. E. Knuth, The Art of Computer Programming, vol. 2, §4.2.2).
+    #[inline(always)]
+    fn two_sum(self, other: Self) -> [Self; 2] {
+        let sum = self.add(other);
+        let part = sum.sub(self);
+        [sum, self.sub(sum.sub(part)).add(other.sub(part))]
+    }
+
+    /// The product, and what its rounding has left off; see [`two_product`].
+    #[inline(always)]
+    fn two_product(self, other: Self) -> [Self; 2] {
+        let product = self.mul(other);
+        if Self::IS_FUSED {
+            return [product, self.mul_add(other, product.negate())];
+        }
+        let (x, y) = (self.to_array(), other.to_array());
+        [product, Self::load(&std::array::from_fn(|i| two_product(x[i], y[i]).lo))]
+    }
 }
 
 /// Plain arrays, for any target. `FUSED`: products are added unrounded, by an instruction that the target must have, else by a call
@@ -109,6 +131,7 @@ pub type Portable = Plain<false>;
 
 impl<const FUSED: bool> Lanes for Plain<FUSED> {
     type Twins = PortableTwins<FUSED>;
+    const IS_FUSED: bool = FUSED;
     #[inline(always)]
     fn twins(self, second: Self) -> PortableTwins<FUSED> {
         PortableTwins::rounded(self.0, second.0)

@@ -100,6 +100,7 @@ fn eight_of(number: f32) -> Eight {
 
 impl Lanes for Neon {
     type Twins = NeonTwins;
+    const IS_FUSED: bool = true;
     #[inline(always)]
     fn twins(self, second: Self) -> NeonTwins {
         NeonTwins([self.single(), second.single()])

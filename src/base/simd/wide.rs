@@ -107,6 +107,7 @@ unsafe fn greatest_lane(numbers: __m256) -> __m256 {
 // SAFETY of every block below: `Wide` exists only inside `run`, whose caller has checked for AVX2 and FMA.
 impl<const WITH_AVX512: bool> Lanes for Wide<WITH_AVX512> {
     type Twins = WideTwins;
+    const IS_FUSED: bool = true;
     #[inline(always)]
     fn twins(self, second: Self) -> WideTwins {
         // SAFETY: see above.

@@ -59,11 +59,6 @@ impl SurfaceTree {
         &self.triangles[node.triangles[0] as usize..node.triangles[1] as usize]
     }
 
-    /// The distance from the surface.
-    pub fn distance(&self, point: &Vector) -> f64 {
-        self.distance_within(point, -1.0, &mut 0)
-    }
-
     /// The distance from the surface; some number up to `enough` where it is not more than that. `near` is a triangle that may be
     /// the nearest, and becomes it.
     pub fn distance_within(&self, point: &Vector, enough: f64, near: &mut u32) -> f64 {
