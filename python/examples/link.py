@@ -1,7 +1,11 @@
-"""A robot's link from an OBJ file of convex groups, as CoACD and V-HACD write them, and a rod between its fingers.
+"""A robot's link of convex pieces, and a rod between its fingers.
 
 python link.py [FILE]
+
+FILE is an OBJ file of groups, as CoACD and V-HACD write them, or the parts that coacd.run_coacd returns, as JSON: a list of
+[vertices, faces]. json.dump([[v.tolist(), f.tolist()] for v, f in parts], file) writes them.
 """
+import json
 import pathlib
 import sys
 
@@ -25,12 +29,17 @@ def read_groups(path):
     return {name: np.array([vertices[n] for n in sorted(used)]) for name, used in groups.items()}
 
 
+def read_parts(path):
+    """The vertices of each part."""
+    return {f"part {k}": np.array(vertices) for k, (vertices, _) in enumerate(json.loads(pathlib.Path(path).read_text()))}
+
+
 def at(x, y, z):
     return np.column_stack([np.eye(3), [x, y, z]])
 
 
 path = sys.argv[1] if len(sys.argv) > 1 else pathlib.Path(__file__).parent / "link.obj"
-groups = read_groups(path)
+groups = read_parts(path) if str(path).endswith(".json") else read_groups(path)
 names = list(groups)
 link = sp.Compound([sp.Shape(points, policy="hull") for points in groups.values()])
 print(link.piece_count, "pieces:", ", ".join(names))

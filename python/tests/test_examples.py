@@ -1,4 +1,5 @@
 """Every example runs, where the packages that it needs are installed."""
+import json
 import pathlib
 import subprocess
 import sys
@@ -29,3 +30,15 @@ def test_the_link_is_read_group_by_group(tmp_path):
         "a rod between the fingers is 0.040 m from finger_left",
         "as it falls, it meets bridge at t = 0.300",
     ]
+
+
+def test_the_link_is_read_part_by_part(tmp_path):
+    groups = (EXAMPLES / "link.obj").read_text().split("\ng ")[1:]
+    corners = [[list(map(float, line.split()[1:])) for line in group.splitlines() if line.startswith("v ")] for group in groups]
+    (tmp_path / "link.json").write_text(json.dumps([[vertices, [[0, 1, 2]]] for vertices in corners]))
+    command = [sys.executable, EXAMPLES / "link.py", "link.json"]
+    done = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=120)
+    assert done.stdout.splitlines()[:2] == [
+        "5 pieces: part 0, part 1, part 2, part 3, part 4",
+        "a rod between the fingers is 0.040 m from part 2",
+    ], done.stderr
