@@ -78,7 +78,7 @@ void actor()
     const BoxMesh box(0.5, 0.5, 0.5);
     SWIFT_Scene* scene = new SWIFT_Scene(true, false);
     for (int i = 0; i < 144; ++i) {
-        int id;
+        int id = -1;
         CHECK(scene->Add_Convex_Object(&box.vertices[0], &box.triangles[0], 8, 12, id, false));
         move_to(*scene, id, i % 12 * 2, i / 12 * 2, 0);
     }
