@@ -17,6 +17,8 @@ const COMPOUND_SLOTS: usize = 64;
 pub(crate) struct Caches {
     slots: Vec<CacheSlot>,
     compounds: Vec<([u32; 2], GrowingCache)>,
+    /// The pieces that hit at the last time that was tried: at the next one of a path they often do again.
+    pub last_hit: Option<[u32; 2]>,
 }
 
 #[derive(Debug, Clone, Copy, Default)]

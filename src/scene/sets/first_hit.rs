@@ -2,14 +2,15 @@
 
 use crate::base::error::{Error, Result, check_range};
 use crate::base::math::Pose;
-use crate::pair::{self, Outcome, PairAnswer, PairConfig, Placed, Query};
+use crate::pair::{self, Outcome, PairAnswer, PairConfig, Query};
 use crate::scene::near::tree::Branch;
 use crate::scene::search::query::PairResult;
 use crate::scene::sets::caches::Caches;
-use crate::scene::sets::members::{self, Boxes, Member, ObjectSet};
+use crate::scene::sets::members::{self, Boxes, Member, ObjectSet, Side};
 use crate::scene::sets::nearest::signed;
 use crate::scene::sets::others::Others;
-use crate::scene::world::rows::{Spheres, are_far_apart, grown_box};
+use crate::scene::world::content::World;
+use crate::scene::world::rows::{are_far_apart, grown_box};
 
 /// In which order times are tried.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
@@ -74,6 +75,9 @@ pub(crate) fn first_hit(question: FirstHitQuestion, room: &mut FirstHitRoom) -> 
         tried += 1;
         let set = ObjectSet { poses: Some(&poses[time * objects..][..objects]), ..*others.set };
         let named = |error: Error| error.about(&format!("time {time} of {count}"));
+        if let Some(pair) = last_hit(&others, &set, room.caches, max_distance).map_err(named)? {
+            return Ok(FirstHit { time, tried, pair });
+        }
         members::list(others.world, &set, Boxes::Made, room.members).map_err(named)?;
         if let Some(pair) = hit(&others, room, max_distance)? {
             return Ok(FirstHit { time, tried, pair });
@@ -94,36 +98,26 @@ fn in_order(order: PoseOrder, count: usize) -> impl Iterator<Item = usize> {
     (0..all).map(at).filter(move |&time| time < count)
 }
 
+/// The pair that hit at the last time, of whatever scene and set, if it hits again.
+fn last_hit(others: &Others, set: &ObjectSet, caches: &mut Caches, max_distance: f64) -> Result<Option<PairResult>> {
+    let (world, Some(pair)) = (others.world, caches.last_hit.take()) else { return Ok(None) };
+    let [Some(one), second] = members::find(world, set, pair)? else { return Ok(None) };
+    let at = pair[1] as usize;
+    match second {
+        Some(second) if set.among => ask([&one, &second].map(|member| member.side(world)), world, caches, max_distance),
+        None if at < world.proxies.len() && others.has(at) => {
+            ask([one.side(world), others.side(at)], world, caches, max_distance)
+        }
+        _ => Ok(None),
+    }
+}
+
 /// A pair of the set where it is that is no farther apart than `max_distance`.
 fn hit(others: &Others, room: &mut FirstHitRoom, max_distance: f64) -> Result<Option<PairResult>> {
     let FirstHitRoom { members, open, found, caches } = room;
-    let (world, proxies) = (others.world, &others.world.proxies);
-    let mut look = |members: [u32; 2], spheres: [&Spheres; 2], bodies: [Placed; 2]| {
-        let [one, other] = spheres;
-        if are_far_apart(one, other, max_distance) || !world.is_tested(members.map(|proxy| proxy as usize), true) {
-            return Ok(None);
-        }
-        let mut pieces = [None; 2];
-        let ask = |config: &PairConfig, answer: &mut PairAnswer| {
-            if let Some(compounds) = proxies.bodies.compound_pair(members, bodies) {
-                let cache = caches.of_compounds(members)?;
-                pieces = compounds.ask(Query::Intersection, cache, config, answer)?;
-                return Ok(());
-            }
-            match proxies.bodies.ground_pair(members) {
-                None => pair::intersection(bodies, caches.of(members), config, answer),
-                Some(ground) => ground.ask(Query::Intersection, bodies, config, answer),
-            }
-        };
-        let answer = answer_if_hit(max_distance, ask)?;
-        Ok(answer.map(|answer| {
-            let mut result = signed(world, members, answer);
-            result.name_pieces(pieces);
-            result
-        }))
-    };
+    let world = others.world;
     for (k, member) in members.iter().enumerate() {
-        let shape = &proxies.shapes[member.proxy as usize];
+        let shape = &world.proxies.shapes[member.proxy as usize];
         let grown = if max_distance > 0.0 {
             grown_box(shape, &member.pose, &member.spheres, max_distance)
         } else {
@@ -131,20 +125,47 @@ fn hit(others: &Others, room: &mut FirstHitRoom, max_distance: f64) -> Result<Op
         };
         others.list(open, found, |bounds| bounds.overlaps(&grown))?;
         for &other in &**found {
-            let at = other as usize;
-            let bodies = [member.placed(world), others.placed(at)];
-            if let Some(pair) = look([member.proxy, other], [&member.spheres, &proxies.spheres(at)], bodies)? {
+            let sides = [member.side(world), others.side(other as usize)];
+            if let Some(pair) = ask(sides, world, caches, max_distance)? {
                 return Ok(Some(pair));
             }
         }
         for second in members[k + 1..].iter().take_while(|_| others.set.among) {
-            let bodies = [member.placed(world), second.placed(world)];
-            if let Some(pair) = look([member.proxy, second.proxy], [&member.spheres, &second.spheres], bodies)? {
+            if let Some(pair) = ask([member, second].map(|member| member.side(world)), world, caches, max_distance)? {
                 return Ok(Some(pair));
             }
         }
     }
     Ok(None)
+}
+
+/// Two pieces, unless they are not tested or are farther apart than `max_distance`.
+fn ask(sides: [Side; 2], world: &World, caches: &mut Caches, max_distance: f64) -> Result<Option<PairResult>> {
+    let proxies = &world.proxies;
+    let (rows, bodies) = (sides.map(|side| side.proxy), sides.map(|side| side.placed));
+    if are_far_apart(&sides[0].spheres, &sides[1].spheres, max_distance)
+        || !world.is_tested(rows.map(|proxy| proxy as usize), true)
+    {
+        return Ok(None);
+    }
+    let mut pieces = [None; 2];
+    let answer = answer_if_hit(max_distance, |config, answer| {
+        if let Some(compounds) = proxies.bodies.compound_pair(rows, bodies) {
+            let cache = caches.of_compounds(rows)?;
+            pieces = compounds.ask(Query::Intersection, cache, config, answer)?;
+            return Ok(());
+        }
+        match proxies.bodies.ground_pair(rows) {
+            None => pair::intersection(bodies, caches.of(rows), config, answer),
+            Some(ground) => ground.ask(Query::Intersection, bodies, config, answer),
+        }
+    })?;
+    Ok(answer.map(|answer| {
+        caches.last_hit = Some(rows);
+        let mut result = signed(world, rows, answer);
+        result.name_pieces(pieces);
+        result
+    }))
 }
 
 /// The answer that `ask` gives for two bodies if they are no farther apart than `max_distance`; otherwise none.

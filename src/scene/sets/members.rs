@@ -44,10 +44,23 @@ impl Member {
         Member { proxy: proxy as u32, pose, spheres, bounds }
     }
 
+    /// The piece as one of a pair.
+    pub fn side<'a>(&'a self, world: &'a World) -> Side<'a> {
+        Side { proxy: self.proxy, spheres: self.spheres, placed: self.placed(world) }
+    }
+
     /// The piece where it is.
     pub fn placed<'a>(&'a self, world: &'a World) -> Placed<'a> {
         world.proxies.shapes[self.proxy as usize].at(&self.pose)
     }
+}
+
+/// One of a pair of pieces.
+#[derive(Clone, Copy)]
+pub(crate) struct Side<'a> {
+    pub proxy: u32,
+    pub spheres: Spheres,
+    pub placed: Placed<'a>,
 }
 
 /// Whether pieces get boxes.
@@ -64,6 +77,32 @@ pub(crate) enum Boxes {
 /// [`Error::Pose`] for a pose that is not accepted, [`Error::Memory`].
 pub(crate) fn list(world: &World, set: &ObjectSet, boxes: Boxes, members: &mut Vec<Member>) -> Result<()> {
     members.clear();
+    for_each(world, set, |proxy, pose| push(members, Member::new(world, proxy, pose, boxes)))
+}
+
+/// The two of these pieces that are in a set, without boxes; all of its poses are looked at.
+///
+/// # Errors
+/// As of [`list`].
+pub(crate) fn find(world: &World, set: &ObjectSet, proxies: [u32; 2]) -> Result<[Option<Member>; 2]> {
+    let mut found = [None; 2];
+    for_each(world, set, |proxy, pose| {
+        for (own, found) in proxies.iter().zip(&mut found) {
+            if *own as usize == proxy {
+                *found = Some(Member::new(world, proxy, pose, Boxes::LeftOut));
+            }
+        }
+        Ok(())
+    })?;
+    Ok(found)
+}
+
+/// Calls `work` with each piece of a set and its pose, if the set gives one, which is accepted.
+///
+/// # Errors
+/// As of [`list`], and those of `work`.
+#[inline(always)]
+fn for_each(world: &World, set: &ObjectSet, mut work: impl FnMut(usize, Option<Pose>) -> Result<()>) -> Result<()> {
     let count = set.ids.len();
     if let Some(poses) = set.poses
         && poses.len() != count
@@ -73,25 +112,20 @@ pub(crate) fn list(world: &World, set: &ObjectSet, boxes: Boxes, members: &mut V
     for (k, id) in set.ids.iter().enumerate() {
         let named = |error: Error| error.about(&format!("object {k} of {count} of the set"));
         let object = world.objects.get(*id).map_err(named)?;
+        let pose = set.poses.map(|poses| &poses[k]);
+        let check = |pose: &Pose| pose.check().map_err(named);
+        pose.map_or(Ok(()), check)?;
         for (piece, proxy) in object.proxies().enumerate() {
-            let pose = match set.poses {
-                None => None,
-                Some(poses) => {
-                    let pose = &poses[k];
-                    let check = |pose: &Pose| pose.check().map_err(named);
-                    check(pose)?;
-                    match &object.arrangement {
-                        None => Some(*pose),
-                        Some(arrangement) => {
-                            arrangement.check(pose).map_err(named)?;
-                            let whole = pose.after(&arrangement.piece_poses[piece]);
-                            check(&whole)?;
-                            Some(whole)
-                        }
-                    }
+            let pose = match (pose, &object.arrangement) {
+                (Some(pose), Some(arrangement)) => {
+                    arrangement.check(pose).map_err(named)?;
+                    let whole = pose.after(&arrangement.piece_poses[piece]);
+                    check(&whole)?;
+                    Some(whole)
                 }
+                (pose, _) => pose.copied(),
             };
-            push(members, Member::new(world, proxy, pose, boxes))?;
+            work(proxy, pose)?;
         }
     }
     Ok(())
