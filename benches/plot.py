@@ -281,7 +281,8 @@ def crowds(machine, bodies, rows):
         worst = [Curve(method, [(n, mean), (n, most)], Kind.LINE) for n, (mean, most) in here.items()]
         return [Curve(method, [(n, mean) for n, (mean, _) in here.items()])] + worst
 
-    names = {"all": "all move a little", "brisk": "all move briskly", "5%": "5 % move", "rest": "a pile at rest", "teleport": "all jump"}
+    names = {"all": "all move a little", "brisk": "all move briskly", "5%": "5 % move", "1%": "1 % move", "rest": "a pile at rest",
+             "teleport": "all jump"}
     asked = {"intersection": "intersecting", "distance": "within 0.25", "contact": "depth, manifold"}
 
     def row(question):

@@ -38,7 +38,7 @@ usage: compare [options]
   --crowd LIST      time scenes of so many bodies instead, step by step; --count is the number of steps of 1,000, --methods of
                     swiftprox, swiftprox-2 (two threads), parry, parry-rebuilt, sweep-and-prune, fcl; no method takes more than
                     two seconds on a scene, or three steps
-  --motions LIST    with --crowd: of all, brisk, 5%, rest, teleport (all)
+  --motions LIST    with --crowd: of all, brisk, 5%, 1%, rest, teleport (all)
   --resting         time depths and manifolds of four points of bodies at rest instead, scene by scene; --methods of swiftprox,
                     swiftprox-manifold, coal-1e-10, mujoco-1e-6, jolt-1e-6, bullet-1e-4, libccd-mpr-1e-4,
                     parry-hc, and manifolds: box3d-manifold, mujoco-manifold-1e-6, bullet-manifold-0, parry-manifold

@@ -42,13 +42,16 @@ pub enum Motion {
     Brisk,
     /// The same, but only one body in 20, others in each step.
     Some,
+    /// One body in 100.
+    Few,
     /// None, after the first step: a pile of layers that touch.
     Rest,
     /// All, to anywhere.
     Teleport,
 }
 
-pub const MOTIONS: [Motion; 5] = [Motion::All, Motion::Brisk, Motion::Some, Motion::Rest, Motion::Teleport];
+pub const MOTIONS: [Motion; 6] =
+    [Motion::All, Motion::Brisk, Motion::Some, Motion::Few, Motion::Rest, Motion::Teleport];
 
 impl Motion {
     pub fn name(self) -> &'static str {
@@ -56,6 +59,7 @@ impl Motion {
             Motion::All => "all",
             Motion::Brisk => "brisk",
             Motion::Some => "5%",
+            Motion::Few => "1%",
             Motion::Rest => "rest",
             Motion::Teleport => "teleport",
         }
@@ -136,6 +140,7 @@ impl World {
             let moves = match self.motion {
                 Motion::All | Motion::Brisk | Motion::Teleport => true,
                 Motion::Some => self.random.below(20) == 0,
+                Motion::Few => self.random.below(100) == 0,
                 Motion::Rest => false,
             };
             if moves {
