@@ -22,8 +22,8 @@
 # make casts                  casts beside parry3d, FCL, Bullet and samples, rays beside parry3d: benches/results/casts.csv, the chart and
 #                             tables of docs/motions.md
 # make grounds                contacts of 1,000 bodies with 20,000 triangles, and rays, beside parry3d and Jolt: benches/results/grounds.csv, grounds-rays.csv
-# make compounds              bodies of many pieces beside parry3d and coal: verdicts, distances, contacts, an arm and scenes, some three
-#                             minutes; benches/results/compounds.csv, charts and tables of docs/compounds.md, its picture
+# make compounds              bodies of many pieces beside parry3d, coal, FCL and Bullet: verdicts, distances, contacts, an arm and scenes,
+#                             some minutes; benches/results/compounds.csv, charts and tables of docs/compounds.md, its picture
 # make python-bench           the Python package beside coal, python-fcl and MuJoCo: the table of docs/python.md
 # make hard-motions           casts MOTIONS=800000 adversarial motions and judges each: examples/hard_motions.rs, twenty minutes
 # make engines                scenes in MuJoCo, Bullet and DART, with their colliders and with swiftprox: docs/engines.md, its tables,
@@ -232,7 +232,7 @@ grounds:
 
 compounds:
 	@scripts/require.sh $(CC_PACKAGES) c++=g++ python3=python3 $(MATPLOTLIB)
-	-@scripts/require.sh pkg-config=pkg-config /usr/include/eigen3=libeigen3-dev
+	-@scripts/require.sh pkg-config=pkg-config $(PEERS) /usr/include/bullet=libbullet-dev /usr/include/eigen3=libeigen3-dev
 	. scripts/peers.sh; export PEERS_PYTHON; cargo build --locked --release --manifest-path benches/compare/Cargo.toml
 	$(TIMED) benches/compare/target/release/compare --compounds --count 120 --passes 3 --csv $(COMPOUNDS)
 	$(DRAW) benches/compounds.py $(COMPOUNDS)

@@ -9,7 +9,7 @@ fn main() {
     println!("cargo:rustc-env=COMPILER={}", compiler());
     println!("cargo:rustc-env=PARRY={}", parry());
     // No -march: Eigen's alignment, and with it the ABI, must be that of the installed library.
-    let fcl = ["src/crowd/fcl.cpp", "src/peers/fcl.cpp", "src/cast/fcl.cpp"];
+    let fcl = ["src/crowd/fcl.cpp", "src/peers/fcl.cpp", "src/cast/fcl.cpp", "src/compound/fcl.cpp"];
     Shim { peer: "fcl", sources: &fcl, flags: pkg_config("fcl", "libfcl-dev") }
         .link(cc::Build::new().cpp(true).std("c++14"));
     let ccd = pkg_config("ccd", "libccd-dev");
@@ -21,7 +21,12 @@ fn main() {
     let bullet64 = pkg_config("bullet-float64", "libbullet-dev");
     Shim {
         peer: "bullet64",
-        sources: &["src/cast/bullet.cpp", "src/resting/bullet.cpp", "src/peers/bullet_round.cpp"],
+        sources: &[
+            "src/cast/bullet.cpp",
+            "src/resting/bullet.cpp",
+            "src/peers/bullet_round.cpp",
+            "src/compound/bullet.cpp",
+        ],
         flags: bullet64,
     }
     .link(cc::Build::new().cpp(true).std("c++14"));
@@ -36,8 +41,10 @@ fn main() {
     Shim { peer: "mujoco", sources: &["src/peers/mujoco.c"], flags: mujoco }.link(cc::Build::new().std("c99"));
     Shim { peer: "jolt", sources: &["src/peers/jolt.cpp", "src/ground/jolt.cpp"], flags: jolt() }
         .link(cc::Build::new().cpp(true).std("c++17"));
-    for header in ["src/peers/bullet.h", "src/peers/hull.h", "src/peers/peer.h", "src/cast/peer.h"] {
-        println!("cargo:rerun-if-changed={header}");
+    let headers =
+        ["peers/bullet.h", "peers/hull.h", "peers/peer.h", "cast/peer.h", "compound/peer.h", "compound/managers.h"];
+    for header in headers {
+        println!("cargo:rerun-if-changed=src/{header}");
     }
 }
 

@@ -44,8 +44,8 @@ usage: compare [options]
                     parry-hc, and manifolds: box3d-manifold, mujoco-manifold-1e-6, bullet-manifold-0, parry-manifold
   --grounds         time contacts of 1,000 bodies at rest and sliding on a ground of 20,000 triangles instead; --count is rounded up to
                     thousands, --methods of swiftprox, parry, parry-fixed
-  --compounds       time bodies of 16 to 500 pieces beside parry's compounds and coal's managers instead: verdicts, distances,
-                    contacts, an arm and scenes; --count is the number of poses of each motion
+  --compounds       time bodies of 16 to 500 pieces beside parry, coal, FCL and Bullet instead: verdicts, distances, contacts, an
+                    arm and scenes; --count is the number of poses of each motion
   --casts LIST      time casts of the scenes whose names begin so, or all, beside parry, FCL, Bullet and samples instead, and
                     rays; --count is the number of motions a scene, a quarter of that of rays
   --build           time the building of shapes instead

@@ -1,110 +1,125 @@
-// coal's verdicts and distances of two equal bodies of many pieces, by a manager for each with an object a piece. The second body
-// stays, so that the first alone is moved, to where it is seen from the second.
+// coal's verdicts and distances of two equal bodies of many pieces: by managers with an object a piece, and by its hierarchy of
+// boxes over the triangles of the surface.
 
 #include <algorithm>
-#include <limits>
 #include <memory>
 #include <vector>
 
+#include <coal/BV/OBBRSS.h>
+#include <coal/BVH/BVH_model.h>
 #include <coal/broadphase/broadphase_dynamic_AABB_tree.h>
 #include <coal/broadphase/default_broadphase_callbacks.h>
+#include <coal/collision.h>
 #include <coal/collision_object.h>
+#include <coal/distance.h>
 #include <coal/shape/convex.h>
 
-using Convex = coal::Convex<coal::Triangle>;
+#include "managers.h"
 
 namespace {
 
-struct Body {
-    std::vector<std::unique_ptr<coal::CollisionObject>> objects;
-    coal::DynamicAABBTreeCollisionManager manager;
-};
+using Points = std::vector<coal::Vec3s>;
+using Triangles = std::vector<coal::Triangle>;
 
-}
-
-struct coal_compound {
-    std::vector<std::shared_ptr<Convex>> pieces;
-    Body bodies[2];
-    std::vector<coal::Transform3s> poses;
-};
-
-static coal::Transform3s transform(const double *m)
+Points points_of(const peer_mesh &mesh)
 {
-    coal::Matrix3s rotation;
-    rotation << m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10];
-    return coal::Transform3s(rotation, coal::Vec3s(m[3], m[7], m[11]));
-}
-
-static double ask(coal_compound &compound, const coal::Transform3s &pose, bool asks_distance)
-{
-    Body *bodies = compound.bodies;
-    for (auto &object : bodies[0].objects) {
-        object->setTransform(pose);
-        object->computeAABB();
+    Points points;
+    for (const double *v = mesh.vertices; v != mesh.vertices + 3 * mesh.vertex_count; v += 3) {
+        points.emplace_back(v[0], v[1], v[2]);
     }
-    bodies[0].manager.update();
-    if (asks_distance) {
+    return points;
+}
+
+Triangles triangles_of(const peer_mesh &mesh)
+{
+    Triangles triangles;
+    for (const unsigned *c = mesh.corners; c != mesh.corners + 3 * mesh.triangle_count; c += 3) {
+        triangles.emplace_back(c[0], c[1], c[2]);
+    }
+    return triangles;
+}
+
+struct Coal {
+    using Object = coal::CollisionObject;
+    using Manager = coal::DynamicAABBTreeCollisionManager;
+    using Transform = coal::Transform3s;
+    using Convex = coal::Convex<coal::Triangle>;
+
+    static std::shared_ptr<Convex> convex(const peer_mesh &mesh)
+    {
+        return std::make_shared<Convex>(
+            std::make_shared<Points>(points_of(mesh)), static_cast<unsigned>(mesh.vertex_count),
+            std::make_shared<Triangles>(triangles_of(mesh)), static_cast<unsigned>(mesh.triangle_count));
+    }
+
+    static Transform transform(const double *m)
+    {
+        coal::Matrix3s rotation;
+        rotation << m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10];
+        return Transform(rotation, coal::Vec3s(m[3], m[7], m[11]));
+    }
+
+    static Transform relative(const double *poses)
+    {
+        return transform(poses + 12).inverseTimes(transform(poses));
+    }
+
+    static double distance(const Manager &first, Manager &second)
+    {
         coal::DistanceCallBackDefault callback;
         callback.data.request.enable_signed_distance = false;
-        bodies[0].manager.distance(&bodies[1].manager, &callback);
-        return std::max(0.0, callback.data.result.min_distance);
+        first.distance(&second, &callback);
+        return callback.data.result.min_distance;
     }
-    coal::CollisionCallBackDefault callback;
-    bodies[0].manager.collide(&bodies[1].manager, &callback);
-    return callback.data.result.isCollision() ? 0 : 1;
-}
 
-extern "C" {
+    static bool meet(const Manager &first, Manager &second)
+    {
+        coal::CollisionCallBackDefault callback;
+        callback.data.request = verdict();
+        first.collide(&second, &callback);
+        return callback.data.result.isCollision();
+    }
 
-coal_compound *coal_compound_create(const double *coordinates, const size_t *vertex_counts, const unsigned *corners,
-                                    const size_t *triangle_counts, size_t piece_count)
-{
-    try {
-        std::unique_ptr<coal_compound> made(new coal_compound);
-        for (size_t k = 0; k < piece_count; ++k) {
-            auto points = std::make_shared<std::vector<coal::Vec3s>>();
-            for (size_t i = 0; i < vertex_counts[k]; ++i, coordinates += 3) {
-                points->emplace_back(coordinates[0], coordinates[1], coordinates[2]);
-            }
-            auto triangles = std::make_shared<std::vector<coal::Triangle>>();
-            for (size_t i = 0; i < triangle_counts[k]; ++i, corners += 3) {
-                triangles->emplace_back(corners[0], corners[1], corners[2]);
-            }
-            made->pieces.push_back(std::make_shared<Convex>(points, static_cast<unsigned>(vertex_counts[k]), triangles,
-                                                            static_cast<unsigned>(triangle_counts[k])));
+    // No depth is asked, and no pair of shapes for longer than until it is known to be apart.
+    static coal::CollisionRequest verdict()
+    {
+        coal::CollisionRequest request;
+        request.enable_contact = false;
+        request.distance_upper_bound = 0;
+        return request;
+    }
+};
+
+// Two such surfaces that enclose the same volume cannot be one inside the other, which triangles would not tell.
+class Surfaces {
+    coal::BVHModel<coal::OBBRSS> model;
+    std::vector<coal::Transform3s> poses;
+    bool asks_distance;
+
+public:
+    explicit Surfaces(const compound_scene &scene)
+        : poses(relative_poses<Coal>(scene)), asks_distance(scene.asks_distance)
+    {
+        model.beginModel();
+        model.addSubModel(points_of(scene.surface), triangles_of(scene.surface));
+        model.endModel();
+    }
+
+    double ask(size_t k) const
+    {
+        const coal::Transform3s still;
+        if (asks_distance) {
+            coal::DistanceRequest request;
+            request.enable_signed_distance = false;
+            coal::DistanceResult result;
+            return std::max(0.0, coal::distance(&model, poses[k], &model, still, request, result));
         }
-        for (Body &body : made->bodies) {
-            for (auto &piece : made->pieces) {
-                body.objects.emplace_back(new coal::CollisionObject(piece));
-                body.manager.registerObject(body.objects.back().get());
-            }
-            body.manager.setup();
-        }
-        return made.release();
-    } catch (...) {
-        return nullptr;
+        coal::CollisionResult result;
+        return coal::collide(&model, poses[k], &model, still, Coal::verdict(), result) > 0 ? 0 : 1;
     }
-}
+};
 
-void coal_compound_load(coal_compound *compound, const double *poses, size_t count)
-{
-    compound->poses.clear();
-    for (size_t k = 0; k < count; ++k, poses += 24) {
-        compound->poses.push_back(transform(poses + 12).inverseTimes(transform(poses)));
-    }
-}
+} // namespace
 
-double coal_compound_ask(coal_compound *compound, size_t k, int asks_distance)
-{
-    try {
-        return ask(*compound, compound->poses[k], asks_distance);
-    } catch (...) {
-        return std::numeric_limits<double>::quiet_NaN();
-    }
-}
-
-void coal_compound_free(coal_compound *compound)
-{
-    delete compound;
-}
-}
+COMPOUND_PEER(coal_pieces, Managers<Coal>)
+COMPOUND_PEER(coal_bvh, Surfaces)

@@ -1,9 +1,8 @@
 //! Verdicts and distances of two equal bodies, pose by pose.
 
-use super::coal::Coal;
 use super::ours::{self, Ours};
 use super::parry::{self, Parry};
-use super::{Method, Row, Scene, met, scenes};
+use super::{Method, Row, Scene, met, native, scenes};
 use crate::options::Options;
 
 /// What is asked.
@@ -28,9 +27,7 @@ pub fn measure(options: &Options) -> Result<Vec<Row>, String> {
             for (asked, what) in ASKED {
                 let mut methods: Vec<Box<dyn Method + '_>> =
                     vec![Box::new(Ours::new(&ours, &poses, what)), Box::new(Parry::new(&theirs, &poses, what))];
-                if let Some(coal) = Coal::new(&points, &poses, what)? {
-                    methods.push(Box::new(coal));
-                }
+                methods.extend(native::methods(&points, &poses, what)?);
                 let scene = Scene { asked, bodies: name, pieces: points.len(), motion };
                 rows.extend(scene.measure(methods, [poses.len(), options.passes], ALLOWED, met)?);
             }
