@@ -17,9 +17,12 @@ MOTIONS = {"random": "random", "near": "near", "orbit": "1°", "slow": "0.1°", 
 METHODS = {
     "swiftprox": Style("swiftprox", charts.BLUE),
     "parry": Style("parry3d, Compound", charts.RED, marker="s"),
-    "coal": Style("coal, pieces in managers", charts.GREEN, charts.DASHED, "^"),
+    "coal-pieces": Style("coal, pieces in managers", charts.GREEN, charts.DASHED, "^"),
+    "coal-bvh": Style("coal, BVH of the surface", charts.INDIGO, charts.DOTTED, "D"),
+    "fcl": Style("FCL, pieces in managers", charts.PINK, charts.DASHED, "v"),
+    "bullet": Style("Bullet, btCompoundShape", charts.ORANGE, charts.DOTTED, "o"),
 }
-PEERS = ("parry", "coal")
+PEERS = {"parry": "parry", "coal-pieces": "coal pieces", "coal-bvh": "coal BVH", "fcl": "FCL", "bullet": "Bullet"}
 # Up to how many times as long a peer takes as we do.
 RATIOS = ((1, charts.BAD[1]), (2, charts.BAD[0]), (10, charts.GOOD), (float("inf"), charts.NAVY))
 
@@ -62,7 +65,7 @@ def ratio_cell(times, asked, bodies, motion):
         return Cell("–", "", charts.REFUSED)
     ratio, peer = min((times[asked, bodies, motion, peer] / own, peer) for peer in PEERS if (asked, bodies, motion, peer) in times)
     colour = next(colour for limit, colour in RATIOS if ratio < limit)
-    return Cell(digits(ratio), peer, colour)
+    return Cell(digits(ratio), PEERS[peer], colour)
 
 
 def digits(value):
@@ -80,7 +83,7 @@ def ratios(head, rows):
             lines.append(Line(f"{asked}, {bodies.split('-')[0]} of {pieces:.0f}", cells, gap_before=k == 0 and asked == "distance"))
     legend = [(colour, f"below {limit}" if limit < float("inf") else "more") for limit, colour in RATIOS]
     return Cells("Two bodies of convex pieces: time of the quickest other library over ours", machine(head),
-                 "beside it which that is: parry's Compound, or coal's managers with an object a piece",
+                 "beside it which that is: parry's Compound, pieces in managers of coal or FCL, coal's BVH of the surface, Bullet's compound",
                  [(name, "") for name in MOTIONS.values()], lines, legend, 140)
 
 
@@ -91,12 +94,15 @@ def pair_table(rows):
     for r in two:
         of.setdefault((r["asked"], r["motion"], r["method"]), []).append(r["best_ns"])
     mean = {key: geometric_mean(times) for key, times in of.items()}
-    lines = ["| motion | verdict, ns | parry | coal | distance, ns | parry | coal |", "|---|" + "--:|" * 6]
+    # Bullet is asked for no distance.
+    peers = {asked: [peer for peer in PEERS if any((asked, motion, peer) in mean for motion in MOTIONS)] for asked in ("verdict", "distance")}
+    heads = ["motion"] + [word for asked, here in peers.items() for word in (f"{asked}, ns", *(PEERS[peer] for peer in here))]
+    lines = ["| " + " | ".join(heads) + " |", "|---|" + "--:|" * (len(heads) - 1)]
     for motion, name in MOTIONS.items():
         cells = [name]
-        for asked in ("verdict", "distance"):
+        for asked, here in peers.items():
             own = mean[asked, motion, "swiftprox"]
-            found = [mean.get((asked, motion, peer)) for peer in PEERS]
+            found = [mean.get((asked, motion, peer)) for peer in here]
             cells += [f"{own:,.0f}"] + [digits(time / own) if time else "–" for time in found]
         lines.append("| " + " | ".join(cells) + " |")
     return "\n".join(lines)
