@@ -273,6 +273,35 @@ fn the_first_hit_is_that_of_integers() {
     assert!(hits.iter().all(|&count| count > 5), "{hits:?}");
 }
 
+/// As the pair that is found shows; and no pose of the set is left unseen.
+#[test]
+fn what_hit_last_is_asked_first() {
+    let cube = Arc::new(cuboid([1.0; 3]));
+    let mut scene = Scene::new();
+    let [_, far] = [0.0, 10.0].map(|x| {
+        let options = ObjectOptions { pose: at(x, 0.0, 0.0), ..ObjectOptions::default() };
+        scene.add_object(vec![cube.clone()], &options).unwrap()
+    });
+    let ids = [50.0, 60.0].map(|x| {
+        let options = ObjectOptions { pose: at(x, 0.0, 0.0), ..ObjectOptions::default() };
+        scene.add_object(vec![cube.clone()], &options).unwrap()
+    });
+    let mut used = SetScratch::default();
+    let ask = |xs: [f64; 2], among: bool, scratch: &mut SetScratch| {
+        let poses = xs.map(|x| at(x, 0.5, 0.0));
+        let set = ObjectSet { ids: &ids, poses: None, among };
+        scene.first_hit(&set, &poses, PoseOrder::InOrder, 0.0, scratch).map(|hit| [hit.pair.object1, hit.pair.object2])
+    };
+    assert_eq!(ask([20.0, 10.0], false, &mut used).unwrap(), [ids[1], far]);
+    assert_ne!(ask([0.0, 10.0], false, &mut SetScratch::default()).unwrap(), [ids[1], far]);
+    assert_eq!(ask([0.0, 10.0], false, &mut used).unwrap(), [ids[1], far]);
+    let refused = ask([f64::NAN, 10.0], false, &mut used).unwrap_err();
+    assert!(refused.to_string().contains("time 0 of 1: object 0 of 2"), "{refused}");
+    // Two of the set: only where they are asked.
+    assert_eq!(ask([20.0, 20.0], true, &mut used).unwrap(), ids);
+    assert_eq!(ask([20.0, 20.0], false, &mut used).unwrap(), [ObjectId::NULL; 2]);
+}
+
 /// Boxes on a lattice, whose faces a ray meets at once, at corners and along edges.
 #[test]
 fn rays_meet_what_rationals_say() {
