@@ -3,7 +3,7 @@
 //! With Δ = T_B − T_A, a point x of A and a point y of B are R_B·y + Δ − R_A·x apart. Along an axis a of A, which R_A takes to a
 //! direction of the world, that is a·(M·y + R_AᵀΔ − R_AᵀR_A·x), where M = R_AᵀR_B. So the difference of the boxes' centres, less
 //! the half sides that a box of A has along a and one of B along Mᵀa, is a gap between all that is in them, up to a slack. The
-//! same holds the other way round. The signed distance of convex bodies is the largest of the gaps along unit directions: each of
+//! same holds the other way round, and of any axis. The signed distance of convex bodies is the largest of the gaps along unit directions: each of
 //! them is a lower bound. Where gaps along three orthogonal axes are positive, so is their norm.
 //!
 //! The slack, with S = L_A + L_B + |Δ| for points no farther than L from their origins, and d = the largest entry of |RᵀR − I| as
@@ -23,12 +23,14 @@
 //! Below, 512u, 32d, 64u and 8u are taken. No number here exceeds S by more than a small factor, so nothing overflows where S is
 //! below [`LARGEST`]; elsewhere the slack is infinite and nothing is ruled out. Products that underflow are off by 2⁻¹⁰⁷⁵ each.
 
+use std::cell::Cell;
+
 use super::body::CompoundReach;
 use super::fit::{Fitted, Oriented};
 use super::placed::PlacedPieces;
 use super::tree::{PieceNode, TreeView};
 use crate::base::error::Result;
-use crate::base::math::{ROTATION_LIMIT, UNIT_ROUNDOFF as U};
+use crate::base::math::{Pose, ROTATION_LIMIT, UNIT_ROUNDOFF as U, Vector};
 use crate::base::simd::Lanes;
 
 /// Squares of lengths below this are finite, and so are sums of some.
@@ -48,6 +50,8 @@ pub(super) struct Between {
     /// Factors for gaps that are positive, and for those that are not: R changes lengths.
     shrink: f64,
     grow: f64,
+    /// An axis a of A, of length 1 up to rounding, and Mᵀa.
+    axis: Cell<Option<[[f64; 4]; 2]>>,
 }
 
 /// The same in lanes.
@@ -59,6 +63,7 @@ pub(super) struct InLanes<L> {
     slack: L,
     shrink: f64,
     grow: f64,
+    axis: Option<[L; 2]>,
 }
 
 /// What is known of two placed compounds before any box of theirs is looked at.
@@ -130,7 +135,16 @@ impl Between {
             // |R·v| is at most (1 + 1.5d)·|v| and at least (1 − 3d)·|v|; an axis is of length 1 ± 16u.
             shrink: 1.0 - 2.0 * defect - 64.0 * U,
             grow: 1.0 + 4.0 * defect + 64.0 * U,
+            axis: Cell::new(None),
         }
+    }
+
+    /// Boxes are looked at along a direction of the world, too, from now on: where bodies are far apart, that between the nearest
+    /// pieces parts nearly all others as well as anything does. `pose` is that of A.
+    pub fn look_along(&self, normal: &[f64; 3], pose: &Pose) {
+        let axis = pose.rotate_back(&Vector::from(*normal)).normalize();
+        let [x, y, z] = self.columns.map(|m| m[0] * axis.x + m[1] * axis.y + m[2] * axis.z);
+        self.axis.set(Some([[axis.x, axis.y, axis.z, 0.0], [x, y, z, 0.0]]));
     }
 
     #[inline(always)]
@@ -142,6 +156,7 @@ impl Between {
             slack: L::splat(self.slack),
             shrink: self.shrink,
             grow: self.grow,
+            axis: self.axis.get().map(|[a, b]| [L::load(&a), L::load(&b)]),
         }
     }
 }
@@ -271,6 +286,19 @@ impl<L: Lanes> InLanes<L> {
         if most > 0.0 { most * self.shrink } else { bound }
     }
 
+    /// The same by the gap along the axis that was given last; −∞ without.
+    #[inline(always)]
+    pub fn along_axis(&self, a: &Oriented, b: &Oriented) -> f64 {
+        let Some([axis_a, axis_b]) = self.axis else { return f64::NEG_INFINITY };
+        let way =
+            combined(&self.columns, L::load(&b.fitted.centre)).add(self.offsets[0].sub(L::load(&a.fitted.centre)));
+        let in_axes_a = absolute(combined(&transposed(&load(&a.axes)), axis_a));
+        let in_axes_b = absolute(combined(&transposed(&load(&b.axes)), axis_b));
+        let reach = in_axes_a.dot(L::load(&a.fitted.half)) + in_axes_b.dot(L::load(&b.fitted.half));
+        let gap = axis_a.dot(way).abs() - reach - self.slack.to_array()[0];
+        if gap > 0.0 { gap * self.shrink } else { gap * self.grow }
+    }
+
     #[inline(always)]
     fn bound(&self, gaps_a: L, gaps_b: L) -> f64 {
         let most = greatest(gaps_b.to_array(), greatest(gaps_a.to_array(), f64::NEG_INFINITY));
@@ -306,7 +334,7 @@ pub(super) fn opened(trees: [TreeView; 2], [a, b]: [u32; 2]) -> Option<[[u32; 2]
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::base::math::{Matrix, Pose, Vector};
+    use crate::base::math::Matrix;
     use crate::base::simd::{self, Kernel};
     use crate::compound::placed::with_pieces;
     use crate::compound::tree::PieceTree;
@@ -323,16 +351,17 @@ mod tests {
     }
 
     impl Kernel for NodePair<'_> {
-        type Output = [f64; 3];
+        type Output = [f64; 4];
 
         #[inline(always)]
-        fn run<L: Lanes>(&mut self) -> [f64; 3] {
+        fn run<L: Lanes>(&mut self) -> [f64; 4] {
             let between = self.between.in_lanes::<L>();
             let [tree_a, tree_b] = self.trees;
             let [a, b] = self.nodes;
             let oriented =
                 [false, true].map(|crosses| between.of_oriented(&tree_a.oriented[a], &tree_b.oriented[b], crosses));
-            [between.of_fitted(&tree_a.nodes[a].fitted, &tree_b.nodes[b].fitted), oriented[0], oriented[1]]
+            let along = between.along_axis(&tree_a.oriented[a], &tree_b.oriented[b]);
+            [between.of_fitted(&tree_a.nodes[a].fitted, &tree_b.nodes[b].fitted), oriented[0], oriented[1], along]
         }
     }
 
@@ -388,6 +417,8 @@ mod tests {
                     signed_distance(pieces, &mut cache, &PairConfig::default(), &mut found).unwrap();
                 });
                 truth[i][j] = found.upper;
+                // That of the last pair, or any.
+                between.look_along(&if round % 3 > 0 { found.normal } else { random.direction().into() }, &poses[0]);
             }
             let nearest = truth.as_flattened().iter().copied().fold(f64::INFINITY, f64::min);
             assert!(reaches.between_balls() <= nearest, "{round}");

@@ -113,13 +113,13 @@ impl<C: PieceCaches> LeastOfPieces<'_, C> {
         let last = if self.is_verdict { self.cache.last().met(counts) } else { self.cache.last().nearest(counts) };
         let mut is_open = true;
         if let Some(pieces) = last {
-            is_open = self.learn(pieces)?;
+            is_open = self.learn(pieces, between)?;
         }
         if is_open {
             let aim = if self.is_verdict { Aim::Verdict } else { Aim::Distance };
             let pair = PiecePair { trees: self.bodies.map(|body| body.tree), between, aim };
             let passed = walk(pair, self.enough, |pieces| {
-                if last == Some(pieces) || self.learn(pieces)? { Ok(Some(self.enough)) } else { Ok(None) }
+                if last == Some(pieces) || self.learn(pieces, between)? { Ok(Some(self.enough)) } else { Ok(None) }
             })?;
             self.lower = self.lower.min(passed);
         }
@@ -128,7 +128,7 @@ impl<C: PieceCaches> LeastOfPieces<'_, C> {
     }
 
     /// Asks two pieces; whether others may still be nearer.
-    fn learn(&mut self, pieces: [u32; 2]) -> Result<bool> {
+    fn learn(&mut self, pieces: [u32; 2], between: &Between) -> Result<bool> {
         if !self.is_verdict {
             self.config.max_distance = (self.enough * MORE).min(self.tolerance);
         }
@@ -153,6 +153,7 @@ impl<C: PieceCaches> LeastOfPieces<'_, C> {
         } else if (is_undecided || answer.outcome == Outcome::Separated) && is_nearer {
             self.enough = self.enough.min(answer.upper);
             self.name(pieces, &answer);
+            between.look_along(&answer.normal, self.bodies[0].pose);
         }
         Ok(true)
     }

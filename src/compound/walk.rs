@@ -111,6 +111,14 @@ impl Kernel for Roots<'_> {
     }
 }
 
+/// A NaN raises nothing.
+#[inline(always)]
+fn raise(bound: &mut f64, other: f64) {
+    if other > *bound {
+        *bound = other;
+    }
+}
+
 /// Down to the next pair of pieces.
 struct TreeDescent<'a, 'b> {
     walk: &'a mut TreeWalk<'b>,
@@ -144,13 +152,12 @@ impl Kernel for TreeDescent<'_, '_> {
             let mut bounds = [0.0; 2];
             for (bound, pair) in bounds.iter_mut().zip(&pairs) {
                 let [a, b] = [pair[0] as usize, pair[1] as usize];
-                let fitted = between.of_fitted(&tree_a.nodes[a].fitted, &tree_b.nodes[b].fitted);
-                *bound = fitted;
-                if !(fitted > walk.enough) {
-                    let oriented = between.of_oriented(&tree_a.oriented[a], &tree_b.oriented[b], crosses);
-                    if oriented > fitted {
-                        *bound = oriented;
-                    }
+                *bound = between.of_fitted(&tree_a.nodes[a].fitted, &tree_b.nodes[b].fitted);
+                if !(*bound > walk.enough) {
+                    raise(bound, between.along_axis(&tree_a.oriented[a], &tree_b.oriented[b]));
+                }
+                if !(*bound > walk.enough) {
+                    raise(bound, between.of_oriented(&tree_a.oriented[a], &tree_b.oriented[b], crosses));
                 }
             }
             let first = usize::from(bounds[1] < bounds[0]);
