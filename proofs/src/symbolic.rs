@@ -93,7 +93,7 @@ impl Symbolic {
 
 impl Lanes for Symbolic {
     type Twins = <Portable as Lanes>::Twins;
-    /// Of exact products alone: they are the same either way.
+    /// Only `two_product` asks, which is exact either way.
     const IS_FUSED: bool = true;
     fn twins(self, second: Self) -> Self::Twins {
         self.portable().twins(second.portable())

@@ -289,11 +289,11 @@ fn interval(distance: f64, least: f64, size: f64, separation: f64) -> Interval {
 }
 
 /// The ends of an interval, all errors times u. With ρ the sum of the radii and σ [`Frame::separation`], no difference is longer
-/// than σ + 1.02ρ, and no segment than 2.03 times its radius. The offset is rounded once, or off by 18u times the M of which σ
-/// holds 16u: by 1.2σ.
+/// than σ + 1.02ρ, and no segment than 2.03 times its radius. The offset is rounded once, where centres are not origins with
+/// a sum that is off by 16u times the M of which σ holds 16u: by σ either way.
 ///
-/// Below: a difference of ends is off by 8.3ρ + 3.2σ ([`Frame::difference_error`]); its product with the direction by 3 of its
-/// length, the direction's length by 1.5, root, quotient and product by one each; the last sum by one: 16.9ρ + 11.7σ. A direction
+/// Below: a difference of ends is off by 8.3ρ + 3σ ([`Frame::difference_error`]); its product with the direction by 3 of its
+/// length, the direction's length by 1.5, root, quotient and product by one each; the last sum by one: 16.9ρ + 11.5σ. A direction
 /// too short is a NaN, and proves nothing.
 ///
 /// Above: rotated ends are off by 5.3 of their radius, and so are points between them, as the difference of tails and the way to a

@@ -383,10 +383,10 @@ impl<L: Lanes> Origins<L> {
         Origins { offset: translations[0].sub(translations[1]), cancelled: 0.0, translations }
     }
 
-    /// Of any bodies. Both sums may agree in nearly all digits. So what rounding leaves off is summed, too (T. Ogita, S. M. Rump, S. Oishi,
-    /// "Accurate Sum and Dot Product", SIAM Journal on Scientific Computing 26(6), 2005). No term is in more than three sums: what
-    /// they and the products leave off is at most 4u·M together, and is rounded four times: 16u²·M. M's weight in [`separation`]
-    /// covers 2u·16u·M.
+    /// Of any bodies. T₁ + R₁c₁ and T₂ + R₂c₂ may agree in nearly all digits. So what rounding leaves off is summed, too (T. Ogita,
+    /// S. M. Rump, S. Oishi, "Accurate Sum and Dot Product", SIAM Journal on Scientific Computing 26(6), 2005). No term is in more
+    /// than three sums: what they and the products leave off is at most 4u·M together, and is rounded four times: 16u²·M. Then the
+    /// offset is rounded once. M's weight in [`separation`] covers 2u·16u·M.
     #[inline(always)]
     fn with_centres(placed: &[PoseInLanes<L>; 2], polyhedra: [&Polyhedron; 2]) -> Origins<L> {
         let [[x1, y1, z1, t1], [x2, y2, z2, t2]] = [placed[0].columns, placed[1].columns];
@@ -465,8 +465,59 @@ pub fn between_centres(pair: &Pair) -> (Vector, f64) {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::base::double_double::{two_product, two_sum};
     use crate::base::math::Matrix;
+    use crate::base::simd::Portable;
     use swiftprox::random::Random;
+
+    struct OffsetOf<'a>(&'a Pair<'a>);
+
+    impl Kernel for OffsetOf<'_> {
+        type Output = (Vector, f64);
+
+        #[inline(always)]
+        fn run<L: Lanes>(&mut self) -> (Vector, f64) {
+            let Origins { offset, cancelled, .. } =
+                Origins::with_centres(&self.0.poses.map(PoseInLanes::<L>::new), self.0.polyhedra);
+            (offset.to_vector(), cancelled)
+        }
+    }
+
+    /// Bodies far from their own origins, whose middles are as near as rounding lets them be, or not so near.
+    #[test]
+    fn offsets_are_as_exact_as_is_said() {
+        let mut random = Random::new(0x0ff5);
+        let mut cancelled = 0;
+        for round in 0..if cfg!(miri) { 5 } else { 2_000 } {
+            let far = random.vector() * random.power(0, 30);
+            let corners = [0, 1, 2, 3].map(|_| far + random.vector());
+            let shape = crate::body::build::assembly::build(&corners, None).unwrap();
+            let first = Pose::new(&random.rotation(), &(random.vector() * 1e3));
+            let turn = random.rotation();
+            let middle = first.transform(&shape.centre) + random.vector() * random.power(-50, 0);
+            let second = Pose::new(&turn, &(middle - turn * shape.centre));
+            let pair = Pair { polyhedra: [&shape; 2], poses: [&first, &second] };
+            let sum = [0, 1, 2].map(|i| {
+                let mut sum = two_sum(first.rows[i][3], -second.rows[i][3]);
+                for k in 0..3 {
+                    sum = sum + two_product(first.rows[i][k], shape.centre[k]);
+                    sum = sum - two_product(second.rows[i][k], shape.centre[k]);
+                }
+                sum
+            });
+            let plain = OffsetOf(&pair).run::<Portable>();
+            for (offset, magnitude) in [simd::dispatch(&mut OffsetOf(&pair)), plain, between_centres(&pair)] {
+                for (exact, x) in sum.iter().zip(offset.iter()) {
+                    // Double-double sums are off by 18u²·M.
+                    let error = (exact.hi - x + exact.lo).abs();
+                    let allowed = x.abs() * UNIT_ROUNDOFF + 34.0 * UNIT_ROUNDOFF * UNIT_ROUNDOFF * magnitude;
+                    assert!(error <= allowed * 1.01, "{round}: {error:e} {allowed:e}");
+                }
+                cancelled += usize::from(offset.norm() < 1e-9 * magnitude);
+            }
+        }
+        assert!(cfg!(miri) || cancelled > 500, "{cancelled}");
+    }
 
     /// A quick look takes nothing that is refused, and nearly all rotations.
     #[test]

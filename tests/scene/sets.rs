@@ -287,19 +287,30 @@ fn what_hit_last_is_asked_first() {
         scene.add_object(vec![cube.clone()], &options).unwrap()
     });
     let mut used = SetScratch::default();
-    let ask = |xs: [f64; 2], among: bool, scratch: &mut SetScratch| {
+    let ask = |scene: &Scene, xs: [f64; 2], among: bool, scratch: &mut SetScratch| {
         let poses = xs.map(|x| at(x, 0.5, 0.0));
         let set = ObjectSet { ids: &ids, poses: None, among };
         scene.first_hit(&set, &poses, PoseOrder::InOrder, 0.0, scratch).map(|hit| [hit.pair.object1, hit.pair.object2])
     };
-    assert_eq!(ask([20.0, 10.0], false, &mut used).unwrap(), [ids[1], far]);
-    assert_ne!(ask([0.0, 10.0], false, &mut SetScratch::default()).unwrap(), [ids[1], far]);
-    assert_eq!(ask([0.0, 10.0], false, &mut used).unwrap(), [ids[1], far]);
-    let refused = ask([f64::NAN, 10.0], false, &mut used).unwrap_err();
+    assert_eq!(ask(&scene, [20.0, 10.0], false, &mut used).unwrap(), [ids[1], far]);
+    assert_ne!(ask(&scene, [0.0, 10.0], false, &mut SetScratch::default()).unwrap(), [ids[1], far]);
+    assert_eq!(ask(&scene, [0.0, 10.0], false, &mut used).unwrap(), [ids[1], far]);
+    let refused = ask(&scene, [f64::NAN, 10.0], false, &mut used).unwrap_err();
     assert!(refused.to_string().contains("time 0 of 1: object 0 of 2"), "{refused}");
     // Two of the set: only where they are asked.
-    assert_eq!(ask([20.0, 20.0], true, &mut used).unwrap(), ids);
-    assert_eq!(ask([20.0, 20.0], false, &mut used).unwrap(), [ObjectId::NULL; 2]);
+    assert_eq!(ask(&scene, [20.0, 20.0], true, &mut used).unwrap(), ids);
+    assert_eq!(ask(&scene, [20.0, 20.0], false, &mut used).unwrap(), [ObjectId::NULL; 2]);
+    // A scene with fewer rows, and one whose partner is gone.
+    assert_eq!(ask(&scene, [20.0, 10.0], false, &mut used).unwrap(), [ids[1], far]);
+    let mut small = Scene::new();
+    let only = small.add_object(vec![cube.clone()], &ObjectOptions::default()).unwrap();
+    let set = ObjectSet { ids: &[only], poses: None, among: false };
+    assert_eq!(small.first_hit(&set, &[Pose::IDENTITY], PoseOrder::InOrder, 0.0, &mut used).unwrap().time, 1);
+    let set = ObjectSet { ids: &ids[1..], poses: None, among: false };
+    let there = [at(10.0, 0.0, 0.0)];
+    assert_eq!(scene.first_hit(&set, &there, PoseOrder::InOrder, 0.0, &mut used).unwrap().pair.object2, far);
+    scene.remove_object(far).unwrap();
+    assert_eq!(scene.first_hit(&set, &there, PoseOrder::InOrder, 0.0, &mut used).unwrap().time, 1);
 }
 
 /// Boxes on a lattice, whose faces a ray meets at once, at corners and along edges.

@@ -6,7 +6,7 @@ use crate::pair::{self, Outcome, PairAnswer, PairConfig, Query};
 use crate::scene::near::tree::Branch;
 use crate::scene::search::query::PairResult;
 use crate::scene::sets::caches::Caches;
-use crate::scene::sets::members::{self, Boxes, Member, ObjectSet, Side};
+use crate::scene::sets::members::{self, Boxes, Member, ObjectSet, PieceSide};
 use crate::scene::sets::nearest::signed;
 use crate::scene::sets::others::Others;
 use crate::scene::world::content::World;
@@ -31,7 +31,7 @@ pub struct FirstHit {
     pub time: usize,
     /// How many times were tried.
     pub tried: usize,
-    /// A pair that is no farther apart than `max_distance`, object 1 of the set: of an answer the verdict and its proof, or an
+    /// A pair that is no farther apart than `max_distance`, object 1 of the set; the scratch may decide which of several. Of an answer the verdict and its proof, or an
     /// interval of the distance. Null ids if nothing hits.
     pub pair: PairResult,
 }
@@ -79,7 +79,7 @@ pub(crate) fn first_hit(question: FirstHitQuestion, room: &mut FirstHitRoom) -> 
             return Ok(FirstHit { time, tried, pair });
         }
         members::list(others.world, &set, Boxes::Made, room.members).map_err(named)?;
-        if let Some(pair) = hit(&others, room, max_distance)? {
+        if let Some(pair) = hit(&others, room, max_distance).map_err(named)? {
             return Ok(FirstHit { time, tried, pair });
         }
     }
@@ -140,7 +140,7 @@ fn hit(others: &Others, room: &mut FirstHitRoom, max_distance: f64) -> Result<Op
 }
 
 /// Two pieces, unless they are not tested or are farther apart than `max_distance`.
-fn ask(sides: [Side; 2], world: &World, caches: &mut Caches, max_distance: f64) -> Result<Option<PairResult>> {
+fn ask(sides: [PieceSide; 2], world: &World, caches: &mut Caches, max_distance: f64) -> Result<Option<PairResult>> {
     let proxies = &world.proxies;
     let (rows, bodies) = (sides.map(|side| side.proxy), sides.map(|side| side.placed));
     if are_far_apart(&sides[0].spheres, &sides[1].spheres, max_distance)

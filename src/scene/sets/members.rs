@@ -45,8 +45,8 @@ impl Member {
     }
 
     /// The piece as one of a pair.
-    pub fn side<'a>(&'a self, world: &'a World) -> Side<'a> {
-        Side { proxy: self.proxy, spheres: self.spheres, placed: self.placed(world) }
+    pub fn side<'a>(&'a self, world: &'a World) -> PieceSide<'a> {
+        PieceSide { proxy: self.proxy, spheres: self.spheres, placed: self.placed(world) }
     }
 
     /// The piece where it is.
@@ -57,7 +57,7 @@ impl Member {
 
 /// One of a pair of pieces.
 #[derive(Clone, Copy)]
-pub(crate) struct Side<'a> {
+pub(crate) struct PieceSide<'a> {
     pub proxy: u32,
     pub spheres: Spheres,
     pub placed: Placed<'a>,
@@ -97,7 +97,7 @@ pub(crate) fn find(world: &World, set: &ObjectSet, proxies: [u32; 2]) -> Result<
     Ok(found)
 }
 
-/// Calls `work` with each piece of a set and its pose, if the set gives one, which is accepted.
+/// Calls `work` with each piece of a set, and with its pose where the set gives poses.
 ///
 /// # Errors
 /// As of [`list`], and those of `work`.

@@ -4,7 +4,7 @@ use crate::base::error::Result;
 use crate::base::memory::{extend, push};
 use crate::pair::Placed;
 use crate::scene::near::tree::{Branch, Held, Tree};
-use crate::scene::sets::members::{ObjectSet, Side, holds};
+use crate::scene::sets::members::{ObjectSet, PieceSide, holds};
 use crate::scene::world::boxes::Aabb;
 use crate::scene::world::content::World;
 
@@ -48,8 +48,8 @@ impl<'a> Others<'a> {
     }
 
     /// A piece where the scene has it, as one of a pair.
-    pub fn side(&self, proxy: usize) -> Side<'a> {
-        Side { proxy: proxy as u32, spheres: self.world.proxies.spheres(proxy), placed: self.placed(proxy) }
+    pub fn side(&self, proxy: usize) -> PieceSide<'a> {
+        PieceSide { proxy: proxy as u32, spheres: self.world.proxies.spheres(proxy), placed: self.placed(proxy) }
     }
 
     /// Lists those whose boxes pass a test that no box within one that fails passes, and all loose ones, in order of creation.

@@ -12,8 +12,8 @@ use crate::scene::sets::rays::{Nearing, SceneRayHit};
 /// Scratch memory for questions that threads ask a scene at once: about sets of objects, and about rays, grounds and half-spaces.
 /// One thread at a time uses it, for any scenes.
 ///
-/// For sets it keeps the caches of pairs of objects. These change how fast an answer comes and which of several nearest points it
-/// gives, never a verdict. For rays, grounds and half-spaces it keeps nothing but the room and the last answer. Whatever it has
+/// For sets it keeps the caches of pairs of objects. These change how fast an answer comes, which of several nearest points it
+/// gives, and which of several pairs that hit a first hit names; never a verdict. For rays, grounds and half-spaces it keeps nothing but the room and the last answer. Whatever it has
 /// seen, they are answered bit for bit as with a new one.
 #[derive(Debug, Default)]
 pub struct SetScratch {

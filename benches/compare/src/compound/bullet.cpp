@@ -87,6 +87,8 @@ public:
         asked = &verdict;
         gCompoundCompoundChildShapePairCallback = is_open;
         algorithm->processCollision(&first, &second, btDispatcherInfo(), &verdict);
+        gCompoundCompoundChildShapePairCallback = nullptr;
+        asked = nullptr;
         return verdict.meets ? 0 : 1;
     }
 };

@@ -8,6 +8,8 @@ use crate::body::build::hull::convex_hull;
 use crate::body::decomposition::solid::cell::{CellFacet, CuttingPlane};
 use crate::body::decomposition::solid::surface_tree::SurfaceTree;
 
+/// A plane cuts off what is higher above it than this: rounding of heights is far less, as lengths are about 1.
+const ON_PLANE: f64 = 1e-12;
 /// What is thinner than this has no volume: rounding of a cut makes such flakes.
 const FLAT: f64 = 1e-10;
 /// Boxes of less than this part of the tolerance that are still open count as beyond it.
@@ -201,8 +203,8 @@ impl BodyCheck<'_> {
         Ok(found)
     }
 
-    /// Whether a triangle is within the tolerance of a box, as far as it is below the plane that cuts most of it off: the distance
-    /// from a triangle is a convex function, so it is greatest at a corner of that.
+    /// Whether a triangle is within the tolerance of the part of a box that is below a plane: the one that the box reaches farthest
+    /// above. The distance from a triangle is a convex function, so it is greatest at a corner of that part.
     fn is_near(&self, part: &HullPart, planes: &[CuttingPlane], near: u32) -> bool {
         let is_near = |point: &Vector| self.tree.is_near(point, self.tolerance, near);
         let corner = |k: usize| {
@@ -215,13 +217,14 @@ impl BodyCheck<'_> {
         let Some(plane) = planes.iter().max_by(|a, b| top(a).total_cmp(&top(b))) else {
             return corners.iter().all(is_near);
         };
-        let heights = corners.map(|p| plane.normal.dot(&p) - plane.height);
+        let heights = corners.map(|p| plane.normal.dot(&p) - plane.height - ON_PLANE);
         (0..8).all(|k| {
             let crossing = |other: usize| {
                 let place = heights[k] / (heights[k] - heights[other]);
                 corners[k] + (corners[other] - corners[k]) * place
             };
-            let mut cut = [k | 1, k | 2, k | 4].into_iter().filter(|other| heights[k] * heights[*other] < 0.0);
+            let mut cut =
+                [k | 1, k | 2, k | 4].into_iter().filter(|other| (heights[k] < 0.0) != (heights[*other] < 0.0));
             (heights[k] > 0.0 || is_near(&corners[k])) && cut.all(|other| is_near(&crossing(other)))
         })
     }
