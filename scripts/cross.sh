@@ -41,11 +41,12 @@ check() {
 
 # Builds for a processor and runs the C tests: PROCESSOR, GNU's name of the system, what starts its programs, further tests to leave
 # out, and flags of the compiler.
+# GCC 12 for AArch64 takes what SWIFT.h writes to references for unset.
 test_on() {
     has_target "$1-unknown-linux-gnu" || return 0
     cmake -S . -B "build/$1" -DBUILD_TESTING=ON -DCMAKE_BUILD_TYPE=Release -DSWIFTPROX_CARGO_PROFILE=checked \
         -DCMAKE_SYSTEM_NAME=Linux "-DCMAKE_SYSTEM_PROCESSOR=$1" "-DCMAKE_C_COMPILER=$2-gcc" "-DCMAKE_CXX_COMPILER=$2-g++" \
-        "-DCMAKE_C_FLAGS=$5" "-DCMAKE_CXX_FLAGS=$5" "-DCMAKE_CROSSCOMPILING_EMULATOR=$3" "-DCMAKE_FIND_ROOT_PATH=/usr/$2" \
+        "-DCMAKE_C_FLAGS=$5" "-DCMAKE_CXX_FLAGS=$5 -Wno-error=maybe-uninitialized" "-DCMAKE_CROSSCOMPILING_EMULATOR=$3" "-DCMAKE_FIND_ROOT_PATH=/usr/$2" \
         -DCMAKE_FIND_ROOT_PATH_MODE_PACKAGE=ONLY -DCMAKE_FIND_ROOT_PATH_MODE_LIBRARY=ONLY -DCMAKE_FIND_ROOT_PATH_MODE_INCLUDE=ONLY
     cmake --build "build/$1"
     ctest --test-dir "build/$1" --parallel 2 --output-on-failure --exclude-regex "$LEFT_OUT$4"
