@@ -35,8 +35,8 @@ typedef struct swiftprox_object_set {
  * One thread at a time uses it, for any scenes.
  *
  * For sets it keeps the caches of pairs of objects. These change how fast an answer comes, which of several nearest points it
- * gives, and which of several pairs that hit a first hit names; never a verdict. For rays, grounds and half-spaces it keeps nothing but the room and the last answer. Whatever it has
- * seen, they are answered bit for bit as with a new one.
+ * gives, and which of several pairs that hit a first hit names; never a verdict. For rays, grounds and half-spaces it keeps
+ * nothing but the room and the last answer. Whatever it has seen, they are answered bit for bit as with a new one.
  */
 typedef struct swiftprox_scratch swiftprox_scratch;
 
@@ -45,8 +45,8 @@ typedef struct swiftprox_scratch swiftprox_scratch;
  * with swiftprox_scratch_destroy. It serves one thread at a time, and any scenes. On failure `*scratch` is null.
  *
  * For sets it keeps caches of pairs, which affect speed and the choice among several nearest points, or among several pairs that
- * hit at one time, never a verdict. Where bits
- * matter, use a new scratch. Rays, grounds and half-spaces use no cache; a used scratch gives the same bits as a new one.
+ * hit at one time, never a verdict. Where bits matter, use a new scratch. Rays, grounds and half-spaces use no cache; a used
+ * scratch gives the same bits as a new one.
  *
  * Experimental.
  */
@@ -117,8 +117,8 @@ typedef struct swiftprox_first_hit {
   /** How many times were tried. */
   size_t tried;
   /**
-   * A pair that is no farther apart than `max_distance`, object 1 of the set; the scratch may decide which of several. Of an answer the verdict and its proof, or an
-   * interval of the distance. Null ids if nothing hits.
+   * A pair that is no farther apart than `max_distance`, object 1 of the set; the scratch may decide which of several. Of an
+   * answer the verdict and its proof, or an interval of the distance. Null ids if nothing hits.
    */
   struct swiftprox_pair_result pair;
 } swiftprox_first_hit;

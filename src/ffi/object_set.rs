@@ -43,8 +43,8 @@ impl CSceneRayAnswer {
 /// with swiftprox_scratch_destroy. It serves one thread at a time, and any scenes. On failure `*scratch` is null.
 ///
 /// For sets it keeps caches of pairs, which affect speed and the choice among several nearest points, or among several pairs that
-/// hit at one time, never a verdict. Where bits
-/// matter, use a new scratch. Rays, grounds and half-spaces use no cache; a used scratch gives the same bits as a new one.
+/// hit at one time, never a verdict. Where bits matter, use a new scratch. Rays, grounds and half-spaces use no cache; a used
+/// scratch gives the same bits as a new one.
 #[unsafe(no_mangle)]
 pub unsafe extern "C" fn swiftprox_scratch_create(scratch: *mut *mut SetScratch) -> StatusCode {
     // SAFETY: the header's pointer rules.

@@ -17,7 +17,8 @@ const COMPOUND_SLOTS: usize = 64;
 pub(crate) struct Caches {
     slots: Vec<CacheSlot>,
     compounds: Vec<([u32; 2], GrowingCache)>,
-    /// The pair that hit at the time tried last, of whatever scene; `None` if none did. At the next one of a path it often hits again.
+    /// The pair that hit at the time tried last, of whatever scene; `None` if none did. At the next one it
+    /// often hits again.
     pub last_hit: Option<[u32; 2]>,
 }
 

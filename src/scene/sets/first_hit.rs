@@ -31,8 +31,8 @@ pub struct FirstHit {
     pub time: usize,
     /// How many times were tried.
     pub tried: usize,
-    /// A pair that is no farther apart than `max_distance`, object 1 of the set; the scratch may decide which of several. Of an answer the verdict and its proof, or an
-    /// interval of the distance. Null ids if nothing hits.
+    /// A pair that is no farther apart than `max_distance`, object 1 of the set; the scratch may decide which of several. Of an
+    /// answer the verdict and its proof, or an interval of the distance. Null ids if nothing hits.
     pub pair: PairResult,
 }
 

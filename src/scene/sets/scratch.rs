@@ -13,8 +13,8 @@ use crate::scene::sets::rays::{Nearing, SceneRayHit};
 /// One thread at a time uses it, for any scenes.
 ///
 /// For sets it keeps the caches of pairs of objects. These change how fast an answer comes, which of several nearest points it
-/// gives, and which of several pairs that hit a first hit names; never a verdict. For rays, grounds and half-spaces it keeps nothing but the room and the last answer. Whatever it has
-/// seen, they are answered bit for bit as with a new one.
+/// gives, and which of several pairs that hit a first hit names; never a verdict. For rays, grounds and half-spaces it keeps
+/// nothing but the room and the last answer. Whatever it has seen, they are answered bit for bit as with a new one.
 #[derive(Debug, Default)]
 pub struct SetScratch {
     pub(crate) members: Vec<Member>,
