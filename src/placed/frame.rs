@@ -470,19 +470,6 @@ mod tests {
     use crate::base::simd::Portable;
     use swiftprox::random::Random;
 
-    struct OffsetOf<'a>(&'a Pair<'a>);
-
-    impl Kernel for OffsetOf<'_> {
-        type Output = (Vector, f64);
-
-        #[inline(always)]
-        fn run<L: Lanes>(&mut self) -> (Vector, f64) {
-            let Origins { offset, cancelled, .. } =
-                Origins::with_centres(&self.0.poses.map(PoseInLanes::<L>::new), self.0.polyhedra);
-            (offset.to_vector(), cancelled)
-        }
-    }
-
     /// Bodies far from their own origins, whose middles are as near as rounding lets them be, or not so near.
     #[test]
     fn offsets_are_as_exact_as_is_said() {
@@ -505,8 +492,7 @@ mod tests {
                 }
                 sum
             });
-            let plain = OffsetOf(&pair).run::<Portable>();
-            for (offset, magnitude) in [simd::dispatch(&mut OffsetOf(&pair)), plain, between_centres(&pair)] {
+            for (offset, magnitude) in [between_centres(&pair), BetweenCentres(&pair).run::<Portable>()] {
                 for (exact, x) in sum.iter().zip(offset.iter()) {
                     // Double-double sums are off by 18u²·M.
                     let error = (exact.hi - x + exact.lo).abs();
@@ -516,7 +502,7 @@ mod tests {
                 cancelled += usize::from(offset.norm() < 1e-9 * magnitude);
             }
         }
-        assert!(cfg!(miri) || cancelled > 500, "{cancelled}");
+        assert!(cfg!(miri) || cancelled > 300, "{cancelled}");
     }
 
     /// A quick look takes nothing that is refused, and nearly all rotations.
