@@ -48,9 +48,10 @@ bodies = sp.CompoundPair(link, sp.Shape.box(0.2, 0.01, 0.01))
 here, between = np.eye(4), at(0, 0.01, 0.47)
 answer = bodies.distance(here, between)
 bodies.verify(here, between, answer)
+assert answer.piece1 is not None
 print(f"a rod between the fingers is {answer.distance:.3f} m from {names[answer.piece1]}")
 
 fall = sp.Motion.between(between, at(0, 0.01, 0.27))
 cast = bodies.cast(here, fall)
 bodies.verify(here, fall, cast)
-print(f"as it falls, it meets {names[cast.piece1]} at t = {cast.t_lower:.3f}" if cast.outcome == "hit" else "it falls past")
+print(f"as it falls, it meets {names[cast.piece1]} at t = {cast.t_lower:.3f}" if cast.piece1 is not None else "it falls past")
