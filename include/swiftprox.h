@@ -1362,6 +1362,22 @@ typedef enum swiftprox_contact_detail SWIFTPROX_INT32 {
   SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD = 3
 } swiftprox_contact_detail;
 
+/**
+ * Which pairs of convex pieces of each two objects a query lists, of those within its distance. Pieces of compounds make pairs only
+ * for contacts with a detail.
+ */
+typedef enum swiftprox_piece_pairs SWIFTPROX_INT32 {
+  /** Every pair. */
+  SWIFTPROX_PIECE_PAIRS_EVERY = 0,
+  /** The first pair in the order of results. Later ones are not tested: where it is apart, another may intersect. */
+  SWIFTPROX_PIECE_PAIRS_FIRST = 1,
+  /**
+   * The nearest pair: the first that intersects, else the first with the least upper. Its lower is the least of all, so its
+   * interval holds the distance of the two objects. Earlier queries may decide between pairs whose intervals overlap.
+   */
+  SWIFTPROX_PIECE_PAIRS_NEAREST = 2
+} swiftprox_piece_pairs;
+
 /** Options of a query over a scene. Initialise with SWIFTPROX_SCENE_QUERY_DEFAULT. */
 typedef struct swiftprox_scene_query {
   /** Set by SWIFTPROX_SCENE_QUERY_DEFAULT. */
@@ -1402,11 +1418,13 @@ typedef struct swiftprox_scene_query {
   swiftprox_contact_detail detail;
   /** swiftprox_scene_query_placed: the groups of objects to test, one bit each. Default: 0, which means all. */
   uint32_t mask;
+  /** Which pairs of pieces of each two objects are listed. Default: SWIFTPROX_PIECE_PAIRS_EVERY. */
+  swiftprox_piece_pairs piece_pairs;
 } swiftprox_scene_query;
 
 /** Begins a swiftprox_scene_query: the defaults. In C and C++, as an initialiser. */
 #define SWIFTPROX_SCENE_QUERY_DEFAULT \
-  {sizeof(swiftprox_scene_query), SWIFTPROX_DEFAULT_MAX_DISTANCE, 0, 0, HUGE_VAL, UINT32_MAX, 0, 0, SWIFTPROX_CONTACT_DETAIL_NONE, 0}
+  {sizeof(swiftprox_scene_query), SWIFTPROX_DEFAULT_MAX_DISTANCE, 0, 0, HUGE_VAL, UINT32_MAX, 0, 0, SWIFTPROX_CONTACT_DETAIL_NONE, 0, SWIFTPROX_PIECE_PAIRS_EVERY}
 
 /** One pair of convex pieces in a query's list. A compound is named with the piece that the answer is about. */
 typedef struct swiftprox_pair_result {

@@ -578,6 +578,9 @@ static void scenes(const std::string &folder)
     CHECK(apart && apart.value.outcome == SWIFTPROX_OUTCOME_INTERSECTING && apart.value.upper <= 0);
     CHECK(!scene.try_get_signed_distance(1));
     CHECK(scene.try_query_distance().value.count == 5); // pairs of pieces
+    swiftprox::SceneQuery of_objects;
+    of_objects.piece_pairs = SWIFTPROX_PIECE_PAIRS_NEAREST;
+    CHECK(scene.try_query_distance(of_objects).value.count == 3);
     CHECK(scene.try_query_object(c.value, SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 0);
     CHECK(scene.try_query_placed(made.value, Pose::at(10, 0, 0), SWIFTPROX_QUERY_KIND_INTERSECTION).value.count == 1);
     const auto events = scene.try_query_events();

@@ -690,6 +690,10 @@ static void scenes(void)
     query.tuning = &tuning;
     CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "tuning->refinement is -3",
                 swiftprox_scene_query_contact(scene, &query, &answer));
+    query = (swiftprox_scene_query)SWIFTPROX_SCENE_QUERY_DEFAULT;
+    any_number(&query.piece_pairs, 3);
+    CHECK_FAILS(SWIFTPROX_ERROR_INVALID_ARGUMENT, "query->piece_pairs is 3",
+                swiftprox_scene_query_distance(scene, &query, &answer));
     query.struct_size = 0;
     CHECK_FAILS(SWIFTPROX_ERROR_STRUCT_SIZE, "swiftprox_scene_query", swiftprox_scene_query_contact(scene, &query, &answer));
     CHECK_FAILS(SWIFTPROX_ERROR_NULL_POINTER, "answer", swiftprox_scene_query_intersection(scene, NULL, NULL));

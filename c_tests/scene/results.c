@@ -141,6 +141,45 @@ static void contacts_touch(const swiftprox_shape *shape)
     CHECK_OK(swiftprox_scene_destroy(scene));
 }
 
+/* Two rows of three cubes with gaps: the first two are apart in two directions, the nearest two in one, by 0.25. */
+static void one_result_for_two_objects(void)
+{
+    const swiftprox_piece_pairs choices[] = {SWIFTPROX_PIECE_PAIRS_EVERY, SWIFTPROX_PIECE_PAIRS_FIRST, SWIFTPROX_PIECE_PAIRS_NEAREST};
+    const size_t counts[] = {9, 1, 1};
+    const double half[3] = {0.5, 0.5, 0.5};
+    const swiftprox_shape *cube;
+    swiftprox_scene *scene;
+    swiftprox_object_id ids[2];
+    swiftprox_object_options options = SWIFTPROX_OBJECT_OPTIONS_DEFAULT;
+    CHECK_OK(swiftprox_shape_create_box(half, 0, &cube));
+    const swiftprox_shape *const row[3] = {cube, cube, cube};
+    CHECK_OK(swiftprox_scene_create(NULL, &scene));
+    for (int i = 0; i < 2; ++i) {
+        CHECK_OK(swiftprox_scene_add_object(scene, row, 3, &options, &ids[i]));
+        for (uint32_t piece = 0; piece < 3; ++piece) {
+            double pose[12];
+            place(pose, 2.0 * piece + 1.5 * i, 1.25 * i, 0);
+            CHECK_OK(swiftprox_scene_set_piece_pose(scene, ids[i], piece, pose));
+        }
+    }
+    for (int k = 0; k < 3; ++k) {
+        swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
+        swiftprox_scene_answer answer;
+        CHECK(query.piece_pairs == SWIFTPROX_PIECE_PAIRS_EVERY);
+        query.piece_pairs = choices[k];
+        CHECK_OK(swiftprox_scene_query_distance(scene, &query, &answer));
+        CHECK(answer.count == counts[k] && !answer.intersecting);
+        const swiftprox_pair_result nearest = answer.pairs[0];
+        if (choices[k] == SWIFTPROX_PIECE_PAIRS_NEAREST) {
+            CHECK(nearest.piece1 == 1 && nearest.piece2 == 0 && nearest.answer.lower <= 0.25 && nearest.answer.upper >= 0.25);
+        } else {
+            CHECK(nearest.piece1 == 0 && nearest.piece2 == 0 && nearest.answer.lower > 0.5);
+        }
+    }
+    CHECK_OK(swiftprox_scene_destroy(scene));
+    swiftprox_shape_release(cube);
+}
+
 static void memory_comes_back(const swiftprox_shape *shape)
 {
     swiftprox_scene *scene;
@@ -218,6 +257,7 @@ int main(void)
     CHECK_OK(swiftprox_shape_prepare(shape, NULL, NULL));
     results_stay(shape);
     contacts_touch(shape);
+    one_result_for_two_objects();
     memory_comes_back(shape);
     caches_go_back(shape);
     swiftprox_shape_release(shape);

@@ -83,10 +83,22 @@ void set_poses(Scene &scene, nb::handle poses, nb::handle ids)
     });
 }
 
-nb::object within(Scene &scene, double max_distance)
+/** Those of SWIFTPROX_PIECE_PAIRS. */
+swiftprox_piece_pairs read_piece_pairs(const std::string &name)
+{
+    if (name != "every" && name != "first" && name != "nearest") {
+        refuse("piece_pairs is '" + name + "'; there are every, first and nearest");
+    }
+    return name == "every"   ? SWIFTPROX_PIECE_PAIRS_EVERY
+           : name == "first" ? SWIFTPROX_PIECE_PAIRS_FIRST
+                             : SWIFTPROX_PIECE_PAIRS_NEAREST;
+}
+
+nb::object within(Scene &scene, double max_distance, const std::string &piece_pairs)
 {
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     query.max_distance = max_distance;
+    query.piece_pairs = read_piece_pairs(piece_pairs);
     std::vector<swiftprox_pair_result> pairs;
     run_alone(scene, [&] {
         swiftprox_scene_answer answer;
@@ -97,11 +109,12 @@ nb::object within(Scene &scene, double max_distance)
     return copy_records("pair", pairs.data(), pairs.size());
 }
 
-nb::tuple contacts(Scene &scene, double max_distance, bool reduce)
+nb::tuple contacts(Scene &scene, double max_distance, bool reduce, const std::string &piece_pairs)
 {
     swiftprox_scene_query query = SWIFTPROX_SCENE_QUERY_DEFAULT;
     query.max_distance = max_distance;
     query.detail = reduce ? SWIFTPROX_CONTACT_DETAIL_REDUCED_MANIFOLD : SWIFTPROX_CONTACT_DETAIL_MANIFOLD;
+    query.piece_pairs = read_piece_pairs(piece_pairs);
     std::vector<SceneContact> all;
     std::vector<swiftprox_manifold_point> points;
     run_alone(scene, [&] {
@@ -369,12 +382,18 @@ void bind_scene(nb::module_ &m)
         .def("set_poses", &set_poses, nb::arg("poses"), nb::arg("ids").none() = nb::none(),
              nb::sig("def set_poses(self, poses: " ARRAY ", ids: " ARRAY " | None = None) -> None"),
              "Moves objects: poses of shape (n, 3, 4) or (n, 4, 4). Without ids: all that are not fixed, in order of creation.")
-        .def("within", &within, nb::arg("max_distance") = infinity, nb::sig("def within(self, max_distance: float = ...) -> " RECORDS),
-             "The pairs at most max_distance apart: a structured array of dtype('pair'), in order of creation.")
+        .def("within", &within, nb::arg("max_distance") = infinity, nb::kw_only(), nb::arg("piece_pairs") = "every",
+             nb::sig("def within(self, max_distance: float = ..., *, piece_pairs: typing.Literal['every', 'first', 'nearest'] = "
+                     "'every') -> " RECORDS),
+             "The pairs at most max_distance apart: a structured array of dtype('pair'), in order of creation.\n\n"
+             "piece_pairs: of each two objects every pair of pieces, the first, or the nearest.")
         .def("contacts", &contacts, nb::arg("max_distance") = 0.0, nb::kw_only(), nb::arg("reduce") = false,
-             nb::sig("def contacts(self, max_distance: float = 0.0, *, reduce: bool = False) -> tuple[" RECORDS ", " RECORDS "]"),
+             nb::arg("piece_pairs") = "every",
+             nb::sig("def contacts(self, max_distance: float = 0.0, *, reduce: bool = False, "
+                     "piece_pairs: typing.Literal['every', 'first', 'nearest'] = 'every') -> tuple[" RECORDS ", " RECORDS "]"),
              "The contacts of pairs at most max_distance apart, and the points of all of them: dtype('contact'), dtype('point').\n\n"
-             "The points of a contact begin at its first_point; there are point_count. reduce: four points each at most.")
+             "The points of a contact begin at its first_point; there are point_count. reduce: four points each at most.\n"
+             "piece_pairs: as of within.")
         .def("least_distance", &least_distance, nb::arg("ids"), nb::kw_only(), nb::arg("against").none() = nb::none(),
              nb::arg("poses").none() = nb::none(), nb::arg("max_distance") = infinity, nb::arg("among") = false,
              nb::sig("def least_distance(self, ids: " ARRAY ", *, against: " ARRAY " | None = None, poses: " ARRAY " | None = None, "

@@ -210,6 +210,7 @@ def refusals():
         (lambda: scene.ray([0, 0], [1, 0, 0]), "(2,)"),
         (lambda: scene.ray([0, 0, 0], [0, 0, 0]), ""),
         (lambda: scene.ray([0, 0, 0], [1, 0, 0], hits="last"), "hits"),
+        (lambda: scene.within(piece_pairs="last"), "piece_pairs"),
         (lambda: scene.first_hit([one], EYE[None]), "times"),
         (lambda: scene.least_distance([one], poses=EYE), "poses"),
         (lambda: sp.Ground([[0, 0, 0]], [[0, 0, 9]]), ""),
@@ -257,6 +258,11 @@ def test_a_scene():
     assert len(scene.within(1)) == 0
     scene.remove(second)
     assert len(scene.within()) == 1
+    scene.add([box, ball], at(5))
+    assert len(scene.within()) == 5
+    for piece_pairs in "first", "nearest":
+        assert len(scene.within(piece_pairs=piece_pairs)) == 3
+        assert len(scene.contacts(np.inf, piece_pairs=piece_pairs)[0]) == 3
 
 
 def test_a_ground():

@@ -6,7 +6,7 @@ use crate::motion::CastOutcome;
 use crate::pair::{DecidedBy, DepthEnding, FeatureKind, Levels, Outcome, Query, Refinement, Start};
 use crate::point::PointLocation;
 use crate::ray::RayOutcome;
-use crate::scene::{ContactDetail, PoseOrder, RayHits};
+use crate::scene::{ContactDetail, PiecePairs, PoseOrder, RayHits};
 use crate::shape::InputPolicy;
 use std::fmt::Display;
 
@@ -40,6 +40,7 @@ enumerator!(DecidedBy {
 });
 enumerator!(FeatureKind { None, Vertex, Edge, Face });
 enumerator!(ContactDetail { None, Depth, Manifold, ReducedManifold });
+enumerator!(PiecePairs { Every, First, Nearest });
 enumerator!(DepthEnding { None, Narrow, Separated, Integers, Budget, Stalled });
 enumerator!(RayOutcome { None, Miss, Hit, Inside, Undecided });
 enumerator!(PointLocation { None, Inside, On, Outside, Undecided });
@@ -62,6 +63,8 @@ pub type DecidedByNumber = i32;
 pub type FeatureKindNumber = i32;
 /// A [`ContactDetail`].
 pub type ContactDetailNumber = i32;
+/// A [`PiecePairs`].
+pub type PiecePairsNumber = i32;
 /// A [`DepthEnding`].
 pub type DepthEndingNumber = i32;
 /// A [`CastOutcome`].

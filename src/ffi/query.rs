@@ -1,6 +1,6 @@
 //! Queries over a scene, whose results the scene owns, and their statistics.
 
-use super::enumerators::{ContactDetailNumber, read_enumerator};
+use super::enumerators::{ContactDetailNumber, PiecePairsNumber, read_enumerator};
 use super::failure::{Checked, StatusCode};
 use super::guard::{caught, guard};
 use super::pointers::output;
@@ -12,7 +12,7 @@ use std::mem::MaybeUninit;
 use crate::manifold::ManifoldPoint;
 use crate::pair::SignedDistance;
 use crate::scene::{
-    Contact, ContactDetail, PairResult, Scene, SceneAnswer, SceneContacts, SceneQuery, SceneStatistics,
+    Contact, ContactDetail, PairResult, PiecePairs, Scene, SceneAnswer, SceneContacts, SceneQuery, SceneStatistics,
 };
 
 /// Default of swiftprox_scene_query.max_distance: 0 for swiftprox_scene_query_contact, infinity for all other queries.
@@ -50,6 +50,8 @@ pub struct CSceneQuery {
     pub detail: ContactDetailNumber,
     /// swiftprox_scene_query_placed: the groups of objects to test, one bit each. Default: 0, which means all.
     pub mask: u32,
+    /// Which pairs of pieces of each two objects are listed. Default: SWIFTPROX_PIECE_PAIRS_EVERY.
+    pub piece_pairs: PiecePairsNumber,
 }
 
 // SAFETY: repr(C), struct_size first, any bytes are valid.
@@ -70,6 +72,7 @@ impl CSceneQuery {
         tuning: std::ptr::null(),
         detail: ContactDetail::None as i32,
         mask: 0,
+        piece_pairs: PiecePairs::Every as i32,
     };
 }
 
@@ -294,6 +297,7 @@ pub(super) unsafe fn ask_masked(
                 refinement,
                 start,
                 detail: read_enumerator(query.detail, "query->detail", "swiftprox_contact_detail")?,
+                piece_pairs: read_enumerator(query.piece_pairs, "query->piece_pairs", "swiftprox_piece_pairs")?,
             };
             let said = CSceneAnswer::new(&run(scene, &query, mask)?);
             answer.write(said);

@@ -190,7 +190,7 @@ impl Scene {
         let asked = search.ask(&mut Searched { world, near, workers }, subject, kind, query);
         let answer = asked.map(|()| search.answer());
         recording.decisions(world.decided(), &world.objects);
-        with_default(|| recording.answer(answer.as_ref().ok(), world));
+        with_default(|| recording.answer(answer.as_ref().ok(), query, world));
         answer
     }
 }

@@ -30,7 +30,7 @@ pub use door::Scene;
 pub use replay::{Replay, ReplayAnswer, ReplayStep};
 pub use search::listener::{EventState, Listener, ListenerEvents, PairEvent, PointEvent};
 pub use search::query::{
-    Contact, ContactDetail, ObjectPair, PairResult, SceneAnswer, SceneContacts, SceneEvents, SceneQuery,
+    Contact, ContactDetail, ObjectPair, PairResult, PiecePairs, SceneAnswer, SceneContacts, SceneEvents, SceneQuery,
 };
 pub use search::statistics::SceneStatistics;
 pub use sets::casts::SceneCastAnswer;

@@ -354,8 +354,8 @@ impl Replay {
         }
         let scene = &*scene;
         let answer = scene.search.answer();
-        let digest =
-            Digest::of(&answer, |id| (self.number(scene, id).unwrap_or(u32::MAX), scene.world.is_compound(id)));
+        let name = |id| (self.number(scene, id).unwrap_or(u32::MAX), scene.world.is_compound(id));
+        let digest = Digest::of(&answer, &query, name);
         let (Recorded::Answer(recorded), None) = (outcome, tolerance) else {
             return Ok(ReplayAnswer { answer, check: Ok(()), is_identical: false });
         };

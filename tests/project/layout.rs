@@ -140,7 +140,7 @@ fn layouts() -> Vec<Layout> {
         },
         swiftprox_scene_query = CSceneQuery {
             struct_size, max_distance, absolute_error, relative_error, error_budget, step_budget,
-            early_exit, tuning, detail, mask
+            early_exit, tuning, detail, mask, piece_pairs
         },
         swiftprox_pair_result = PairResult {
             object1, object2, user_data1, user_data2, piece1, piece2, answer

@@ -23,7 +23,7 @@ use testkit::shapes::{at, cuboid, hull};
 use super::record::{Tape, play};
 
 /// A ring of boxes, each where the ring has it.
-fn ring(count: usize) -> Vec<Piece> {
+pub fn ring(count: usize) -> Vec<Piece> {
     let shape = Arc::new(cuboid([0.15, 0.3, 0.1]));
     let pose = |k: usize| {
         let turn = rotation(&Vector::z(), std::f64::consts::TAU * k as f64 / count as f64);
@@ -33,7 +33,7 @@ fn ring(count: usize) -> Vec<Piece> {
 }
 
 /// Hulls in one frame, some of them round.
-fn heap(random: &mut Random, count: usize) -> Vec<Piece> {
+pub fn heap(random: &mut Random, count: usize) -> Vec<Piece> {
     let piece = |k: usize| {
         let middle = random.vector() * 0.8;
         let cloud: Vec<Vector> = (0..8).map(|_| random.direction() * 0.4 + middle).collect();
@@ -43,7 +43,7 @@ fn heap(random: &mut Random, count: usize) -> Vec<Piece> {
     (0..count).map(piece).collect()
 }
 
-fn hills(random: &mut Random) -> Arc<Ground> {
+pub fn hills(random: &mut Random) -> Arc<Ground> {
     let heights: Vec<f64> = (0..81).map(|_| random.uniform(-0.3, 0.3)).collect();
     let grid = HeightGrid { rows: 9, columns: 9, spacing: [1.0; 2], heights: &heights };
     Arc::new(Ground::from_grounds(&[Ground::from_heights(&grid).unwrap().at(&at(-4.0, -4.0, -1.0))]).unwrap())
@@ -56,7 +56,7 @@ struct Twins {
     ids: Vec<[ObjectId; 2]>,
 }
 
-fn anywhere(random: &mut Random) -> Pose {
+pub fn anywhere(random: &mut Random) -> Pose {
     Pose::new(&random.rotation(), &(random.vector() * 3.0))
 }
 

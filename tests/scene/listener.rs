@@ -29,6 +29,7 @@ const NEAR: SceneQuery = SceneQuery {
     levels: swiftprox::pair::Levels::Automatic,
     refinement: swiftprox::pair::Refinement::Adaptive,
     start: swiftprox::pair::Start::Automatic,
+    piece_pairs: swiftprox::scene::PiecePairs::Every,
 };
 
 /// The same, without contacts.

@@ -12,6 +12,7 @@ mod ground_objects;
 mod grounds;
 mod listener;
 mod motions;
+mod piece_pairs;
 mod placed;
 mod record;
 mod remembered;

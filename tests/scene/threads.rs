@@ -56,7 +56,7 @@ fn flight(mut workers: impl FnMut(usize, &mut Scene)) -> Vec<String> {
 }
 
 /// Backwards, one part twice, one never.
-fn careless(parts: usize, work: &(dyn Fn(usize) + Sync)) {
+pub fn careless(parts: usize, work: &(dyn Fn(usize) + Sync)) {
     for part in (1..parts).rev().chain([1]) {
         work(part);
     }

@@ -302,6 +302,7 @@ impl Program {
         if levels != 0 {
             value.tuning = &tuning;
         }
+        value.piece_pairs = u.int_in_range(-1..=2)?;
         let changes = [(std::mem::offset_of!(CSceneQuery, max_distance), &tolerance[..])];
         let is_plain: bool = u.arbitrary()?;
         let given = if is_plain { None } else { options(u, &value, &changes)? };
@@ -435,6 +436,7 @@ impl Program {
         let mut value: CSceneQuery = CSceneQuery::DEFAULT;
         let mut last = 1.0;
         value.max_distance = any_number(u, &mut last)?;
+        value.piece_pairs = u.int_in_range(-1..=2)?;
         let given = options(u, &value, &[])?;
         let kind = u.int_in_range(-1..=4_i32)?;
         let pose = any_pose(u)?;

@@ -30,7 +30,7 @@ pub(crate) struct NearPair {
 /// The finding of the last pass of one kind over the list for a pair.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct PairMark {
-    /// The index of its own result in that pass's results, or [`UNLISTED`].
+    /// The index of its own result in that pass's results, [`OUTDONE`] or [`UNLISTED`].
     pub result: u32,
     /// The pass looked at it and left nothing open.
     pub is_answered: bool,
@@ -48,6 +48,9 @@ pub(crate) const KINDS_OF_PASSES: usize = 5;
 /// The index for a pair that a pass does not list.
 pub(crate) const UNLISTED: u32 = u32::MAX;
 
+/// The same where the pass lists another pair of the two objects instead.
+pub(crate) const OUTDONE: u32 = UNLISTED - 1;
+
 impl NearPair {
     pub fn new(proxies: [u32; 2]) -> NearPair {
         NearPair { proxies, apart_until: f64::NEG_INFINITY, cache: 0, testing: Testing::Active, takes_share: false }
@@ -58,9 +61,15 @@ impl PairMark {
     /// The mark of a pair that no pass has looked at.
     pub const NONE: PairMark = PairMark { result: UNLISTED, is_answered: false, intersects: false, level: 0, more: 0 };
 
+    /// Whether the pass lists it.
+    #[inline(always)]
+    pub fn is_listed(&self) -> bool {
+        self.result < OUTDONE
+    }
+
     /// Its result, found among those of a part of the pairs, stands this many places later among all.
     pub fn shift_result(&mut self, places: u32) {
-        if self.result != UNLISTED {
+        if self.is_listed() {
             self.result += places;
         }
     }
@@ -237,7 +246,7 @@ impl NearPairs {
     pub fn forget_depths(&mut self, kind: usize) {
         debug_assert_eq!(self.marks[kind].len(), self.pairs.len());
         for (pair, mark) in self.pairs.iter().zip(&self.marks[kind]) {
-            if mark.result == UNLISTED || !mark.intersects {
+            if !mark.is_listed() || !mark.intersects {
                 self.contacts.forget_depth(pair.cache);
             }
         }

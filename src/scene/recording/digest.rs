@@ -3,7 +3,7 @@
 use crate::base::binary::{CHECKSUM_PRIME, EMPTY_CHECKSUM, Reader, Writer};
 use crate::base::error::{Error, Result};
 use crate::base::math::UNIT_ROUNDOFF as U;
-use crate::scene::search::query::{Contact, PairResult, SceneAnswer};
+use crate::scene::search::query::{Contact, PairResult, PiecePairs, SceneAnswer, SceneQuery};
 use crate::scene::world::object::ObjectId;
 
 /// The digest of one answer.
@@ -39,17 +39,19 @@ impl Sum {
 
 impl Digest {
     /// `name` names objects as the recording does, any other way for what is no object, and tells whether they are compounds.
-    pub fn of(answer: &SceneAnswer, name: impl Fn(ObjectId) -> (u32, bool)) -> Digest {
+    pub fn of(answer: &SceneAnswer, query: &SceneQuery, name: impl Fn(ObjectId) -> (u32, bool)) -> Digest {
         let results = answer.found.map_or(answer.pairs, std::slice::from_ref);
         let (mut listed, mut bits) = (Sum(EMPTY_CHECKSUM), Sum(EMPTY_CHECKSUM));
         let (mut lower, mut upper) = (0.0, 0.0);
         for PairResult { object1, object2, piece1, piece2, answer, .. } in results {
             let [(number1, is_compound1), (number2, is_compound2)] = [name(*object1), name(*object2)];
             listed.add(u64::from(number1) << 32 | u64::from(number2));
-            // Which of several pieces a compound is named with depends on earlier questions.
-            let [fixed1, fixed2] = [u32::from(!is_compound1) * piece1, u32::from(!is_compound2) * piece2];
+            // Which of several pieces a compound is named with, or is nearest, depends on earlier questions.
+            let is_nearest = query.piece_pairs == PiecePairs::Nearest;
+            let [varies1, varies2] = [is_compound1 || is_nearest, is_compound2 || is_nearest];
+            let [fixed1, fixed2] = [u32::from(!varies1) * piece1, u32::from(!varies2) * piece2];
             listed.add(u64::from(fixed1) << 32 | u64::from(fixed2));
-            if is_compound1 || is_compound2 {
+            if varies1 || varies2 {
                 bits.add(u64::from(*piece1) << 32 | u64::from(*piece2));
             }
             listed.add(answer.outcome as u64);

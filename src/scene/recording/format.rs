@@ -11,7 +11,7 @@ use crate::ground::{Ground, HeightGrid};
 use crate::pair::Query;
 use crate::scene::change::{Change, RecordedNames};
 use crate::scene::recording::digest::Digest;
-use crate::scene::search::query::{PlacedBody, SceneQuery, Subject};
+use crate::scene::search::query::{PiecePairs, PlacedBody, SceneQuery, Subject};
 use crate::scene::world::object::ObjectOptions;
 use crate::shape::Shape;
 use crate::shape::file::{from_bytes, to_bytes};
@@ -413,13 +413,16 @@ impl Writer {
             refinement,
             start,
             detail,
+            piece_pairs,
         } = *query;
         self.flag(early_exit)?;
         for real in [max_distance, absolute_error, relative_error, error_budget] {
             self.real(real)?;
         }
         let choices = [step_budget, levels as u32, refinement as u32, start as u32, detail as u32];
-        choices.iter().try_for_each(|x| self.number(*x))
+        choices.iter().try_for_each(|x| self.number(*x))?;
+        // Recordings of a time without this choice are read, too.
+        if piece_pairs == PiecePairs::Every { Ok(()) } else { self.number(piece_pairs as u32) }
     }
 }
 
@@ -513,6 +516,7 @@ impl Reader<'_> {
             refinement: self.choice()?,
             start: self.choice()?,
             detail: self.choice()?,
+            piece_pairs: if self.rest.is_empty() { PiecePairs::Every } else { self.choice()? },
         })
     }
 }

@@ -152,13 +152,13 @@ impl Recording {
     }
 
     /// Writes down the answer to the last query; none of one that was refused.
-    pub fn answer(&mut self, answer: Option<&SceneAnswer>, world: &World) {
+    pub fn answer(&mut self, answer: Option<&SceneAnswer>, query: &SceneQuery, world: &World) {
         self.write(|recorder| {
             let number = |id| {
                 let found = world.objects.get(id).and_then(|object| recorder.number(object.serial()));
                 (found.unwrap_or(u32::MAX), world.is_compound(id))
             };
-            let digest = answer.map(|answer| Digest::of(answer, number));
+            let digest = answer.map(|answer| Digest::of(answer, query, number));
             recorder.write(&digest.map_or(Record::Failed, Record::Answer))
         });
     }

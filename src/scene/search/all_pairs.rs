@@ -4,7 +4,7 @@ use std::sync::Mutex;
 
 use crate::base::error::Result;
 use crate::base::locks::{locked, unlocked};
-use crate::base::memory::{collected, with_capacity};
+use crate::base::memory::{collected, push};
 use crate::pair::PairCache;
 use crate::scene::near::candidates::order;
 use crate::scene::near::near_pairs::{NearPair, NearPairs, PairMark};
@@ -24,8 +24,7 @@ pub(crate) fn run_over_all(
 ) -> Result<bool> {
     let proxies = pass.proxies;
     let objects = collected(proxies.of_objects())?;
-    let mut block =
-        PairBlock { pairs: with_capacity(BLOCK)?, caches: with_capacity(BLOCK)?, kept: with_capacity(BLOCK)? };
+    let mut block = PairBlock::default();
     // Both go through the pairs in the same order.
     let mut next = 0;
     for (k, object1) in objects.iter().enumerate() {
@@ -43,10 +42,10 @@ pub(crate) fn run_over_all(
                         next += 1;
                     }
                     let known = near.pairs.get(next).filter(|known| known.proxies == pair).map(|known| known.cache);
-                    block.add(pair, known, near);
-                    if block.pairs.len() == BLOCK && block.run(pass, near, findings)? {
+                    if block.is_full(pass, pair) && block.run(pass, near, findings)? {
                         return Ok(true);
                     }
+                    block.add(pair, known, near)?;
                 }
             }
         }
@@ -55,35 +54,39 @@ pub(crate) fn run_over_all(
 }
 
 /// Pairs to be looked at together.
+#[derive(Default)]
 struct PairBlock {
     pairs: Vec<NearPair>,
+    marks: Vec<PairMark>,
     caches: Vec<Mutex<PairCache>>,
     /// Those that near pairs have.
     kept: Vec<Option<u32>>,
 }
 
 impl PairBlock {
-    fn add(&mut self, pair: [u32; 2], kept: Option<u32>, near: &NearPairs) {
-        self.pairs.push(NearPair { cache: self.caches.len() as u32, ..NearPair::new(pair) });
+    /// Whether they are many, and the next pair may be in another block.
+    fn is_full(&self, pass: &Pass, next: [u32; 2]) -> bool {
+        self.pairs.len() >= BLOCK && self.pairs.last().is_some_and(|last| pass.may_part(last, &NearPair::new(next)))
+    }
+
+    fn add(&mut self, pair: [u32; 2], kept: Option<u32>, near: &NearPairs) -> Result<()> {
+        push(&mut self.pairs, NearPair { cache: self.caches.len() as u32, ..NearPair::new(pair) })?;
+        push(&mut self.marks, PairMark::NONE)?;
         let known = kept.map(|kept| *locked(&near.caches[kept as usize]));
-        self.caches.push(Mutex::new(known.unwrap_or_default()));
-        self.kept.push(kept);
+        push(&mut self.caches, Mutex::new(known.unwrap_or_default()))?;
+        push(&mut self.kept, kept)
     }
 
     fn run(&mut self, pass: &Pass, near: &mut NearPairs, findings: &mut Findings) -> Result<bool> {
-        let marks = &mut [PairMark::NONE; BLOCK][..self.pairs.len()];
-        let stopped = pass.run(
-            &mut self.pairs,
-            marks,
-            &mut Own { caches: &mut self.caches, contacts: None, compounds: &[] },
-            findings,
-        )?;
+        let memory = &mut Own { caches: &mut self.caches, contacts: None, compounds: &[] };
+        let stopped = pass.run(&mut self.pairs, &mut self.marks, memory, findings)?;
         for (kept, cache) in self.kept.iter().zip(&mut self.caches) {
             if let Some(kept) = kept {
                 *unlocked(&mut near.caches[*kept as usize]) = *unlocked(cache);
             }
         }
         self.pairs.clear();
+        self.marks.clear();
         self.caches.clear();
         self.kept.clear();
         Ok(stopped)

@@ -173,6 +173,14 @@ impl Contacts {
         self.list.as_mut_slice()[0].first_point = 0;
     }
 
+    /// The last one goes, if there is any.
+    pub fn remove_last(&mut self) {
+        if let Some(last) = self.list.as_slice().last() {
+            self.points.truncate(last.first_point);
+            self.list.truncate(self.list.count() - 1);
+        }
+    }
+
     /// How the last depth ended.
     pub fn last_ending(&self) -> Option<DepthEnding> {
         self.list.as_slice().last().map(|contact| contact.depth.ending)

@@ -5,6 +5,8 @@
 
 use crate::base::error::Result;
 use crate::base::memory::{extend, push};
+use crate::compound::MORE;
+use crate::pair::{Outcome, PairAnswer, PairConfig};
 use crate::scene::near::near_pairs::{NearPair, PairMark};
 use crate::scene::search::contacts::{self, Contacts};
 use crate::scene::search::query::PairResult;
@@ -77,6 +79,23 @@ impl Before {
     }
 }
 
+/// The pair of two objects that is listed so far, where one is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct ChosenPair {
+    /// The place of its cache tells which it is.
+    pub cache: u32,
+    pub upper: f64,
+    /// The least lower end of the pairs of these objects that could be listed.
+    pub lower: f64,
+}
+
+impl ChosenPair {
+    /// What a pair is asked that is listed only if it is nearer.
+    pub fn config(&self, config: &PairConfig) -> PairConfig {
+        PairConfig { max_distance: config.max_distance.min(self.upper * MORE), ..*config }
+    }
+}
+
 /// The findings of a part of the pairs.
 #[derive(Debug, Default)]
 pub(crate) struct Findings {
@@ -89,6 +108,8 @@ pub(crate) struct Findings {
     pub listed: usize,
     pub statistics: SceneStatistics,
     pub intersecting: bool,
+    /// Where one pair of each two objects is listed, that of those being asked.
+    pub chosen: Option<ChosenPair>,
 }
 
 impl Findings {
@@ -128,6 +149,7 @@ impl Findings {
         self.contacts.clear();
         self.statistics = SceneStatistics::default();
         self.intersecting = false;
+        self.chosen = None;
     }
 
     /// Those of the pass, in the scene's order.
@@ -160,6 +182,36 @@ impl Findings {
     pub fn list_new(&mut self) -> Result<()> {
         self.slots.advance();
         self.list(Source::New, self.slots.count() - 1)
+    }
+
+    /// Whether the answer that has just been written, that of the pair with this cache, is listed of its two objects: then no other
+    /// is, until a nearer one comes.
+    pub fn choose(&mut self, cache: u32) -> bool {
+        let PairAnswer { outcome, lower, upper, .. } = self.slots.next().answer;
+        let Some(chosen) = &mut self.chosen else {
+            self.chosen = Some(ChosenPair { cache, upper, lower });
+            return true;
+        };
+        chosen.lower = chosen.lower.min(lower);
+        if !(upper < chosen.upper || outcome == Outcome::Intersecting) {
+            return false;
+        }
+        (chosen.cache, chosen.upper) = (cache, upper);
+        self.slots.replace_last();
+        self.contacts.remove_last();
+        self.listed -= 1;
+        if let Some(run) = self.runs.last_mut() {
+            debug_assert!(run.source == Source::New);
+            run.count -= 1;
+        }
+        true
+    }
+
+    /// Ends the chosen among the pairs of two objects, if one is listed: its interval then holds the distance of both.
+    pub fn end_choosing(&mut self) -> Option<ChosenPair> {
+        let chosen = self.chosen.take()?;
+        self.slots.as_mut_slice().last_mut()?.answer.lower = chosen.lower;
+        Some(chosen)
     }
 
     #[inline(always)]

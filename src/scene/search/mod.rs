@@ -6,6 +6,7 @@
 //! | share | an error budget is dealt out to pairs that levels may answer | `shares.rs` |
 //! | look | what rows of numbers settle of each pair | `narrow_phase.rs` |
 //! | decide | the pair layer answers for what is left | `narrow_phase.rs`, `contacts.rs` |
+//! | select | of two objects one pair is listed, where that is asked for | `selection.rs` |
 //! | list | answers are put in order, new ones between those given again | `findings.rs`, `slots.rs` |
 
 pub(crate) mod query;
@@ -15,6 +16,7 @@ mod contacts;
 pub(crate) mod request;
 mod findings;
 mod narrow_phase;
+mod selection;
 mod parts;
 mod shares;
 mod gathering;

@@ -22,8 +22,8 @@ use crate::pair::{DecidedBy, DepthCache, DepthEnding, Outcome, PairAnswer, PairC
 use crate::scene::near::contact_memory::ContactMemory;
 use crate::scene::near::near_pairs::{NearPair, PairMark, UNLISTED};
 use crate::scene::search::contacts::Details;
-use crate::scene::search::findings::{Before, Findings};
-use crate::scene::search::query::PairResult;
+use crate::scene::search::findings::{Before, ChosenPair, Findings};
+use crate::scene::search::query::{PairResult, PiecePairs};
 use crate::scene::search::request::{Request, Solver};
 use crate::scene::search::statistics::{SceneStatistics, Settled, level_of};
 use crate::scene::world::compounds::{CompoundPair, NamedPieces};
@@ -54,8 +54,9 @@ const INSCRIBED: PairAnswer = PairAnswer {
 };
 
 /// One pass over pairs: the request to each, and its pieces.
+#[derive(Clone, Copy)]
 pub(crate) struct Pass<'a> {
-    request: &'a Request,
+    pub request: &'a Request,
     solver: Solver,
     /// The query for pairs with a share of an error budget.
     of_share: Option<PairConfig>,
@@ -64,7 +65,7 @@ pub(crate) struct Pass<'a> {
     tolerance: f64,
     pub proxies: &'a Proxies,
     /// The pass before, if it asked the same of the same pairs and its answers are to be given again.
-    before: Option<&'a Before>,
+    pub before: Option<&'a Before>,
 }
 
 /// The caches of the pairs, by place.
@@ -168,11 +169,11 @@ impl<'a> Pass<'a> {
         Pass { request, solver, of_share: request.of_share(), is_verdict, tolerance, proxies, before }
     }
 
-    /// Looks at pairs in order and adds the listed ones to `findings`; true if it stopped at an intersecting one, the last listed.
+    /// Looks at pairs in order and adds the listed ones to `findings`; true if it [stopped](Pass::stops) at the last listed.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).
-    pub fn run<C: PairCaches + ?Sized>(
+    pub fn run_over<C: PairCaches + ?Sized>(
         &self,
         pairs: &mut [NearPair],
         marks: &mut [PairMark],
@@ -267,7 +268,7 @@ impl<'a> Pass<'a> {
     #[inline(always)]
     fn look_again(&self, pair: &NearPair, mark: &mut PairMark, statistics: &mut SceneStatistics) -> PairLook {
         if self.is_unmoved(pair, mark) {
-            let is_listed = mark.result != UNLISTED;
+            let is_listed = mark.is_listed();
             statistics.count_unmoved(u64::from(!is_listed), 0);
             return if is_listed { PairLook::Again } else { PairLook::Settled };
         }
@@ -336,7 +337,7 @@ impl<'a> Pass<'a> {
 
     /// Lists a pair with its result of before; true if the query is to stop there.
     #[inline(always)]
-    fn list_again(&self, mark: &mut PairMark, findings: &mut Findings) -> Result<bool> {
+    pub fn list_again(&self, mark: &mut PairMark, findings: &mut Findings) -> Result<bool> {
         let at = mark.result as usize;
         mark.result = findings.listed as u32;
         findings.list_again(at)?;
@@ -364,14 +365,33 @@ impl<'a> Pass<'a> {
             *answer = INSCRIBED;
         } else {
             *answer = PairAnswer::default();
-            caches.change(pair.cache, |cache| self.test(pair, mark, cache, answer))?;
+            let chosen = findings.chosen;
+            caches.change(pair.cache, |cache| self.test(pair, mark, cache, chosen, answer))?;
         }
-        findings.statistics.count(answer);
-        let is_listed = is_listed(answer.outcome, self.is_verdict);
+        let is_listed = self.counts(pair, findings);
         if !is_listed {
             mark.result = UNLISTED;
         }
         Ok(is_listed)
+    }
+
+    /// Counts the answer of a pair that was written last; whether it is listed.
+    #[inline(always)]
+    fn counts(&self, pair: &NearPair, findings: &mut Findings) -> bool {
+        let answer = &findings.slots.next().answer;
+        findings.statistics.count(answer);
+        is_listed(answer.outcome, self.is_verdict)
+            && (self.request.piece_pairs == PiecePairs::Every || findings.choose(pair.cache))
+    }
+
+    /// Whether nothing more is asked, of the scene or of the two objects, behind a pair that was listed with this mark.
+    #[inline(always)]
+    fn stops(&self, mark: &PairMark) -> bool {
+        match self.request.piece_pairs {
+            PiecePairs::Every => mark.intersects & self.request.early_exit,
+            PiecePairs::First => true,
+            PiecePairs::Nearest => mark.intersects,
+        }
     }
 
     /// Lists the pair whose answer was written last; true if the query is to stop there.
@@ -392,7 +412,7 @@ impl<'a> Pass<'a> {
         mark.result = findings.listed as u32;
         findings.list_new()?;
         findings.intersecting |= mark.intersects;
-        Ok(mark.intersects & self.request.early_exit)
+        Ok(self.stops(mark))
     }
 
     /// Asks the pair layer.
@@ -402,6 +422,7 @@ impl<'a> Pass<'a> {
         pair: &mut NearPair,
         mark: &mut PairMark,
         cache: &mut PairCache,
+        chosen: Option<ChosenPair>,
         answer: &mut PairAnswer,
     ) -> Result<()> {
         let [a, b] = pair.proxies.map(|proxy| proxy as usize);
@@ -411,6 +432,8 @@ impl<'a> Pass<'a> {
             Some(of_share) if pair.takes_share => of_share,
             _ => &self.request.config,
         };
+        let nearer = chosen.map(|chosen| chosen.config(config));
+        let config = nearer.as_ref().unwrap_or(config);
         let bodies = [placed(a), placed(b)];
         match self.proxies.bodies.ground_pair(pair.proxies) {
             None => (self.solver)(bodies, cache, config, answer)?,
@@ -480,12 +503,12 @@ impl<'a> Pass<'a> {
         findings.slots.make_room(BLOCK + 1)?;
         let result = findings.slots.next();
         result.answer = PairAnswer::default();
-        let query = self.request.of_ground();
-        let pieces = compounds.ask(query, cache, &self.request.config, &mut result.answer)?;
+        let (query, config) = (self.request.of_ground(), &self.request.config);
+        let config = findings.chosen.map_or(*config, |chosen| chosen.config(config));
+        let pieces = compounds.ask(query, cache, &config, &mut result.answer)?;
         let [a, b] = pair.proxies.map(|row| row as usize);
         pair.apart_until = self.apart_until(result.answer.lower, a, b);
-        findings.statistics.count(&result.answer);
-        if !is_listed(result.answer.outcome, self.is_verdict) {
+        if !self.counts(pair, findings) {
             return Ok(false);
         }
         if self.request.details.is_some() {
@@ -504,34 +527,35 @@ impl<'a> Pass<'a> {
         findings: &mut Findings,
     ) -> Result<bool> {
         let (near, mut lower) = compounds.near_pieces(self.tolerance)?;
-        let (mut first, mut count, mut intersects) = (UNLISTED, 0_usize, false);
+        let (mut first, mut intersects, listed) = (UNLISTED, false, findings.listed);
         let mut kept = cache.take_contacts(near.len());
         for pieces in near {
             findings.slots.make_room(BLOCK + 1)?;
-            let Findings { slots, contacts, statistics, .. } = &mut *findings;
-            let answer = &mut slots.next().answer;
-            *answer = PairAnswer::default();
             let own = kept.of(pieces);
+            let config = findings.chosen.map_or(self.request.config, |chosen| chosen.config(&self.request.config));
             let is_listed = compounds.with_pieces(pieces, |placed| {
-                (self.solver)(placed, &mut own.cache, &self.request.config, answer)?;
-                statistics.count(answer);
-                let is_listed = is_listed(answer.outcome, self.is_verdict);
-                if is_listed {
-                    own.change(answer.outcome == Outcome::Intersecting, |reference, depth| {
-                        details.find(placed, answer, reference, depth, contacts)
-                    })?;
+                let answer = &mut findings.slots.next().answer;
+                *answer = PairAnswer::default();
+                (self.solver)(placed, &mut own.cache, &config, answer)?;
+                lower = lower.min(answer.lower);
+                if !self.counts(pair, findings) {
+                    return Ok(false);
                 }
-                Ok(is_listed)
+                let Findings { slots, contacts, .. } = &mut *findings;
+                let answer = &slots.next().answer;
+                own.change(answer.outcome == Outcome::Intersecting, |reference, depth| {
+                    details.find(placed, answer, reference, depth, contacts)
+                })?;
+                Ok(true)
             })?;
-            lower = lower.min(answer.lower);
             if !is_listed {
                 continue;
             }
-            if contacts.last_ending() == Some(DepthEnding::Budget) {
+            if findings.contacts.last_ending() == Some(DepthEnding::Budget) {
                 mark.is_answered = false;
             }
             let stops = self.list_pieces(pair, compounds.named(pieces), mark, findings)?;
-            (first, count, intersects) = (first.min(mark.result), count + 1, intersects | mark.intersects);
+            (first, intersects) = (first.min(mark.result), intersects | mark.intersects);
             if stops {
                 cache.keep_contacts(kept);
                 return Ok(true);
@@ -541,7 +565,7 @@ impl<'a> Pass<'a> {
         let [a, b] = pair.proxies.map(|row| row as usize);
         pair.apart_until = self.apart_until(lower, a, b);
         (mark.result, mark.intersects) = (first, intersects);
-        match u8::try_from(count.saturating_sub(1)) {
+        match u8::try_from((findings.listed - listed).saturating_sub(1)) {
             Ok(more) => mark.more = more,
             // More than a mark can hold: they are found anew.
             Err(_) => mark.is_answered = false,
@@ -564,7 +588,7 @@ impl<'a> Pass<'a> {
         mark.result = findings.listed as u32;
         findings.list_new()?;
         findings.intersecting |= mark.intersects;
-        Ok(mark.intersects & self.request.early_exit)
+        Ok(self.stops(mark))
     }
 
     /// See [`NearPair::apart_until`] and [`Pass::look`].

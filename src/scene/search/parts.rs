@@ -15,6 +15,7 @@ use crate::scene::near::contact_memory::ContactMemory;
 use crate::scene::near::near_pairs::{NearPair, NearPairs, PairMark};
 use crate::scene::search::findings::Findings;
 use crate::scene::search::narrow_phase::{BLOCK, PairCaches, Pass};
+use crate::scene::search::slots::split;
 
 /// The findings of a part, kept from pass to pass.
 #[derive(Debug, Default)]
@@ -107,7 +108,8 @@ impl Pass<'_> {
         let NearPairs { pairs, marks, caches, contacts, compounds, .. } = near;
         let marks = &mut marks[kind];
         let size = workers.part_size(pairs.len()).next_multiple_of(BLOCK);
-        let count = pairs.len().div_ceil(size);
+        let sizes = self.part_sizes(pairs, size)?;
+        let count = sizes.len();
         reserve(kept, count.saturating_sub(kept.len()))?;
         kept.resize_with(count.max(kept.len()), PartFindings::default);
         let kept = &mut kept[..count];
@@ -117,7 +119,9 @@ impl Pass<'_> {
             written.clear();
             self.run(pairs, marks, &mut Together { caches, contacts, compounds, written }, findings)
         };
-        let results = workers.map(pairs.chunks_mut(size).zip(marks.chunks_mut(size)).zip(kept.iter_mut()), run)?;
+        let [of_pairs, of_marks] = [0; 2].map(|_| sizes.iter().copied());
+        let parts = split(pairs, of_pairs).zip(split(marks, of_marks));
+        let results = workers.map(parts.zip(kept.iter_mut()), run)?;
         let (mut firsts, mut new) = (with_capacity(count)?, 0);
         for (result, PartFindings { findings: found, written }) in results.into_iter().zip(&*kept) {
             result?;
@@ -126,7 +130,7 @@ impl Pass<'_> {
             written.put(contacts)?;
         }
         let rooms = findings.rooms(kept.iter().map(|part| &part.findings))?;
-        let parts = marks.chunks_mut(size).zip(firsts).zip(rooms).zip(&*kept);
+        let parts = split(marks, sizes.iter().copied()).zip(firsts).zip(rooms).zip(&*kept);
         workers.map(parts, |(((marks, first), mut room), part)| {
             room.fill(&part.findings);
             marks.iter_mut().for_each(|mark| mark.shift_result(first));

@@ -39,6 +39,8 @@ pub struct SceneQuery {
     /// [Contacts](crate::scene::Scene::query_contact): the details of each pair beside its answer. `absolute_error`,
     /// `relative_error` and `step_budget` are then those of the depths, and points with a gap above `max_distance` are left out.
     pub detail: ContactDetail,
+    /// Which pairs of pieces of each two objects are listed.
+    pub piece_pairs: PiecePairs,
 }
 
 /// The subject of a query.
@@ -92,6 +94,21 @@ pub enum ContactDetail {
     ReducedManifold = 3,
 }
 
+/// Which pairs of convex pieces of each two objects a query lists, of those within its distance. Pieces of compounds make pairs only
+/// for contacts with a detail.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[repr(i32)]
+pub enum PiecePairs {
+    /// Every pair.
+    #[default]
+    Every = 0,
+    /// The first pair in the order of results. Later ones are not tested: where it is apart, another may intersect.
+    First = 1,
+    /// The nearest pair: the first that intersects, else the first with the least upper. Its lower is the least of all, so its
+    /// interval holds the distance of the two objects. Earlier queries may decide between pairs whose intervals overlap.
+    Nearest = 2,
+}
+
 impl Default for SceneQuery {
     fn default() -> Self {
         SceneQuery {
@@ -105,6 +122,7 @@ impl Default for SceneQuery {
             refinement: Refinement::Adaptive,
             start: Start::Automatic,
             detail: ContactDetail::None,
+            piece_pairs: PiecePairs::Every,
         }
     }
 }

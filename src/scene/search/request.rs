@@ -5,7 +5,7 @@ use crate::pair::{self, PairAnswer, PairCache, PairConfig, Placed, Query};
 #[cfg(doc)]
 use crate::scene::near::near_pairs::NearPair;
 use crate::scene::search::contacts::Details;
-use crate::scene::search::query::{ContactDetail, SceneQuery};
+use crate::scene::search::query::{ContactDetail, PiecePairs, SceneQuery};
 
 /// One of the pair queries of [`pair`](crate::pair).
 pub(crate) type Solver = fn([Placed; 2], &mut PairCache, &PairConfig, &mut PairAnswer) -> Result<()>;
@@ -34,7 +34,9 @@ pub(crate) struct Request {
     pub share: Option<f64>,
     /// The details asked of listed pairs beside their answers.
     pub details: Option<Details>,
-    /// Neither verdicts nor details nor shares of a budget are asked for.
+    /// Which of two objects' pairs are listed.
+    pub piece_pairs: PiecePairs,
+    /// Neither verdicts nor details nor shares of a budget nor a choice among pairs are asked for.
     is_of_distances: bool,
 }
 
@@ -69,7 +71,10 @@ impl Request {
         let is_shared = kind == Query::Approximate && query.error_budget < f64::INFINITY;
         let details = Details::new(kind, query)?;
         Ok(Request {
-            is_of_distances: kind != Query::Intersection && details.is_none() && !is_shared,
+            is_of_distances: kind != Query::Intersection
+                && details.is_none()
+                && !is_shared
+                && query.piece_pairs == PiecePairs::Every,
             kind,
             config,
             tolerance,
@@ -77,6 +82,7 @@ impl Request {
             error_budget: is_shared.then_some(query.error_budget),
             share: None,
             details,
+            piece_pairs: query.piece_pairs,
         })
     }
 
@@ -92,7 +98,7 @@ impl Request {
 
     /// Whether pairs are asked the same.
     pub fn is_same(&self, other: &Request) -> bool {
-        (self.kind, self.share) == (other.kind, other.share)
+        (self.kind, self.share, self.piece_pairs) == (other.kind, other.share, other.piece_pairs)
             && self.config == other.config
             && self.details == other.details
     }
@@ -112,7 +118,8 @@ impl Request {
             & (config.levels as i32 == query.levels as i32)
             & (config.refinement as i32 == query.refinement as i32)
             & (config.start as i32 == query.start as i32)
-            & (query.detail as i32 == ContactDetail::None as i32);
+            & (query.detail as i32 == ContactDetail::None as i32)
+            & (query.piece_pairs as i32 == PiecePairs::Every as i32);
         self.is_of_distances & is_same
     }
 

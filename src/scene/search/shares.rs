@@ -8,7 +8,7 @@
 use crate::base::error::Result;
 use crate::base::memory::push;
 use crate::pair::least_error;
-use crate::scene::near::near_pairs::{NearPair, PairMark, UNLISTED};
+use crate::scene::near::near_pairs::{NearPair, PairMark};
 use crate::scene::search::request::Request;
 use crate::scene::world::proxies::Proxies;
 use crate::scene::world::rows::are_far_apart;
@@ -44,7 +44,7 @@ pub(crate) fn deal(
     for (k, (pair, mark)) in (0..).zip(pairs.iter_mut().zip(marks)) {
         pair.takes_share = false;
         let [a, b] = pair.proxies.map(|proxy| proxy as usize);
-        let needs_none = mark.is_answered & (mark.result != UNLISTED) & mark.intersects;
+        let needs_none = mark.is_answered & mark.is_listed() & mark.intersects;
         if (pair.testing != Testing::Active)
             || needs_none
             || are_far_apart(proxies.known_spheres(a), proxies.known_spheres(b), request.tolerance)

@@ -41,6 +41,16 @@ impl Run {
     }
 }
 
+/// Rows one behind the other, this many each time.
+pub(crate) fn split<T>(rows: &mut [T], counts: impl Iterator<Item = usize>) -> impl Iterator<Item = &mut [T]> {
+    let mut rest = rows;
+    counts.map(move |count| {
+        let (first, behind) = std::mem::take(&mut rest).split_at_mut(count);
+        rest = behind;
+        first
+    })
+}
+
 impl<T> Default for Slots<T> {
     fn default() -> Self {
         Slots { rows: Vec::new(), count: 0 }
@@ -138,12 +148,19 @@ impl<T: Copy + Default> Slots<T> {
         let (first, more) = (self.count, counts.clone().sum());
         self.make_room(more)?;
         self.count += more;
-        let mut rest = &mut self.rows[first..];
-        Ok(counts.map(move |count| {
-            let (room, behind) = std::mem::take(&mut rest).split_at_mut(count);
-            rest = behind;
-            room
-        }))
+        Ok(split(&mut self.rows[first..], counts))
+    }
+
+    /// The row being written takes the place of the last one.
+    pub fn replace_last(&mut self) {
+        self.rows.swap(self.count - 1, self.count);
+        self.count -= 1;
+    }
+
+    /// Only the first rows are left.
+    pub fn truncate(&mut self, count: usize) {
+        debug_assert!(count <= self.count);
+        self.count = count;
     }
 
     /// Becomes the sequence of its own rows and of new ones that `runs` describe, in their order. Its own move within their

@@ -1,0 +1,355 @@
+//! One result for each two objects: the first of all their results, or the nearest, in scenes of pieces, compounds and a ground,
+//! beside the same scene that lists every pair of pieces.
+
+use std::sync::Arc;
+
+use swiftprox::compound::Compound;
+use swiftprox::math::{Pose, Vector};
+use swiftprox::object::{ObjectId, ObjectOptions};
+use swiftprox::pair::{Outcome, Query};
+use swiftprox::scene::{
+    ContactDetail, EventState, Listener, PairFilter, PairResult, PiecePairs, Scene, SceneAnswer, SceneQuery, Workers,
+};
+use swiftprox::shape::Shape;
+use testkit::random::Random;
+use testkit::shapes::{at, cuboid, hull};
+
+use super::compound_objects::{anywhere, heap, hills, ring};
+use super::record::{Tape, play};
+use super::threads::careless;
+
+const CHOICES: [PiecePairs; 2] = [PiecePairs::First, PiecePairs::Nearest];
+
+/// The same objects in several scenes; user data 0, 1, …
+struct Copies {
+    /// One that lists every pair, and for each choice two, of which the second has workers.
+    scenes: Vec<Scene>,
+    ids: Vec<Vec<ObjectId>>,
+    is_compound: Vec<bool>,
+}
+
+impl Copies {
+    fn random(random: &mut Random, count: usize) -> Copies {
+        let mut copies = Copies { scenes: Vec::new(), ids: vec![Vec::new(); 5], is_compound: Vec::new() };
+        copies.scenes.resize_with(5, Scene::new);
+        for scene in [2, 4] {
+            copies.scenes[scene].set_workers(Some(Workers::new(3, careless)));
+        }
+        let compounds = [ring(8), heap(random, 5)].map(|pieces| Arc::new(Compound::new(&pieces).unwrap()));
+        let cylinder = Arc::new(Shape::from_cylinder(0.3, 0.3, 1e-2).unwrap());
+        let mut cloud = |_| {
+            let middle = random.vector() * 0.8;
+            Arc::new(hull(&(0..8).map(|_| random.direction() * 0.4 + middle).collect::<Vec<_>>()))
+        };
+        let mut pieces: Vec<Arc<Shape>> = (0..9).map(&mut cloud).collect();
+        pieces[4] = cylinder;
+        let ground = hills(random);
+        for k in 0..count {
+            let options = ObjectOptions {
+                pose: anywhere(random),
+                fixed: random.below(6) == 0,
+                user_data: k as u64,
+                ..ObjectOptions::default()
+            };
+            let shapes = &pieces[..1 + random.below(pieces.len())];
+            copies.is_compound.push(k % 5 == 2);
+            let compound = &compounds[random.below(2)];
+            copies.change(|scene, ids, _| {
+                ids.push(match k % 5 {
+                    _ if k == 5 => scene.add_ground(ground.clone(), &options).unwrap(),
+                    2 => scene.add_compound(compound.clone(), &options).unwrap(),
+                    _ => scene.add_object(shapes.to_vec(), &options).unwrap(),
+                });
+            });
+        }
+        copies
+    }
+
+    /// Changes all, whose numbers `change` gets.
+    fn change(&mut self, mut change: impl FnMut(&mut Scene, &mut Vec<ObjectId>, usize)) {
+        for (k, (scene, ids)) in self.scenes.iter_mut().zip(&mut self.ids).enumerate() {
+            change(scene, ids, k);
+        }
+    }
+
+    /// Objects come to other places, pieces too, and pairs are switched off and on.
+    fn disturb(&mut self, random: &mut Random, step: usize) {
+        let count = self.ids[0].len();
+        let [k, l] = [random.below(count), random.below(count - 1)];
+        let l = if l == k { count - 1 } else { l };
+        let (pose, near) = (anywhere(random), Pose::new(&random.rotation(), &(random.vector() * 0.3)));
+        let moved: Vec<(usize, Pose)> = match step % 4 {
+            0 => (0..count).map(|k| (k, anywhere(random))).collect(),
+            1 => vec![(k, pose)],
+            2 => vec![],
+            _ => (0..3).map(|_| (random.below(count), anywhere(random))).collect(),
+        };
+        self.change(|scene, ids, _| {
+            for (k, pose) in &moved {
+                // It may be gone.
+                drop(scene.set_pose(ids[*k], pose));
+            }
+            match step {
+                // Its pieces may not be moved.
+                2 | 7 | 11 => drop(scene.set_piece_pose(ids[k], 0, &near)),
+                3 => drop(scene.set_pair_active(ids[k], ids[l], false)),
+                5 => drop(scene.set_object_active(ids[k], false)),
+                6 => scene.set_all_active(true),
+                8 => {
+                    let block = [ids[k.min(l)], ids[k.max(l)]];
+                    scene.set_pair_filter(Some(PairFilter::new(move |one, other| [one, other] != block)));
+                }
+                9 => scene.set_kept_pair_limit(0),
+                10 => scene.set_kept_pair_limit(1 << 20),
+                12 => drop(scene.remove_object(ids[k])),
+                _ => {}
+            }
+        });
+    }
+}
+
+/// What a query lists, of ids that differ from scene to scene only what they mean.
+#[derive(Debug, Clone, Default)]
+struct Told {
+    pairs: Vec<PairResult>,
+    found: Option<PairResult>,
+    intersecting: bool,
+    depths: Vec<Outcome>,
+    bits: String,
+}
+
+impl Told {
+    fn new(answer: &SceneAnswer) -> Told {
+        let of = |pair: &PairResult| format!("{:?} {:?}", name(pair), pair.answer);
+        let pairs: Vec<String> = answer.pairs.iter().map(of).collect();
+        Told {
+            pairs: answer.pairs.to_vec(),
+            found: answer.found.copied(),
+            intersecting: answer.intersecting,
+            depths: answer.contacts.contacts.iter().map(|contact| contact.depth.outcome).collect(),
+            bits: format!("{pairs:?} {:?} {:?}", answer.found.map(of), answer.contacts),
+        }
+    }
+}
+
+type Name = ([u64; 2], [u32; 2]);
+
+fn name(pair: &PairResult) -> Name {
+    ([pair.user_data1, pair.user_data2], [pair.piece1, pair.piece2])
+}
+
+fn ask(scene: &mut Scene, kind: Query, query: &SceneQuery) -> Told {
+    let answer = match kind {
+        Query::Intersection => scene.query_intersection(query),
+        Query::Distance => scene.query_distance(query),
+        Query::Contact => scene.query_contact(query),
+        Query::Approximate => scene.query_approximate(query),
+    };
+    Told::new(&answer.unwrap())
+}
+
+/// The pairs of each two objects.
+fn of_objects(every: &[PairResult]) -> impl Iterator<Item = &[PairResult]> {
+    every.chunk_by(|one, other| name(one).0 == name(other).0)
+}
+
+fn intersects(pair: &PairResult) -> bool {
+    pair.answer.outcome == Outcome::Intersecting
+}
+
+/// One of each two objects' results, by all of them.
+fn check(choice: PiecePairs, every: &Told, one: &Told, names_pieces: impl Fn(u64) -> bool) {
+    assert_eq!(of_objects(&every.pairs).count(), one.pairs.len());
+    for (all, found) in of_objects(&every.pairs).zip(&one.pairs) {
+        // The names of a compound's pieces depend on what was asked before.
+        let name = |pair: &PairResult| {
+            let (objects, pieces) = name(pair);
+            (objects, [0, 1].map(|k| if names_pieces(objects[k]) { pieces[k] } else { 0 }))
+        };
+        let chosen = match choice {
+            PiecePairs::First => &all[0],
+            _ => all.iter().find(|pair| intersects(pair)).unwrap_or_else(|| {
+                let same = |pair: &&PairResult| name(pair) == name(found);
+                all.iter().find(same).unwrap_or_else(|| panic!("{found:?} is none of {all:?}"))
+            }),
+        };
+        assert_eq!((name(found), found.answer.outcome), (name(chosen), chosen.answer.outcome));
+        let considered = if choice == PiecePairs::First { &all[..1] } else { all };
+        let least = |end: fn(&PairResult) -> f64| considered.iter().map(end).fold(f64::INFINITY, f64::min);
+        let [lower, upper] = [least(|pair| pair.answer.lower), least(|pair| pair.answer.upper)];
+        let answer = &found.answer;
+        let is_common = answer.lower <= upper * (1.0 + 1e-9) && lower <= answer.upper * (1.0 + 1e-9);
+        assert!(is_common, "{answer:?} {lower} {upper}");
+        assert!(chosen.answer.lower <= upper || intersects(chosen), "{chosen:?} {upper}");
+        assert!(answer.lower <= answer.distance && answer.distance <= answer.upper || answer.distance.is_nan());
+    }
+    assert_eq!(one.intersecting, one.pairs.iter().any(intersects));
+    assert!(choice == PiecePairs::First || one.intersecting == every.intersecting);
+    assert!(one.depths.is_empty() || one.depths.len() == one.pairs.len());
+    for (pair, depth) in one.pairs.iter().zip(&one.depths) {
+        assert!(!intersects(pair) || matches!(depth, Outcome::Intersecting | Outcome::None), "{pair:?} {depth:?}");
+    }
+}
+
+/// Every kind of query while objects and pieces move or rest, come, go and are filtered.
+#[test]
+fn the_first_and_the_nearest_of_each_two_objects_are_listed() {
+    let mut random = Random::new(0x91ec);
+    let (mut many, mut hits, mut unmoved) = (0, 0, 0);
+    for round in 0..if cfg!(miri) { 1 } else { 3 } {
+        let mut copies = Copies::random(&mut random, if cfg!(miri) { 6 } else { 28 });
+        for step in 0..14 {
+            copies.disturb(&mut random, step);
+            for kind in [Query::Intersection, Query::Distance, Query::Contact, Query::Approximate] {
+                let max_distance = [0.4, f64::INFINITY, 0.0][(step + round) % 3];
+                let mut query = SceneQuery { max_distance, ..SceneQuery::default() };
+                match kind {
+                    Query::Contact => {
+                        query.max_distance = max_distance.min(0.4);
+                        query.detail = [ContactDetail::Manifold, ContactDetail::None, ContactDetail::Depth][step % 3];
+                    }
+                    Query::Approximate if step % 2 == 0 => query.error_budget = 3.0,
+                    Query::Approximate => query.relative_error = 0.1,
+                    _ => {}
+                }
+                let every = ask(&mut copies.scenes[0], kind, &query);
+                let has_detail = query.detail != ContactDetail::None;
+                for (k, piece_pairs) in CHOICES.into_iter().enumerate() {
+                    let query = SceneQuery { piece_pairs, ..query };
+                    let [alone, shared] = copies.scenes.get_disjoint_mut([2 * k + 1, 2 * k + 2]).unwrap();
+                    let one = ask(alone, kind, &query);
+                    let is_compound = |object: u64| copies.is_compound[object as usize];
+                    check(piece_pairs, &every, &one, |object| has_detail || !is_compound(object));
+                    let of = format!("{round} {step} {kind:?} {query:?}");
+                    assert!(ask(shared, kind, &query).bits == one.bits, "{of}");
+                    // At rest, if the scene keeps its pairs, and at the first that intersects.
+                    let again = [&mut *alone, &mut *shared].map(|scene| ask(scene, kind, &query).bits);
+                    assert!(again[0] == again[1] && (again[0] == one.bits || step == 9), "{of}");
+                    let stops = SceneQuery { early_exit: true, ..query };
+                    let stopped = ask(alone, kind, &stops);
+                    let found = |told: &Told| told.found.map(|pair| name(&pair).0);
+                    assert_eq!(
+                        found(&stopped),
+                        one.pairs.iter().find(|pair| intersects(pair)).map(|pair| name(pair).0)
+                    );
+                    assert!(ask(shared, kind, &stops).bits == stopped.bits, "{of}");
+                    hits += one.pairs.iter().filter(|pair| intersects(pair)).count();
+                }
+                many += of_objects(&every.pairs).filter(|all| all.len() > 1).count();
+            }
+            for k in [1, 3] {
+                let of = |scene: usize| *copies.scenes[scene].statistics();
+                assert_eq!(of(k), of(k + 1), "round {round}, step {step}");
+                unmoved += of(k).unmoved;
+            }
+        }
+    }
+    assert!(cfg!(miri) || (many > 1000 && hits > 1000 && unmoved > 1000), "{many} {hits} {unmoved}");
+}
+
+/// Queries for one object, and for a body that is in no scene.
+#[test]
+fn one_body_has_one_result_with_each_object() {
+    let mut random = Random::new(0x91ed);
+    for round in 0..if cfg!(miri) { 1 } else { 20 } {
+        let mut copies = Copies::random(&mut random, 14);
+        let body = [0.3, 0.6, 0.9].map(|size| (Arc::new(cuboid([size, 0.3, 0.2])), anywhere(&mut random)));
+        let kind = [Query::Intersection, Query::Distance, Query::Contact, Query::Approximate][round % 4];
+        let query = SceneQuery { max_distance: [0.5, f64::INFINITY][round / 4 % 2], ..SceneQuery::default() };
+        let mut told = |k: usize, piece_pairs, object: Option<usize>| {
+            let (query, scene) = (SceneQuery { piece_pairs, ..query }, &mut copies.scenes[k]);
+            let answer = match object {
+                Some(object) => scene.query_object(copies.ids[k][object], kind, &query),
+                None => scene.query_placed_pieces(&body, u32::MAX, kind, &query),
+            };
+            Told::new(&answer.unwrap())
+        };
+        for object in [Some(0), Some(2), Some(5), Some(7), None] {
+            let every = told(0, PiecePairs::Every, object);
+            for (k, choice) in CHOICES.into_iter().enumerate() {
+                let one = told(2 * k + 1, choice, object);
+                // The body is in no scene, and so no compound; its user data is 0, as the first object's.
+                check(choice, &every, &one, |object| !copies.is_compound[object as usize]);
+            }
+        }
+    }
+}
+
+/// Two combs of pieces, one of which is another time the first within reach, or the nearest.
+#[test]
+fn a_listener_hears_of_pieces_and_of_objects() {
+    let bar: Vec<Arc<Shape>> =
+        [0.0, 2.0, 4.0].map(|x| Arc::new(hull(&[0, 1, 2, 3, 4, 5, 6, 7].map(|k| corner(x, k))))).to_vec();
+    let mut scene = Scene::new();
+    let ids = [at(0.0, 0.0, 0.0), at(0.0, 1.5, 0.0)]
+        .map(|pose| scene.add_object(bar.clone(), &ObjectOptions { pose, ..ObjectOptions::default() }).unwrap());
+    let query = SceneQuery { max_distance: 1.0, piece_pairs: PiecePairs::Nearest, ..SceneQuery::default() };
+    let mut listener = Listener::default();
+    let mut hear = |scene: &mut Scene, pose: Pose| {
+        scene.set_pose(ids[1], &pose).unwrap();
+        let (_, events) = scene.listen(&mut listener, Query::Distance, &query).unwrap();
+        events.pairs.iter().map(|e| ([e.piece1, e.piece2], e.state, e.objects_state)).collect::<Vec<_>>()
+    };
+    use EventState::{Began, Ended, Persists};
+    assert_eq!(hear(&mut scene, at(0.0, 1.5, 0.0)), [([0, 0], Began, Began)], "of several as near the first");
+    assert_eq!(hear(&mut scene, at(0.0, 1.6, 0.0)), [([0, 0], Persists, Persists)]);
+    let other = [([0, 0], Ended, Persists), ([1, 0], Began, Persists)];
+    assert_eq!(hear(&mut scene, at(2.0, 1.6, 0.0)), other);
+    assert_eq!(hear(&mut scene, at(9.0, 1.6, 0.0)), [([1, 0], Ended, Ended)]);
+}
+
+/// A corner of a unit cube around (x, 0, 0).
+fn corner(x: f64, k: usize) -> Vector {
+    let end = |bit: usize| if k >> bit & 1 == 0 { -0.5 } else { 0.5 };
+    Vector::new(x + end(0), end(1), end(2))
+}
+
+/// Without the later pairs there is less to do, and nearer ones are soon found to be no nearer.
+#[test]
+fn later_pairs_are_not_tested() {
+    let row: Vec<Arc<Shape>> =
+        (0..10).map(|x| Arc::new(hull(&[0, 1, 2, 3, 4, 5, 6, 7].map(|k| corner(x as f64 * 0.9, k))))).collect();
+    let mut scene = Scene::new();
+    for y in [0.0, 0.5] {
+        scene.add_object(row.clone(), &ObjectOptions { pose: at(0.0, y, 0.0), ..ObjectOptions::default() }).unwrap();
+    }
+    let mut tested = |piece_pairs, detail| {
+        scene.reset_statistics();
+        let query = SceneQuery { max_distance: 9.0, piece_pairs, detail, ..SceneQuery::default() };
+        let count = scene.query_contact(&query).unwrap().pairs.len();
+        (count, scene.statistics().pairs)
+    };
+    for detail in [ContactDetail::None, ContactDetail::Manifold] {
+        assert_eq!(tested(PiecePairs::Every, detail), (100, 100));
+        for choice in CHOICES {
+            assert_eq!(tested(choice, detail), (1, 1), "the first two intersect");
+        }
+    }
+}
+
+/// A recording has the choice, and a replay lists the same, wherever it begins.
+#[test]
+fn recordings_have_the_choice() {
+    let mut random = Random::new(0x91ef);
+    let mut copies = Copies::random(&mut random, 14);
+    let [scene, tape] = [0; 2].map(|_| Tape::default());
+    let mut asked = 0;
+    for step in 0..12 {
+        for tape in [(step == 0).then_some(&scene), (step == 6).then_some(&tape)].into_iter().flatten() {
+            copies.scenes[0].end_recording().unwrap();
+            copies.scenes[0].record_to(tape.clone()).unwrap();
+        }
+        copies.disturb(&mut random, step);
+        for piece_pairs in [PiecePairs::Every, PiecePairs::First, PiecePairs::Nearest] {
+            for detail in [ContactDetail::None, ContactDetail::Manifold] {
+                let query = SceneQuery { max_distance: 0.4, piece_pairs, detail, ..SceneQuery::default() };
+                ask(&mut copies.scenes[0], Query::Contact, &query);
+                asked += 1;
+            }
+        }
+    }
+    copies.scenes[0].end_recording().unwrap();
+    let played = [scene, tape].map(|tape| play(&tape.bytes(), None).unwrap());
+    assert_eq!(played.each_ref().map(|played| played.asked), [asked / 2; 2]);
+    assert_eq!(played[0].identical, asked / 2);
+}
