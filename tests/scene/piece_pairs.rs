@@ -2,6 +2,7 @@
 //! beside the same scene that lists every pair of pieces.
 
 use std::sync::Arc;
+use std::sync::atomic::{AtomicUsize, Ordering};
 
 use swiftprox::compound::Compound;
 use swiftprox::math::{Pose, Vector};
@@ -26,14 +27,21 @@ struct Copies {
     scenes: Vec<Scene>,
     ids: Vec<Vec<ObjectId>>,
     is_compound: Vec<bool>,
+    /// How often work was shared.
+    shared: Arc<AtomicUsize>,
 }
 
 impl Copies {
     fn random(random: &mut Random, count: usize) -> Copies {
-        let mut copies = Copies { scenes: Vec::new(), ids: vec![Vec::new(); 5], is_compound: Vec::new() };
+        let (ids, shared) = (vec![Vec::new(); 5], Arc::default());
+        let mut copies = Copies { scenes: Vec::new(), ids, is_compound: Vec::new(), shared };
         copies.scenes.resize_with(5, Scene::new);
         for scene in [2, 4] {
-            copies.scenes[scene].set_workers(Some(Workers::new(3, careless)));
+            let shared = copies.shared.clone();
+            copies.scenes[scene].set_workers(Some(Workers::new(3, move |parts, work| {
+                shared.fetch_add(1, Ordering::Relaxed);
+                careless(parts, work);
+            })));
         }
         let compounds = [ring(8), heap(random, 5)].map(|pieces| Arc::new(Compound::new(&pieces).unwrap()));
         let cylinder = Arc::new(Shape::from_cylinder(0.3, 0.3, 1e-2).unwrap());
@@ -195,7 +203,7 @@ fn check(choice: PiecePairs, every: &Told, one: &Told, names_pieces: impl Fn(u64
 #[test]
 fn the_first_and_the_nearest_of_each_two_objects_are_listed() {
     let mut random = Random::new(0x91ec);
-    let (mut many, mut hits, mut unmoved) = (0, 0, 0);
+    let (mut many, mut hits, mut unmoved, mut shared) = (0, 0, 0, 0);
     for round in 0..if cfg!(miri) { 1 } else { 3 } {
         let mut copies = Copies::random(&mut random, if cfg!(miri) { 6 } else { 28 });
         for step in 0..14 {
@@ -243,8 +251,10 @@ fn the_first_and_the_nearest_of_each_two_objects_are_listed() {
                 unmoved += of(k).unmoved;
             }
         }
+        shared += copies.shared.load(Ordering::Relaxed);
     }
-    assert!(cfg!(miri) || (many > 1000 && hits > 1000 && unmoved > 1000), "{many} {hits} {unmoved}");
+    let counts = [many, hits, unmoved as usize, 10 * shared];
+    assert!(cfg!(miri) || counts.iter().all(|count| *count > 1000), "{counts:?}");
 }
 
 /// Queries for one object, and for a body that is in no scene.
@@ -325,6 +335,21 @@ fn later_pairs_are_not_tested() {
             assert_eq!(tested(choice, detail), (1, 1), "the first two intersect");
         }
     }
+    // Of few pieces, too, which the same question is asked of again as they move.
+    let mut few = Scene::new();
+    let ids = [0.0, 3.0].map(|y| {
+        let options = ObjectOptions { pose: at(0.0, y, 0.0), ..ObjectOptions::default() };
+        few.add_object(row[..2].to_vec(), &options).unwrap()
+    });
+    let turns = [PiecePairs::Every, PiecePairs::Every, PiecePairs::First, PiecePairs::Nearest, PiecePairs::Every];
+    let counts = turns.map(|piece_pairs| {
+        ids.iter().for_each(|id| {
+            let pose = *few.object(*id).unwrap().pose();
+            few.set_pose(*id, &Pose::new(&pose.rotation(), &(pose.translation() * 1.1))).unwrap();
+        });
+        few.query_distance(&SceneQuery { piece_pairs, ..SceneQuery::default() }).unwrap().pairs.len()
+    });
+    assert_eq!(counts, [4, 4, 1, 1, 4]);
 }
 
 /// A recording has the choice, and a replay lists the same, wherever it begins.

@@ -6,7 +6,7 @@ use std::sync::{Arc, Mutex};
 use swiftprox::error::{Error, Result};
 use swiftprox::math::Pose;
 use swiftprox::object::{ObjectId, ObjectOptions};
-use swiftprox::scene::{ContactDetail, PairFilter, Query, Replay, Scene, SceneQuery, Workers};
+use swiftprox::scene::{ContactDetail, PairFilter, PiecePairs, Query, Replay, Scene, SceneQuery, Workers};
 use testkit::random_scene::{Random, cuboid, ellipsoid, random_pose};
 use testkit::shapes::at;
 
@@ -112,7 +112,12 @@ fn session(scene: &mut Scene, rounds: usize) -> usize {
             let some: Vec<ObjectId> = ids.iter().copied().take(3.min(moving)).collect();
             scene.set_poses(&some, &poses[..some.len()]).unwrap();
         }
-        let near = SceneQuery { max_distance: 0.4, early_exit: round % 11 == 0, ..SceneQuery::default() };
+        let near = SceneQuery {
+            max_distance: 0.4,
+            early_exit: round % 11 == 0,
+            piece_pairs: [PiecePairs::Every, PiecePairs::First, PiecePairs::Nearest][round % 3],
+            ..SceneQuery::default()
+        };
         let shape = &shapes[round % 2];
         match round % 8 {
             0 => drop(scene.query_intersection(&near).unwrap()),

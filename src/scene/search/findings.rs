@@ -79,7 +79,7 @@ impl Before {
     }
 }
 
-/// The pair of two objects that is listed so far, where one is.
+/// Of two objects of which one pair is listed, that pair, as far as they have been asked.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct ChosenPair {
     /// The place of its cache tells which it is.
@@ -184,8 +184,8 @@ impl Findings {
         self.list(Source::New, self.slots.count() - 1)
     }
 
-    /// Whether the answer that has just been written, that of the pair with this cache, is listed of its two objects: then no other
-    /// is, until a nearer one comes.
+    /// Whether the answer that has just been written, that of the pair with this cache, is to be listed: it is the first of its two
+    /// objects, or nearer than the one listed so far, which then goes.
     pub fn choose(&mut self, cache: u32) -> bool {
         let PairAnswer { outcome, lower, upper, .. } = self.slots.next().answer;
         let Some(chosen) = &mut self.chosen else {
@@ -207,8 +207,8 @@ impl Findings {
         true
     }
 
-    /// Ends the chosen among the pairs of two objects, if one is listed: its interval then holds the distance of both.
-    pub fn end_choosing(&mut self) -> Option<ChosenPair> {
+    /// Ends the choice among the pairs of two objects: the interval of the listed one, if there is one, then holds their distance.
+    pub fn end_choice(&mut self) -> Option<ChosenPair> {
         let chosen = self.chosen.take()?;
         self.slots.as_mut_slice().last_mut()?.answer.lower = chosen.lower;
         Some(chosen)

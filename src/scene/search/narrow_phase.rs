@@ -368,7 +368,7 @@ impl<'a> Pass<'a> {
             let chosen = findings.chosen;
             caches.change(pair.cache, |cache| self.test(pair, mark, cache, chosen, answer))?;
         }
-        let is_listed = self.counts(pair, findings);
+        let is_listed = self.count_answer(pair, findings);
         if !is_listed {
             mark.result = UNLISTED;
         }
@@ -377,7 +377,7 @@ impl<'a> Pass<'a> {
 
     /// Counts the answer of a pair that was written last; whether it is listed.
     #[inline(always)]
-    fn counts(&self, pair: &NearPair, findings: &mut Findings) -> bool {
+    fn count_answer(&self, pair: &NearPair, findings: &mut Findings) -> bool {
         let answer = &findings.slots.next().answer;
         findings.statistics.count(answer);
         is_listed(answer.outcome, self.is_verdict)
@@ -508,7 +508,7 @@ impl<'a> Pass<'a> {
         let pieces = compounds.ask(query, cache, &config, &mut result.answer)?;
         let [a, b] = pair.proxies.map(|row| row as usize);
         pair.apart_until = self.apart_until(result.answer.lower, a, b);
-        if !self.counts(pair, findings) {
+        if !self.count_answer(pair, findings) {
             return Ok(false);
         }
         if self.request.details.is_some() {
@@ -538,7 +538,7 @@ impl<'a> Pass<'a> {
                 *answer = PairAnswer::default();
                 (self.solver)(placed, &mut own.cache, &config, answer)?;
                 lower = lower.min(answer.lower);
-                if !self.counts(pair, findings) {
+                if !self.count_answer(pair, findings) {
                     return Ok(false);
                 }
                 let Findings { slots, contacts, .. } = &mut *findings;

@@ -58,7 +58,7 @@ impl Pass<'_> {
         let mut anew = *self;
         anew.before = None;
         anew.run_over(pairs, marks, caches, findings)?;
-        let Some(chosen) = findings.end_choosing() else { return Ok(false) };
+        let Some(chosen) = findings.end_choice() else { return Ok(false) };
         let mut intersects = false;
         for (pair, mark) in pairs.iter().zip(marks) {
             if pair.cache == chosen.cache {
@@ -76,10 +76,9 @@ impl Pass<'_> {
         let is_still_inactive = |pair: &NearPair, mark: &PairMark| {
             (pair.testing != Testing::Active) & !mark.is_answered & !mark.is_listed()
         };
-        let is_asked = |mark: &&PairMark| mark.is_answered;
+        let has = |found: fn(&PairMark) -> bool| marks.iter().any(|mark| mark.is_answered && found(mark));
         pairs.iter().zip(marks).all(|(pair, mark)| before.answers(pair, mark) || is_still_inactive(pair, mark))
-            && (marks.iter().filter(is_asked).any(PairMark::is_listed)
-                || !marks.iter().filter(is_asked).any(|mark| mark.result == OUTDONE))
+            && (has(PairMark::is_listed) || !has(|mark| mark.result == OUTDONE))
     }
 
     /// Lists the result of two objects again, if they have one; true if the query is to stop there.
