@@ -1363,8 +1363,8 @@ typedef enum swiftprox_contact_detail SWIFTPROX_INT32 {
 } swiftprox_contact_detail;
 
 /**
- * Which pairs of convex pieces of each two objects a query lists, of those within its distance. Pieces of compounds make pairs only
- * for contacts with a detail.
+ * Which pairs of convex pieces of each two objects a query lists, of those within its distance. Pieces of compounds make pairs
+ * only for contacts with a detail.
  */
 typedef enum swiftprox_piece_pairs SWIFTPROX_INT32 {
   /** Every pair. */

@@ -94,8 +94,8 @@ pub enum ContactDetail {
     ReducedManifold = 3,
 }
 
-/// Which pairs of convex pieces of each two objects a query lists, of those within its distance. Pieces of compounds make pairs only
-/// for contacts with a detail.
+/// Which pairs of convex pieces of each two objects a query lists, of those within its distance. Pieces of compounds make pairs
+/// only for contacts with a detail.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
 pub enum PiecePairs {
