@@ -192,7 +192,7 @@ impl Compound {
         let Fitted { centre, half } = self.tree.nodes[0].fitted;
         // Ends are rounded: by u of the lever.
         let end = |sign: f64| Vector::from_fn(|k, _| centre[k] + sign * (half[k] + 4.0 * U * self.reach.lever));
-        let around = Arc::new(Shape::surrounding(&[end(-1.0), end(1.0)])?);
+        let around = Arc::new(Shape::surrounding(&[end(-1.0), end(1.0)], self.reach.lever)?);
         Ok(self.around.get_or_init(|| around).clone())
     }
 }

@@ -9,6 +9,9 @@ use crate::base::simd::{self, Kernel, Lanes};
 /// A pair of nodes is replaced by two, one of which is opened next: one waits for each step down either tree.
 const ROOM: usize = 2 * DEEPEST + 2;
 
+/// Two trees of so many nodes together are small, as those of 8 pieces each: less room takes less to make.
+const SMALL: usize = 32;
+
 /// The questions of a walk about boxes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Aim {
@@ -47,13 +50,22 @@ pub(super) fn walk(pair: PiecePair, enough: f64, ask: impl FnMut([u32; 2]) -> Re
 }
 
 #[inline(never)]
-fn descend(
+fn descend(pair: PiecePair, root: f64, enough: f64, ask: impl FnMut([u32; 2]) -> Result<Option<f64>>) -> Result<f64> {
+    let root = WaitingNodes { bound: root, nodes: [0; 2] };
+    if pair.trees[0].nodes.len() + pair.trees[1].nodes.len() <= SMALL {
+        // A tree of n pieces has 2n − 1 nodes and is no deeper than n − 1.
+        descend_with(&mut [root; SMALL / 2 + 2], pair, enough, ask)
+    } else {
+        descend_with(&mut [root; ROOM], pair, enough, ask)
+    }
+}
+
+fn descend_with(
+    waiting: &mut [WaitingNodes],
     pair: PiecePair,
-    root: f64,
     enough: f64,
     mut ask: impl FnMut([u32; 2]) -> Result<Option<f64>>,
 ) -> Result<f64> {
-    let waiting = [WaitingNodes { bound: root, nodes: [0; 2] }; ROOM];
     let mut walk = TreeWalk { pair, enough, passed: f64::INFINITY, waiting, count: 1 };
     while let Some(pieces) = simd::dispatch(&mut TreeDescent { walk: &mut walk }) {
         match ask(pieces)? {
@@ -71,7 +83,7 @@ struct TreeWalk<'a> {
     enough: f64,
     /// All that has been passed by is at least this far apart.
     passed: f64,
-    waiting: [WaitingNodes; ROOM],
+    waiting: &'a mut [WaitingNodes],
     count: usize,
 }
 
@@ -152,9 +164,10 @@ impl Kernel for TreeDescent<'_, '_> {
             let mut bounds = [0.0; 2];
             for (bound, pair) in bounds.iter_mut().zip(&pairs) {
                 let [a, b] = [pair[0] as usize, pair[1] as usize];
-                *bound = between.of_fitted(&tree_a.nodes[a].fitted, &tree_b.nodes[b].fitted);
+                // Once it is known, the axis parts most.
+                *bound = between.along_axis(&tree_a.oriented[a], &tree_b.oriented[b]);
                 if !(*bound > walk.enough) {
-                    raise(bound, between.along_axis(&tree_a.oriented[a], &tree_b.oriented[b]));
+                    raise(bound, between.of_fitted(&tree_a.nodes[a].fitted, &tree_b.nodes[b].fitted));
                 }
                 if !(*bound > walk.enough) {
                     raise(bound, between.of_oriented(&tree_a.oriented[a], &tree_b.oriented[b], crosses));

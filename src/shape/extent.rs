@@ -99,15 +99,15 @@ impl Extent {
     }
 
     /// Over all vertices, in single precision: R and p rounded, three products and two sums are off by at most 5.2·2⁻²⁴ of
-    /// |R's row|·|p| ≤ 1.02ρ.
+    /// |R's row|·|p| ≤ 1.02ρ, and of the box around something else, whose corners may be out of the ball, √3 of that.
     fn reach_of_points(&self, pose: &Pose, radius: f64) -> Reach {
         debug_assert!(radius >= 0.0);
         let error = 12.0 * f64::from(f32::EPSILON / 2.0) * radius;
         let mut turned = Turned { pose, points: &self.points, ends: [[0.0; 2]; 3] };
         simd::dispatch(&mut turned);
         Reach {
-            lower: turned.ends.map(|[least, _]| f64::from(least) - error),
-            upper: turned.ends.map(|[_, greatest]| f64::from(greatest) + error),
+            lower: turned.ends.map(|[least, _]| (f64::from(least) - error).max(-radius)),
+            upper: turned.ends.map(|[_, greatest]| (f64::from(greatest) + error).min(radius)),
         }
     }
 }

@@ -513,12 +513,12 @@ impl Shape {
         self.deviation
     }
 
-    /// The hull of the corners of a box, as what surrounds something else: boxes and spheres around it hold, and nothing is known
-    /// to be inside.
+    /// The hull of the corners of a box, as what surrounds something else that is no farther from its origin than `lever`: boxes and
+    /// spheres around it hold, and nothing is known to be inside.
     ///
     /// # Errors
     /// [`Error::Argument`] for corners beyond 2¹⁰⁰⁰; [`Error::Memory`](crate::base::error::Error::Memory).
-    pub(crate) fn surrounding([lower, upper]: &[Vector; 2]) -> Result<Shape> {
+    pub(crate) fn surrounding([lower, upper]: &[Vector; 2], lever: f64) -> Result<Shape> {
         let end = |corner: usize, axis: usize| if corner >> axis & 1 == 1 { upper[axis] } else { lower[axis] };
         let corners = [0, 1, 2, 3, 4, 5, 6, 7].map(|corner| Vector::from_fn(|axis, _| end(corner, axis)));
         let options = ShapeOptions {
@@ -529,6 +529,10 @@ impl Shape {
         };
         let mut shape = Shape::from_points(&corners, &options)?;
         shape.extent.inner_radius = f64::NEG_INFINITY;
+        shape.extent.lever = shape.extent.lever.min(lever);
+        if shape.polyhedron.centre == Vector::zeros() {
+            shape.polyhedron.radius = shape.polyhedron.radius.min(lever);
+        }
         Ok(shape)
     }
 

@@ -55,7 +55,11 @@ impl RowBodies {
     }
 
     fn find(&self, row: usize) -> std::result::Result<usize, usize> {
-        self.rows.binary_search_by_key(&(row as u32), |(known, _)| *known)
+        // Where all rows are bodies, the place is the row.
+        match self.rows.get(row) {
+            Some((known, _)) if *known == row as u32 => Ok(row),
+            _ => self.rows.binary_search_by_key(&(row as u32), |(known, _)| *known),
+        }
     }
 
     /// That of a row.

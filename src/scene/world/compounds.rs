@@ -104,7 +104,7 @@ impl<'a> CompoundPair<'a> {
             return Err(Error::Bug("no pair of a compound and a ground".into()));
         };
         let pieces = compound.at(self.poses[1 - ground.side]).placed_pieces();
-        let place = Shape::surrounding(&ground.ground.bounds())?;
+        let place = Shape::surrounding(&ground.ground.bounds(), f64::INFINITY)?;
         let at = place.at(self.poses[ground.side]);
         let mut config = *config;
         let tolerance = config.max_distance;

@@ -89,7 +89,7 @@ impl World {
     /// # Errors
     /// See [`Scene::add_ground`](crate::scene::Scene::add_ground).
     pub fn add_ground(&mut self, ground: &Arc<Ground>, options: &ObjectOptions) -> Result<ObjectId> {
-        let around = Arc::new(Shape::surrounding(&ground.bounds())?);
+        let around = Arc::new(Shape::surrounding(&ground.bounds(), f64::INFINITY)?);
         self.proxies.bodies.reserve()?;
         let row = self.proxies.len();
         let id = self.add(&[around], &ObjectOptions { fixed: true, ..*options })?;

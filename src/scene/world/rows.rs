@@ -297,7 +297,52 @@ fn square_distance(one: &Spheres, other: &Spheres) -> f64 {
 mod tests {
     use super::*;
     use crate::base::math::Matrix;
+    use crate::compound::{Compound, Piece};
+    use crate::shape::{InputPolicy, ShapeOptions};
     use swiftprox::random::Random;
+
+    /// The shape that stands for a compound: its ball and box hold all pieces, and the ball is no larger than it must be about the
+    /// origin, where that is the centre.
+    #[test]
+    fn the_row_of_a_compound_holds_its_pieces() {
+        let mut random = Random::new(0xca9);
+        for round in 0..if cfg!(miri) { 2 } else { 200 } {
+            let scale = [1.0, 1e-30, 1e30][round % 3];
+            let far = if round % 4 == 0 { Vector::new(9.0, 1.0, 0.5) } else { Vector::zeros() };
+            let swept_radius = [0.0, 0.3][round % 2] * scale;
+            let options = ShapeOptions { input: InputPolicy::Hull, swept_radius, ..ShapeOptions::default() };
+            let piece = |random: &mut Random| {
+                let middle = random.direction() + far;
+                let points: Vec<Vector> = (0..9).map(|_| (random.direction() * 0.4 + middle) * scale).collect();
+                Piece { shape: Arc::new(Shape::from_points(&points, &options).unwrap()), pose: Pose::IDENTITY }
+            };
+            let compound = Compound::new(&[piece(&mut random), piece(&mut random), piece(&mut random)]).unwrap();
+            let skewed = Matrix::identity() + Matrix::from_diagonal(&(random.vector() * [0.0, 2e-3][round % 2]));
+            let pose = Pose::new(&(random.rotation() * skewed), &(random.vector() * scale));
+            let around = compound.surrounding().unwrap();
+            let (spheres, _) = placed(&around, &pose, pose.rotation_defect());
+            let aabb = grown_box(&around, &pose, &spheres, 0.0);
+            let mut farthest = 0.0_f64;
+            for Piece { shape, .. } in compound.pieces() {
+                for vertex in 0..shape.polyhedron().vertices.len() as u32 {
+                    let local = shape.polyhedron().local_position(vertex);
+                    let point = pose.transform(&local);
+                    let way = (point - Vector::from(spheres.centre)).norm() + swept_radius;
+                    assert!(way <= f64::from(spheres.outer), "{round}: {way:e} {spheres:?}");
+                    for k in 0..3 {
+                        assert!(f64::from(aabb.lower[k]) <= point[k] - swept_radius, "{round}: {point:?} {aabb:?}");
+                        assert!(f64::from(aabb.upper[k]) >= point[k] + swept_radius, "{round}: {point:?} {aabb:?}");
+                    }
+                    farthest = farthest.max(local.norm() + swept_radius);
+                }
+            }
+            assert!(around.extent().lever >= farthest && around.extent().inner_radius < 0.0);
+            assert!(around.extent().lever <= farthest * (1.0 + 1e-9));
+            if around.polyhedron().centre == Vector::zeros() {
+                assert!(f64::from(spheres.outer) <= farthest * 1.02, "{round}: {farthest:e} {spheres:?}");
+            }
+        }
+    }
 
     /// Random motions, rigid and skewed, of points on a sphere: none travels farther than the bound, which is not far off.
     #[test]
