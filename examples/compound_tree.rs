@@ -1,11 +1,12 @@
-//! Draws docs/pictures/compound-tree.svg: a gear of convex pieces, seen from above, and boxes of its tree.
+//! Draws docs/pictures/compound-tree.svg: a gear of convex pieces, seen from above, boxes of its tree, and the front of two gears.
 //!
 //! `cargo run --release --example compound_tree > docs/pictures/compound-tree.svg`
 
 use std::sync::Arc;
 
-use swiftprox::compound::{Compound, Piece};
-use swiftprox::math::{Pose, Vector};
+use swiftprox::compound::{Compound, CompoundAnswer, CompoundCache, Piece, intersection};
+use swiftprox::math::{Matrix, Pose, Vector};
+use swiftprox::pair::{Outcome, PairConfig};
 use swiftprox::shape::{Shape, ShapeOptions};
 
 const TEETH: usize = 20;
@@ -23,7 +24,7 @@ fn main() {
         Piece { shape: Arc::new(shape), pose: Pose::IDENTITY }
     };
     let gear = Compound::new(&pieces.iter().map(piece).collect::<Vec<_>>()).expect("pieces");
-    let (width, height) = (PANEL * LEVELS.len() as f64, PANEL + 30.0);
+    let (width, height) = (PANEL * (LEVELS.len() + 1) as f64, PANEL + 30.0);
     println!(
         r##"<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 {width} {height}" font-family="sans-serif" font-size="12">
 <rect width="{width}" height="{height}" fill="white"/>"##
@@ -48,7 +49,36 @@ fn main() {
         let x = middle[0];
         println!(r#"<text x="{x}" y="20" text-anchor="middle">level {level}: {} boxes</text>"#, boxes.len());
     }
+    draw_front(&gear, [PANEL * LEVELS.len() as f64 + 5.0, 35.0]);
     println!("</svg>");
+}
+
+/// The front of two gears whose teeth nearly touch: what a walk did with the pairs of their pieces, those of one gear from left to right, those of the
+/// other from top to bottom, in the order of the tree.
+fn draw_front(gear: &Compound, [left, top]: [f64; 2]) {
+    let half_tooth = std::f64::consts::PI / TEETH as f64;
+    let (sin, cos) = half_tooth.sin_cos();
+    let turned = Matrix::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
+    let poses = [Pose::IDENTITY, Pose::new(&turned, &Vector::new(2.8, 0.0, 0.0))];
+    let (mut cache, mut answer) = (CompoundCache::default(), CompoundAnswer::default());
+    // The second query finds the place of the first.
+    for _ in 0..2 {
+        let placed = [gear.at(&poses[0]), gear.at(&poses[1])];
+        intersection(placed, &mut cache, &PairConfig::default(), &mut answer).expect("poses");
+    }
+    assert!(answer.answer.outcome == Outcome::Separated);
+    let tiles = cache.front_tiles([gear, gear]).expect("memory");
+    let side = (PANEL - 10.0) / gear.piece_count() as f64;
+    for leaves in &tiles {
+        let [[x0, x1], [y0, y1]] = leaves.map(|ends| ends.map(|end| f64::from(end) * side));
+        let (x, y, width, height) = (left + x0, top + y0, x1 - x0, y1 - y0);
+        println!(
+            r##"<rect x="{x:.1}" y="{y:.1}" width="{width:.1}" height="{height:.1}" fill="#dce9f3" stroke="{}" stroke-width="0.8"/>"##,
+            COLOURS[0]
+        );
+    }
+    let x = left - 5.0 + 0.5 * PANEL;
+    println!(r#"<text x="{x}" y="20" text-anchor="middle">front: {} pairs of nodes</text>"#, tiles.len());
 }
 
 fn polygon(corners: [Vector; 4], [x, y]: [f64; 2], look: &str) {

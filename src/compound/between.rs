@@ -48,6 +48,8 @@ pub(super) struct Between {
     /// R_AᵀΔ and R_BᵀΔ.
     offsets: [[f64; 4]; 2],
     slack: f64,
+    /// The lesser of L_A and L_B.
+    lever: f64,
     /// Factors for gaps that are positive, and for those that are not: R changes lengths.
     shrink: f64,
     grow: f64,
@@ -133,6 +135,7 @@ impl Between {
             rows: [0, 1, 2].map(|i| [product(i, 0), product(i, 1), product(i, 2), 0.0]),
             offsets: [a, b].map(|r| [turned(r, 0), turned(r, 1), turned(r, 2), 0.0]),
             slack,
+            lever: bodies[0].reach.lever.min(bodies[1].reach.lever),
             // |R·v| is at most (1 + 1.5d)·|v| and at least (1 − 3d)·|v|; an axis is of length 1 ± 16u.
             shrink: 1.0 - 2.0 * defect - 64.0 * U,
             grow: 1.0 + 4.0 * defect + 64.0 * U,
@@ -147,6 +150,29 @@ impl Between {
         let axis = pose.rotate_back(&Vector::from(*normal)).normalize();
         let [x, y, z] = self.columns.map(|m| m[0] * axis.x + m[1] * axis.y + m[2] * axis.z);
         self.axis.set(Some([[axis.x, axis.y, axis.z, 0.0], [x, y, z, 0.0]]));
+    }
+
+    /// M and R_AᵀΔ.
+    #[inline(always)]
+    pub fn place(&self) -> [[f32; 4]; 4] {
+        let [x, y, z] = self.columns;
+        [x, y, z, self.offsets[0]].map(|column| column.map(|number| number as f32))
+    }
+
+    /// About how far a point has moved against the other compound since it had a place.
+    #[inline(always)]
+    pub fn change_since(&self, place: &[[f32; 4]; 4]) -> f64 {
+        let of = |column: usize, now: &[f64; 4]| -> f64 {
+            (0..3).map(|k| (now[k] - f64::from(place[column][k])).abs()).sum()
+        };
+        let turned: f64 = (0..3).map(|column| of(column, &self.columns[column])).sum();
+        of(3, &self.offsets[0]) + turned * self.lever * (1.0 / 3.0)
+    }
+
+    /// The lesser lever.
+    #[inline(always)]
+    pub fn lever(&self) -> f64 {
+        self.lever
     }
 
     #[inline(always)]

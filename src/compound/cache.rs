@@ -1,5 +1,9 @@
-//! The cache of a pair of compounds: pieces that met the last time, the nearest, and the caches of some pairs of pieces.
+//! The cache of a pair of compounds: pieces that met the last time, the nearest, the front of verdicts, and the caches of some pairs of
+//! pieces.
 
+use super::body::Compound;
+use super::front::Front;
+use crate::base::error::Result;
 use crate::base::memory::{filled, with_capacity};
 use crate::depth::{DepthCache, DepthFacets};
 use crate::manifold::Reference;
@@ -48,16 +52,29 @@ impl LastPieces {
 
 /// What a pair of compounds remembers from its last queries. Any bytes are safe; all zero is cold. It changes how fast an answer
 /// comes, and which of several pairs of pieces is named; never the verdict.
-#[derive(Debug, Clone, PartialEq, Eq)]
+#[derive(Debug, Clone, PartialEq)]
 #[repr(C)]
 pub struct CompoundCache {
     last: LastPieces,
+    front: Front,
     slots: [PairSlot; SLOTS],
 }
 
 impl Default for CompoundCache {
     fn default() -> Self {
-        CompoundCache { last: LastPieces::default(), slots: [PairSlot::default(); SLOTS] }
+        CompoundCache { last: LastPieces::default(), front: Front::default(), slots: [PairSlot::default(); SLOTS] }
+    }
+}
+
+impl CompoundCache {
+    /// The pairs of nodes where the last walk of a verdict ended, for pictures: of each tree the first of the node's leaves, and the
+    /// one behind the last.
+    ///
+    /// # Errors
+    /// [`Error::Memory`](crate::base::error::Error::Memory).
+    #[doc(hidden)]
+    pub fn front_tiles(&self, bodies: [&Compound; 2]) -> Result<Vec<[[u32; 2]; 2]>> {
+        self.front.tiles(bodies.map(|body| body.tree.view()))
     }
 }
 
@@ -65,6 +82,8 @@ impl Default for CompoundCache {
 pub(crate) trait PieceCaches {
     /// Which met, and which were the nearest.
     fn last(&mut self) -> &mut LastPieces;
+    /// The front of verdicts.
+    fn front(&mut self) -> &mut Front;
     /// The cache of two pieces: their own, or a cold one in place of another pair's.
     fn of(&mut self, pieces: [u32; 2]) -> &mut PairCache;
 }
@@ -72,6 +91,10 @@ pub(crate) trait PieceCaches {
 impl PieceCaches for CompoundCache {
     fn last(&mut self) -> &mut LastPieces {
         &mut self.last
+    }
+
+    fn front(&mut self) -> &mut Front {
+        &mut self.front
     }
 
     #[inline(always)]
@@ -85,6 +108,7 @@ impl PieceCaches for CompoundCache {
 #[derive(Debug, Default)]
 pub(crate) struct GrowingCache {
     last: LastPieces,
+    front: Front,
     /// None, or a power of two.
     slots: Vec<PairSlot>,
     /// For the pieces that are asked while there is no memory.
@@ -186,6 +210,10 @@ impl KeptContacts {
 impl PieceCaches for GrowingCache {
     fn last(&mut self) -> &mut LastPieces {
         &mut self.last
+    }
+
+    fn front(&mut self) -> &mut Front {
+        &mut self.front
     }
 
     fn of(&mut self, pieces: [u32; 2]) -> &mut PairCache {

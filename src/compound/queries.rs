@@ -4,6 +4,7 @@ use super::PlacedCompound;
 use super::answer::CompoundAnswer;
 use super::between::{Between, Reaches};
 use super::cache::{CompoundCache, PieceCaches};
+use super::front::follow;
 use super::placed::{PlacedPieces, with_pieces};
 use super::walk::{Aim, PiecePair, walk};
 use crate::base::error::Result;
@@ -118,9 +119,16 @@ impl<C: PieceCaches> LeastOfPieces<'_, C> {
         if is_open {
             let aim = if self.is_verdict { Aim::Verdict } else { Aim::Distance };
             let pair = PiecePair { trees: self.bodies.map(|body| body.tree), between, aim };
-            let passed = walk(pair, self.enough, |pieces| {
-                if last == Some(pieces) || self.learn(pieces, between)? { Ok(Some(self.enough)) } else { Ok(None) }
-            })?;
+            // Bodies that met before may meet again, which the usual order finds sooner.
+            let mut front = *self.cache.front();
+            let passed = if self.is_verdict && last.is_none() && front.takes_place(between) {
+                follow(&mut front, pair, |pieces| self.learn(pieces, between))?
+            } else {
+                walk(pair, self.enough, |pieces| {
+                    if last == Some(pieces) || self.learn(pieces, between)? { Ok(Some(self.enough)) } else { Ok(None) }
+                })?
+            };
+            *self.cache.front() = front;
             self.lower = self.lower.min(passed);
         }
         self.finish();

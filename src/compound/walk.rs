@@ -7,7 +7,7 @@ use crate::base::error::Result;
 use crate::base::simd::{self, Kernel, Lanes};
 
 /// A pair of nodes is replaced by two, one of which is opened next: one waits for each step down either tree.
-const ROOM: usize = 2 * DEEPEST + 2;
+pub(super) const ROOM: usize = 2 * DEEPEST + 2;
 
 /// Two trees of so many nodes together are small, as those of 8 pieces each: less room takes less to make.
 const SMALL: usize = 32;

@@ -38,9 +38,14 @@ fn run_from(u: &mut Unstructured) -> Result<()> {
     let mut cache = CompoundCache::default();
     let mut last: Option<[Pose; 2]> = None;
     for _ in 0..MOST_STEPS {
-        let poses = poses(u, [&one.clouds[0], &two.clouds[0]])?;
-        if u.ratio(1, 4)? {
-            cache = any_cache(u)?;
+        let poses = match &last {
+            Some(before) if u.arbitrary()? => moved(u, before)?,
+            _ => poses(u, [&one.clouds[0], &two.clouds[0]])?,
+        };
+        match u.int_in_range(0..=5)? {
+            0 => cache = any_cache(u)?,
+            1 => cache = scrambled(u, &cache)?,
+            _ => {}
         }
         let is_accepted = |body: &Body, pose: &Pose| {
             let at = |k| placed(body.compound.at(pose), k).check().is_ok();
@@ -184,15 +189,39 @@ fn check_cast(bodies: [&Body; 2], [from, to]: [[Pose; 2]; 2], cache: &mut Compou
     assert!(!is_free || at_first.answer.upper >= found.answer.clearance, "{found:?} {at_first:?}");
 }
 
+/// The same cache with some of its words changed: its front is for the place that it was for.
+fn scrambled(u: &mut Unstructured, cache: &CompoundCache) -> Result<CompoundCache> {
+    // SAFETY: as below.
+    let mut words = unsafe { std::mem::transmute::<CompoundCache, [u32; WORDS]>(cache.clone()) };
+    for _ in 0..u.int_in_range(1..=8)? {
+        // The front is at the beginning.
+        let most = if u.arbitrary()? { 90 } else { WORDS - 1 };
+        words[u.int_in_range(20..=most)?] = u.arbitrary()?;
+    }
+    // SAFETY: as below.
+    Ok(unsafe { std::mem::transmute::<[u32; WORDS], CompoundCache>(words) })
+}
+
+/// Poses a little off others.
+fn moved(u: &mut Unstructured, before: &[Pose; 2]) -> Result<[Pose; 2]> {
+    let mut poses = *before;
+    for k in 0..3 {
+        let step = f64::from(u.arbitrary::<i8>()?) * 1e-3;
+        poses[0].rows[k][3] += step * (1.0 + before[0].rows[k][3].abs());
+    }
+    Ok(poses)
+}
+
+const WORDS: usize = size_of::<CompoundCache>() / 4;
+
 /// A cache of any words, most of them small, as numbers of pieces and kinds are.
 fn any_cache(u: &mut Unstructured) -> Result<CompoundCache> {
-    const WORDS: usize = size_of::<CompoundCache>() / 4;
     let (seed, step): (u32, u32) = (u.arbitrary()?, u.arbitrary()?);
     let mut words = [0_u32; WORDS];
     for (k, word) in (0_u32..).zip(words.iter_mut()) {
         let mixed = seed.wrapping_add(step.wrapping_mul(k)).wrapping_mul(0x9e37_79b1);
         *word = if mixed >> 28 == 0 { mixed } else { mixed >> 29 };
     }
-    // SAFETY: a `repr(C)` struct of 32-bit unsigned integers only, so of the same size and valid for any bits.
+    // SAFETY: a `repr(C)` struct of 32-bit numbers and bytes only, without gaps, so of the same size and valid for any bits.
     Ok(unsafe { std::mem::transmute::<[u32; WORDS], CompoundCache>(words) })
 }
