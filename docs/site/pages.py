@@ -45,8 +45,9 @@ PAGE = """<!DOCTYPE html>
 
 
 def read(path):
+    """A page, without badges: their addresses hold only where the repository is."""
     with open(os.path.join(ROOT, path), encoding="utf-8") as file:
-        return file.read()
+        return re.sub(r"^\[!\[.*\n", "", file.read(), flags=re.MULTILINE)
 
 
 def colours(code, language):

@@ -1,13 +1,16 @@
-//! The workflow for public hosting calls targets that the Makefile has, and on hosts without make a part of `cross.sh`.
+//! The workflows for public hosting call targets that the Makefile has, and on hosts without make a part of `cross.sh`.
 
 #[test]
 fn each_step_is_a_target_of_the_makefile() {
-    let workflow = include_str!("../../.github/workflows/ci.yml");
+    let workflows = concat!(
+        include_str!("../../.github/workflows/ci.yml"),
+        include_str!("../../.github/workflows/hosts.yml")
+    );
     let makefile = include_str!("../../Makefile");
     let cross = include_str!("../../scripts/cross.sh");
     let mut targets = Vec::new();
     let mut parts = Vec::new();
-    for run in workflow.lines().filter_map(|line| line.trim_start().strip_prefix("- run: ")) {
+    for run in workflows.lines().filter_map(|line| line.trim_start().strip_prefix("- run: ")) {
         if let Some(target) = run.strip_prefix("make ") {
             assert!(makefile.contains(&format!("\n{target}:")), "{run}: the Makefile has no such target");
             targets.push(target);
