@@ -152,18 +152,18 @@ impl Between {
         self.axis.set(Some([[axis.x, axis.y, axis.z, 0.0], [x, y, z, 0.0]]));
     }
 
-    /// M and R_AᵀΔ.
+    /// M and R_AᵀΔ, the bits of single numbers.
     #[inline(always)]
-    pub fn place(&self) -> [[f32; 4]; 4] {
+    pub fn place(&self) -> [[u32; 4]; 4] {
         let [x, y, z] = self.columns;
-        [x, y, z, self.offsets[0]].map(|column| column.map(|number| number as f32))
+        [x, y, z, self.offsets[0]].map(|column| column.map(|number| (number as f32).to_bits()))
     }
 
     /// About how far a point has moved against the other compound since it had a place.
     #[inline(always)]
-    pub fn change_since(&self, place: &[[f32; 4]; 4]) -> f64 {
+    pub fn change_since(&self, place: &[[u32; 4]; 4]) -> f64 {
         let of = |column: usize, now: &[f64; 4]| -> f64 {
-            (0..3).map(|k| (now[k] - f64::from(place[column][k])).abs()).sum()
+            (0..3).map(|k| (now[k] - f64::from(f32::from_bits(place[column][k]))).abs()).sum()
         };
         let turned: f64 = (0..3).map(|column| of(column, &self.columns[column])).sum();
         of(3, &self.offsets[0]) + turned * self.lever * (1.0 / 3.0)

@@ -17,7 +17,7 @@ use crate::base::simd::{self, Kernel, Lanes};
 const MOST_STEPS: usize = 248;
 
 /// A front is built anew when it has so many times the steps that it had at first.
-const MOST_GROWTH: usize = 3;
+const MOST_GROWTH: u32 = 3;
 
 /// A front is of use while points have moved against the other compound by no more than about this share of its lever.
 const NEAR: f64 = 0.5;
@@ -47,11 +47,11 @@ impl FrontStep {
 }
 
 /// The front that a cache keeps. Any bytes are safe; all zero is none.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[repr(C)]
 pub(crate) struct Front {
     /// How the compounds were placed against each other.
-    place: [[f32; 4]; 4],
+    place: [[u32; 4]; 4],
     /// The number of steps at first.
     first_count: u32,
     count: u32,
@@ -60,7 +60,7 @@ pub(crate) struct Front {
 
 impl Default for Front {
     fn default() -> Self {
-        Front { place: [[0.0; 4]; 4], first_count: 0, count: 0, steps: [0; MOST_STEPS] }
+        Front { place: [[0; 4]; 4], first_count: 0, count: 0, steps: [0; MOST_STEPS] }
     }
 }
 
@@ -142,7 +142,7 @@ pub(super) fn follow(front: &mut Front, pair: PiecePair, mut ask: impl FnMut([u3
     let FrontWalk { mut now, passed, .. } = walk;
     if front.count == 0 {
         now.first_count = now.count;
-    } else if now.count as usize > MOST_GROWTH * now.first_count as usize {
+    } else if now.count > now.first_count.saturating_mul(MOST_GROWTH) {
         now.count = 0;
     }
     *front = now;

@@ -2,10 +2,8 @@
 
 #[test]
 fn each_step_is_a_target_of_the_makefile() {
-    let workflows = concat!(
-        include_str!("../../.github/workflows/ci.yml"),
-        include_str!("../../.github/workflows/hosts.yml")
-    );
+    let workflows =
+        concat!(include_str!("../../.github/workflows/ci.yml"), include_str!("../../.github/workflows/hosts.yml"));
     let makefile = include_str!("../../Makefile");
     let cross = include_str!("../../scripts/cross.sh");
     let mut targets = Vec::new();

@@ -222,6 +222,6 @@ fn any_cache(u: &mut Unstructured) -> Result<CompoundCache> {
         let mixed = seed.wrapping_add(step.wrapping_mul(k)).wrapping_mul(0x9e37_79b1);
         *word = if mixed >> 28 == 0 { mixed } else { mixed >> 29 };
     }
-    // SAFETY: a `repr(C)` struct of 32-bit numbers and bytes only, without gaps, so of the same size and valid for any bits.
+    // SAFETY: a `repr(C)` struct of unsigned integers only, without gaps, so of the same size and valid for any bits.
     Ok(unsafe { std::mem::transmute::<[u32; WORDS], CompoundCache>(words) })
 }
