@@ -330,7 +330,7 @@ mod tests {
     fn a_front_is_followed_while_it_is_near() {
         let (ring, mut random) = (ring(24), Random::new(0x11f));
         let mut front = Front::default();
-        let mut place = |front: &mut Front, offset: Vector, turn: &Matrix| {
+        let place = |front: &mut Front, offset: Vector, turn: &Matrix| {
             let poses = [Pose::new(turn, &offset), Pose::IDENTITY];
             let placed = [0, 1].map(|i| ring.at(&poses[i]).placed_pieces());
             let is_near = front.takes_place(&Between::new(&placed, &Reaches::new(&placed).unwrap()));
