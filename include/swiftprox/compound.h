@@ -132,7 +132,7 @@ typedef struct swiftprox_placed_compound {
 
 /**
  * The cache of a pair of compounds, owned by the caller; 13 kB. Zero it before the first query; any bytes are safe. It affects
- * speed, and which of several equally near pieces is named; never the verdict.
+ * speed, which of several equally near pieces is named, and how tight a verdict's `lower` is; never the verdict.
  */
 typedef struct swiftprox_compound_cache {
   /** Opaque. */

@@ -51,7 +51,7 @@ impl LastPieces {
 }
 
 /// What a pair of compounds remembers from its last queries. Any bytes are safe; all zero is cold. It changes how fast an answer
-/// comes, and which of several pairs of pieces is named; never the verdict.
+/// comes, which of several pairs of pieces is named, and how tight `lower` of a verdict is; never the verdict.
 #[derive(Debug, Clone, PartialEq, Eq)]
 #[repr(C)]
 pub struct CompoundCache {

@@ -4,11 +4,11 @@
 //! It is kept as what was done with each pair of nodes, in order: opened, or parted by which test. Whatever bytes these are, a walk
 //! that follows them from the roots comes past all pairs of pieces. No bound is kept: from a cache that may hold any bytes it
 //! would prove nothing. Pairs of nodes that were opened are opened again without a test; others first meet the test that parted
-//! them, and are opened where no test does.
+//! them, and are opened where no test does. The roots and pairs of pieces are always tested.
 
 use super::between::{Between, InLanes, opened};
 use super::tree::TreeView;
-use super::walk::{Aim, PiecePair, ROOM};
+use super::walk::{Aim, PiecePair, ROOM, root_bound};
 use crate::base::error::Result;
 use crate::base::memory::{filled, push};
 use crate::base::simd::{self, Kernel, Lanes};
@@ -16,17 +16,18 @@ use crate::base::simd::{self, Kernel, Lanes};
 /// So many steps are kept. Pairs of nodes behind them are looked at anew.
 const MOST_STEPS: usize = 248;
 
-/// A front is built anew when it has so many times the steps that it had at first.
+/// A front of more than so many times the steps that it had at first is dropped.
 const MOST_GROWTH: u32 = 3;
 
-/// A front is of use while points have moved against the other compound by no more than about this share of its lever.
+/// A front is of use while points are, against the other compound, no farther from where it began than about this share of the
+/// lesser lever: what it has opened may part there.
 const NEAR: f64 = 0.5;
 
 /// What was done with a pair of nodes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 enum FrontStep {
     Unknown,
-    /// It was opened; of two pieces, these were asked.
+    /// It was opened; of two pieces, they were asked.
     Opened,
     /// The boxes along the bodies' axes parted it.
     Fitted,
@@ -65,13 +66,15 @@ impl Default for Front {
 }
 
 impl Front {
-    /// Whether a walk at this place is to follow the front, which is for this place from now on.
-    pub(super) fn takes_place(&mut self, between: &Between) -> bool {
-        let before = std::mem::replace(&mut self.place, between.place());
+    /// Whether a walk at this place is to follow the front: it began near here. A new one begins here.
+    pub(super) fn is_near(&mut self, between: &Between) -> bool {
         // False for a NaN.
-        let is_near = between.change_since(&before) <= NEAR * between.lever();
+        let is_near = between.change_since(&self.place) <= NEAR * between.lever();
         if !is_near {
             self.count = 0;
+        }
+        if self.count == 0 {
+            self.place = between.place();
         }
         is_near
     }
@@ -117,13 +120,17 @@ impl Front {
     }
 }
 
-/// Calls `ask` for each pair of pieces that boxes do not show to be apart, until it returns false. The signed distance of all that
-/// was not asked is then at least what is returned. It goes along the front, and leaves its own there.
+/// Calls `ask` for each pair of pieces that boxes do not show to be apart, until it returns false. If it never does, the signed
+/// distance of all that was not asked is at least what is returned. It goes along the front, and leaves its own there.
 ///
 /// # Errors
 /// Those of `ask`.
 pub(super) fn follow(front: &mut Front, pair: PiecePair, mut ask: impl FnMut([u32; 2]) -> Result<bool>) -> Result<f64> {
     debug_assert!(pair.aim == Aim::Verdict);
+    let root = root_bound(&pair);
+    if root > 0.0 {
+        return Ok(root);
+    }
     let mut walk = FrontWalk {
         pair,
         before: front,
@@ -140,9 +147,10 @@ pub(super) fn follow(front: &mut Front, pair: PiecePair, mut ask: impl FnMut([u3
         }
     }
     let FrontWalk { mut now, passed, .. } = walk;
-    if front.count == 0 {
-        now.first_count = now.count;
-    } else if now.count > now.first_count.saturating_mul(MOST_GROWTH) {
+    let first_count = if front.count == 0 { now.count } else { front.first_count };
+    let is_cut_off = now.count > first_count && now.count as usize == MOST_STEPS;
+    now.first_count = first_count;
+    if is_cut_off || now.count > first_count.saturating_mul(MOST_GROWTH) {
         now.count = 0;
     }
     *front = now;
@@ -192,7 +200,9 @@ impl Kernel for FrontWalk<'_> {
                 step = self.before.step(self.at);
                 self.at += 1;
             }
-            if step != FrontStep::Opened {
+            let halves = opened(trees, nodes);
+            // Boxes of pieces are tried again: that is cheaper than to ask.
+            if step != FrontStep::Opened || halves.is_none() {
                 let [a, b] = [nodes[0] as usize, nodes[1] as usize];
                 if step != FrontStep::Oriented {
                     let bound = between.of_fitted(&trees[0].nodes[a].fitted, &trees[1].nodes[b].fitted);
@@ -211,7 +221,7 @@ impl Kernel for FrontWalk<'_> {
                 }
             }
             self.now.add(FrontStep::Opened);
-            match opened(trees, nodes) {
+            match halves {
                 Some([first, second]) => {
                     self.waiting[self.count] = second;
                     self.waiting[self.count + 1] = first;
@@ -297,12 +307,15 @@ mod tests {
         let mut random = Random::new(0xf407);
         let (mut asked_in_all, mut parted_in_all) = (0, 0);
         for round in 0..if cfg!(miri) { 2 } else { 200 } {
-            let counts = [1 + random.below(7), 1 + random.below(7)];
+            let most = if round % 20 == 0 { 20 } else { 7 };
+            let counts = [1 + random.below(most), 1 + random.below(most)];
             let bodies = counts.map(|count| scattered(&mut random, count));
             let mut front = Front::default();
             if round % 2 == 0 {
-                (front.count, front.first_count) = (random.next_u64() as u32, random.next_u64() as u32);
+                front.count = if round % 4 == 0 { random.next_u64() as u32 } else { random.below(120) as u32 };
+                front.first_count = if random.below(3) == 0 { 0 } else { random.next_u64() as u32 };
                 front.steps = std::array::from_fn(|_| random.below(5 + 50 * (round % 4)) as u8);
+                front.place = std::array::from_fn(|_| std::array::from_fn(|_| random.next_u64() as u32));
             }
             check_cover(&front, [&bodies[0], &bodies[1]]);
             for _ in 0..3 {
@@ -325,7 +338,7 @@ mod tests {
         assert!(cfg!(miri) || asked_in_all > 300 && parted_in_all > 200, "{asked_in_all} {parted_in_all}");
     }
 
-    /// Linked rings that tremble: the front is kept, and grows by little; after a jump it is a new one.
+    /// Linked rings that tremble: the front is kept, and grows by little. Far from where it began there is a new one.
     #[test]
     fn a_front_is_followed_while_it_is_near() {
         let (ring, mut random) = (ring(24), Random::new(0x11f));
@@ -333,7 +346,7 @@ mod tests {
         let place = |front: &mut Front, offset: Vector, turn: &Matrix| {
             let poses = [Pose::new(turn, &offset), Pose::IDENTITY];
             let placed = [0, 1].map(|i| ring.at(&poses[i]).placed_pieces());
-            let is_near = front.takes_place(&Between::new(&placed, &Reaches::new(&placed).unwrap()));
+            let is_near = front.is_near(&Between::new(&placed, &Reaches::new(&placed).unwrap()));
             let (asked, passed) = followed(front, &placed);
             assert!(asked.is_empty() && passed > 0.0);
             is_near
@@ -345,6 +358,36 @@ mod tests {
             assert!(place(&mut front, Vector::x() + random.vector() * 0.02, &upright));
             assert!(front.count >= first && front.count <= 2 * first, "{first} {}", front.count);
         }
+        // Slowly along the other ring: steps are small, the way from where it began is not.
+        let is_new = (1..60).map(|step| {
+            let (sin, cos) = (0.05 * f64::from(step)).sin_cos();
+            let turn = Matrix::new(cos, -sin, 0.0, sin, cos, 0.0, 0.0, 0.0, 1.0);
+            !place(&mut front, turn * Vector::x(), &(turn * upright))
+        });
+        assert!((4..30).contains(&is_new.filter(|is_new| *is_new).count()));
         assert!(!place(&mut front, -Vector::x(), &upright.transpose()));
+    }
+
+    /// One that has more than tripled is dropped, and so is one that no longer holds all steps.
+    #[test]
+    fn a_front_that_has_grown_is_dropped() {
+        let ring = ring(24);
+        let upright = Pose::new(&Matrix::new(1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0), &Vector::x());
+        let placed = [ring.at(&upright).placed_pieces(), ring.at(&Pose::IDENTITY).placed_pieces()];
+        let mut fresh = Front::default();
+        followed(&mut fresh, &placed);
+        assert!(fresh.first_count == fresh.count && fresh.count > 20);
+        for (first_count, is_kept) in [(fresh.count, true), (fresh.count / 3 + 1, true), (fresh.count / 3 - 1, false)] {
+            let mut front = Front { first_count, ..fresh };
+            followed(&mut front, &placed);
+            assert_eq!(front.count, if is_kept { fresh.count } else { 0 });
+        }
+        let opened = Front { count: MOST_STEPS as u32, first_count: 200, steps: [1; MOST_STEPS], ..fresh };
+        let mut front = opened;
+        followed(&mut front, &placed);
+        assert_eq!(front.count, 0);
+        front = Front { first_count: MOST_STEPS as u32, ..opened };
+        followed(&mut front, &placed);
+        assert_eq!(front.count, MOST_STEPS as u32);
     }
 }

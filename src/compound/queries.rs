@@ -120,15 +120,17 @@ impl<C: PieceCaches> LeastOfPieces<'_, C> {
             let aim = if self.is_verdict { Aim::Verdict } else { Aim::Distance };
             let pair = PiecePair { trees: self.bodies.map(|body| body.tree), between, aim };
             // Bodies that met before may meet again, which the usual order finds sooner.
-            let mut front = *self.cache.front();
-            let passed = if self.is_verdict && last.is_none() && front.takes_place(between) {
-                follow(&mut front, pair, |pieces| self.learn(pieces, between))?
+            let follows = self.is_verdict && last.is_none() && self.cache.front().is_near(between);
+            let passed = if follows {
+                let mut front = *self.cache.front();
+                let passed = follow(&mut front, pair, |pieces| self.learn(pieces, between))?;
+                *self.cache.front() = front;
+                passed
             } else {
                 walk(pair, self.enough, |pieces| {
                     if last == Some(pieces) || self.learn(pieces, between)? { Ok(Some(self.enough)) } else { Ok(None) }
                 })?
             };
-            *self.cache.front() = front;
             self.lower = self.lower.min(passed);
         }
         self.finish();

@@ -37,14 +37,21 @@ pub(super) struct PiecePair<'a> {
     pub aim: Aim,
 }
 
+/// The signed distance of all is at least this.
+#[inline(always)]
+pub(super) fn root_bound(pair: &PiecePair) -> f64 {
+    simd::dispatch(&mut Roots { pair })
+}
+
 /// Calls `ask` for each pair of pieces that boxes do not show to be farther apart than `enough`. It returns what is enough from
-/// then on, or `None` to end the walk. The signed distance of all that was not asked is at least what is returned.
+/// then on, or `None` to end the walk. Unless that ended it, the signed distance of all that was not asked is at least what is
+/// returned.
 ///
 /// # Errors
 /// Those of `ask`.
 #[inline(always)]
 pub(super) fn walk(pair: PiecePair, enough: f64, ask: impl FnMut([u32; 2]) -> Result<Option<f64>>) -> Result<f64> {
-    let root = simd::dispatch(&mut Roots { pair: &pair });
+    let root = root_bound(&pair);
     // Before there is room for a walk in memory: bodies that are far apart need none.
     if root > enough { Ok(root) } else { descend(pair, root, enough, ask) }
 }

@@ -287,3 +287,32 @@ fn refusals_say_what_and_change_nothing() {
     let both = ask(&stretched(1.004), &PairConfig::default());
     assert!(both.starts_with("piece 0 at that pose: the rotation is not orthonormal"), "{both}");
 }
+
+/// Linked rings that tremble, then part: verdicts from the front are those of fresh walks, and the front follows the bodies.
+#[test]
+fn verdicts_begin_at_the_front_of_the_last() {
+    let (ring, mut random) = (bodies::torus(24), Random::new(0xf07));
+    let upright = Matrix::new(1.0, 0.0, 0.0, 0.0, 0.0, -1.0, 0.0, 1.0, 0.0);
+    let (mut cache, mut lengths, mut seen) = (CompoundCache::default(), Vec::new(), [0; 2]);
+    for step in 0..160 {
+        // To one side, until they meet; back, and straight out of each other.
+        let way = match step {
+            0..80 => Vector::x() * (1.0 + 0.005 * f64::from(step)),
+            _ => Vector::x() + Vector::x() * (0.05 * f64::from(step - 80)),
+        };
+        let poses = [Pose::new(&upright, &(way + random.vector() * 0.003)), Pose::IDENTITY];
+        let placed = [ring.compound.at(&poses[0]), ring.compound.at(&poses[1])];
+        let found = asked_verdict(placed, &mut cache, &PairConfig::default()).answer;
+        let fresh = asked_verdict(placed, &mut CompoundCache::default(), &PairConfig::default()).answer;
+        assert_eq!(found.outcome, fresh.outcome);
+        let exact = asked_distance(placed, &mut CompoundCache::default(), &PairConfig::default()).answer;
+        assert!(found.lower <= exact.upper && (found.lower > 0.0) == (found.outcome == Outcome::Separated));
+        seen[usize::from(found.outcome == Outcome::Intersecting)] += 1;
+        lengths.push(cache.front_tiles([&ring.compound, &ring.compound]).unwrap().len());
+    }
+    assert!(seen.iter().all(|count| *count >= 20), "{seen:?}");
+    // The first verdict leaves a place alone.
+    assert!(lengths[0] == 1 && lengths[1..10].iter().all(|length| *length > 10), "{lengths:?}");
+    // Where they are far apart it is short again.
+    assert!(lengths[159] < lengths[1] / 2, "{lengths:?}");
+}

@@ -194,20 +194,21 @@ fn scrambled(u: &mut Unstructured, cache: &CompoundCache) -> Result<CompoundCach
     // SAFETY: as below.
     let mut words = unsafe { std::mem::transmute::<CompoundCache, [u32; WORDS]>(cache.clone()) };
     for _ in 0..u.int_in_range(1..=8)? {
-        // The front is at the beginning.
-        let most = if u.arbitrary()? { 90 } else { WORDS - 1 };
+        // The front's steps are in the words from 22 on.
+        let most = if u.arbitrary()? { 83 } else { WORDS - 1 };
         words[u.int_in_range(20..=most)?] = u.arbitrary()?;
     }
     // SAFETY: as below.
     Ok(unsafe { std::mem::transmute::<[u32; WORDS], CompoundCache>(words) })
 }
 
-/// Poses a little off others.
+/// Poses a little off others, turned by up to the defect that is accepted.
 fn moved(u: &mut Unstructured, before: &[Pose; 2]) -> Result<[Pose; 2]> {
     let mut poses = *before;
     for k in 0..3 {
         let step = f64::from(u.arbitrary::<i8>()?) * 1e-3;
         poses[0].rows[k][3] += step * (1.0 + before[0].rows[k][3].abs());
+        poses[1].rows[k][(k + 1) % 3] += f64::from(u.arbitrary::<i8>()?) * 1e-5;
     }
     Ok(poses)
 }
