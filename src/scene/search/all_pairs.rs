@@ -10,6 +10,7 @@ use crate::scene::near::candidates::order;
 use crate::scene::near::near_pairs::{NearPair, NearPairs, PairMark};
 use crate::scene::search::findings::Findings;
 use crate::scene::search::narrow_phase::{BLOCK, Own, Pass};
+use crate::scene::search::query::PiecePairs;
 use crate::scene::world::testing::{Rules, Testing};
 
 /// As [`Pass::run`] over all pairs, a block at a time. The caches of near pairs are used and kept, those of others are not.
@@ -29,7 +30,12 @@ pub(crate) fn run_over_all(
     let mut next = 0;
     for (k, object1) in objects.iter().enumerate() {
         for object2 in &objects[k + 1..] {
-            for a in object1.clone() {
+            // Of two objects of which one pair is listed, many pairs are asked block by block, too, apart from those of others.
+            let is_cut = pass.request.piece_pairs != PiecePairs::Every && object1.len() * object2.len() > BLOCK;
+            if is_cut && block.run(pass, near, findings)? {
+                return Ok(true);
+            }
+            'pairs: for a in object1.clone() {
                 for b in object2.clone() {
                     let labels = [&proxies.labels[a], &proxies.labels[b]];
                     if !proxies.may_meet(a, b) || rules.testing(labels) != Testing::Active {
@@ -42,10 +48,21 @@ pub(crate) fn run_over_all(
                         next += 1;
                     }
                     let known = near.pairs.get(next).filter(|known| known.proxies == pair).map(|known| known.cache);
-                    if block.is_full(pass, pair) && block.run(pass, near, findings)? {
+                    if is_cut {
+                        if block.pairs.len() >= BLOCK && block.run_over(pass, near, findings)? {
+                            break 'pairs;
+                        }
+                    } else if block.is_full(pass, pair) && block.run(pass, near, findings)? {
                         return Ok(true);
                     }
                     block.add(pair, known, near)?;
+                }
+            }
+            if is_cut {
+                block.run_over(pass, near, findings)?;
+                findings.end_choice();
+                if pass.request.early_exit && findings.intersecting {
+                    return Ok(true);
                 }
             }
         }
@@ -78,8 +95,21 @@ impl PairBlock {
     }
 
     fn run(&mut self, pass: &Pass, near: &mut NearPairs, findings: &mut Findings) -> Result<bool> {
-        let memory = &mut Own { caches: &mut self.caches, contacts: None, compounds: &[] };
-        let stopped = pass.run(&mut self.pairs, &mut self.marks, memory, findings)?;
+        let PairBlock { pairs, marks, caches, .. } = self;
+        let stopped = pass.run(pairs, marks, &mut Own { caches, contacts: None, compounds: &[] }, findings)?;
+        self.end(near);
+        Ok(stopped)
+    }
+
+    /// The same with pairs of two objects that have others, of which one is listed; true if no more of theirs are to be asked.
+    fn run_over(&mut self, pass: &Pass, near: &mut NearPairs, findings: &mut Findings) -> Result<bool> {
+        let PairBlock { pairs, marks, caches, .. } = self;
+        let stopped = pass.run_over(pairs, marks, &mut Own { caches, contacts: None, compounds: &[] }, findings)?;
+        self.end(near);
+        Ok(stopped)
+    }
+
+    fn end(&mut self, near: &mut NearPairs) {
         for (kept, cache) in self.kept.iter().zip(&mut self.caches) {
             if let Some(kept) = kept {
                 *unlocked(&mut near.caches[*kept as usize]) = *unlocked(cache);
@@ -89,6 +119,5 @@ impl PairBlock {
         self.marks.clear();
         self.caches.clear();
         self.kept.clear();
-        Ok(stopped)
     }
 }
