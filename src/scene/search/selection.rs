@@ -27,6 +27,8 @@ impl Pass<'_> {
         if self.request.piece_pairs == PiecePairs::Every {
             return self.run_over(pairs, marks, caches, findings);
         }
+        let mut anew = *self;
+        anew.before = None;
         let mut rest = marks;
         for pairs in pairs.chunk_by_mut(|one, other| self.are_of_same_objects(one, other)) {
             let (marks, behind) = std::mem::take(&mut rest).split_at_mut(pairs.len());
@@ -34,7 +36,7 @@ impl Pass<'_> {
             let stopped = if self.are_unmoved(pairs, marks) {
                 self.list_objects_again(marks, findings)?
             } else {
-                self.ask_objects(pairs, marks, caches, findings)?
+                anew.ask_objects(pairs, marks, caches, findings)?
             };
             if stopped {
                 return Ok(true);
@@ -43,7 +45,7 @@ impl Pass<'_> {
         Ok(false)
     }
 
-    /// Asks the pairs of two objects; true if the query is to stop there.
+    /// Asks the pairs of two objects, without a pass before; true if the query is to stop there.
     fn ask_objects<C: PairCaches + ?Sized>(
         &self,
         pairs: &mut [NearPair],
@@ -55,16 +57,18 @@ impl Pass<'_> {
         for (pair, mark) in pairs.iter().zip(&mut *marks) {
             *mark = PairMark { is_answered: pair.testing == Testing::Active, ..PairMark::NONE };
         }
-        let mut anew = *self;
-        anew.before = None;
-        anew.run_over(pairs, marks, caches, findings)?;
+        debug_assert!(self.before.is_none());
+        self.run_over(pairs, marks, caches, findings)?;
         let Some(chosen) = findings.end_choice() else { return Ok(false) };
         let mut intersects = false;
+        // A budget then leaves open depths alone, and what is not listed has none.
+        let has_details = self.request.details.is_some();
         for (pair, mark) in pairs.iter().zip(marks) {
             if pair.cache == chosen.cache {
                 intersects = mark.intersects;
             } else {
-                *mark = PairMark { result: OUTDONE, is_answered: mark.is_answered, ..PairMark::NONE };
+                let is_answered = mark.is_answered || has_details && pair.testing == Testing::Active;
+                *mark = PairMark { result: OUTDONE, is_answered, ..PairMark::NONE };
             }
         }
         Ok(intersects & self.request.early_exit)
