@@ -1,4 +1,4 @@
-//! Compounds as objects of a scene, beside a scene whose rows are their pieces: both say the same of each two objects.
+//! Compounds as objects of a scene, beside a scene whose rows are their pieces: both say the same of every two objects.
 
 use std::collections::BTreeMap;
 use std::sync::Arc;
@@ -127,7 +127,7 @@ impl Twins {
     }
 }
 
-/// Of each two objects the outcome and the interval of all their results together.
+/// Of every two objects the outcome and the interval of all their results together.
 fn by_objects(pairs: &[PairResult]) -> BTreeMap<[u64; 2], (Outcome, [f64; 2])> {
     let mut all: BTreeMap<[u64; 2], (Outcome, [f64; 2])> = BTreeMap::new();
     let rank = |outcome| match outcome {
@@ -156,7 +156,7 @@ fn assert_same(twins: &Twins, whole: &[PairResult], parts: &[PairResult], of: &s
         let [least, most] = of_parts[pair].1;
         assert!(*outcome == Outcome::Intersecting || (lower <= &most && &least <= upper), "{of} {pair:?}");
     }
-    // Of each two objects one result, where one of them is a compound or a ground and the other is too or has one piece.
+    // Of every two objects one result, where one of them is a compound or a ground and the other is too or has one piece.
     for pair in whole.windows(2).map(|two| [0, 1].map(|k| [two[k].user_data1, two[k].user_data2])) {
         assert!(pair[0] != pair[1] || twins.shapes(pair[0]) != [true; 2], "{of} {pair:?}");
     }

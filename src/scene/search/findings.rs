@@ -87,6 +87,8 @@ pub(crate) struct ChosenPair {
     pub upper: f64,
     /// The least lower end of the pairs of these objects that could be listed.
     pub lower: f64,
+    /// Whether one of them, of which one piece is curved, is neither apart nor meets for certain.
+    may_meet: bool,
 }
 
 impl ChosenPair {
@@ -108,7 +110,7 @@ pub(crate) struct Findings {
     pub listed: usize,
     pub statistics: SceneStatistics,
     pub intersecting: bool,
-    /// Where one pair of each two objects is listed, that of those being asked.
+    /// Where one pair of every two objects is listed, that of those being asked.
     pub chosen: Option<ChosenPair>,
 }
 
@@ -188,11 +190,13 @@ impl Findings {
     /// objects, or nearer than the one listed so far, which then goes.
     pub fn choose(&mut self, cache: u32) -> bool {
         let PairAnswer { outcome, lower, upper, .. } = self.slots.next().answer;
+        let may_meet = outcome == Outcome::Undecided;
         let Some(chosen) = &mut self.chosen else {
-            self.chosen = Some(ChosenPair { cache, upper, lower });
+            self.chosen = Some(ChosenPair { cache, upper, lower, may_meet });
             return true;
         };
         chosen.lower = chosen.lower.min(lower);
+        chosen.may_meet |= may_meet;
         if !(upper < chosen.upper || outcome == Outcome::Intersecting) {
             return false;
         }
@@ -207,10 +211,15 @@ impl Findings {
         true
     }
 
-    /// Ends the choice among the pairs of two objects: the interval of the listed one, if there is one, then holds their distance.
+    /// Ends the choice among the pairs of two objects: the answer of the listed one, if there is one, then holds for both objects.
     pub fn end_choice(&mut self) -> Option<ChosenPair> {
         let chosen = self.chosen.take()?;
-        self.slots.as_mut_slice().last_mut()?.answer.lower = chosen.lower;
+        let answer = &mut self.slots.as_mut_slice().last_mut()?.answer;
+        answer.lower = chosen.lower;
+        // The listed pieces may be apart where others, with a greater upper end, may meet.
+        if chosen.may_meet && answer.outcome != Outcome::Intersecting {
+            answer.outcome = Outcome::Undecided;
+        }
         Some(chosen)
     }
 
@@ -280,6 +289,41 @@ mod tests {
 
     fn result(number: u64) -> PairResult {
         PairResult { user_data1: number, answer: PairAnswer::default(), ..PairResult::default() }
+    }
+
+    /// The answers to pairs of two objects that are listed, and what is said of both objects in the end.
+    fn choose(answers: &[(Outcome, f64, f64)]) -> (usize, PairAnswer) {
+        let mut findings = Findings::default();
+        for (cache, &(outcome, lower, upper)) in (0..).zip(answers) {
+            findings.slots.make_room(1).unwrap();
+            *findings.slots.next() =
+                PairResult { answer: PairAnswer { outcome, lower, upper, ..PairAnswer::default() }, ..result(0) };
+            if findings.choose(cache) {
+                findings.list_new().unwrap();
+            }
+        }
+        let chosen = findings.end_choice().unwrap();
+        assert_eq!((findings.listed, findings.results().len()), (1, 1));
+        (chosen.cache as usize, findings.results()[0].answer)
+    }
+
+    /// The interval of the nearest pair holds the distance of both objects, and they are apart only if all their pairs are.
+    #[test]
+    fn the_nearest_answers_for_both_objects() {
+        use Outcome::{Intersecting, Separated, Undecided};
+        let cases: [(&[(Outcome, f64, f64)], usize, (Outcome, f64, f64)); 7] = [
+            (&[(Separated, 0.9, 1.0), (Separated, 0.85, 1.05)], 0, (Separated, 0.85, 1.0)),
+            (&[(Separated, 0.85, 1.05), (Separated, 0.9, 1.0)], 1, (Separated, 0.85, 1.0)),
+            (&[(Separated, 1e-3, 1e-3), (Undecided, 0.0, 5.6e-3)], 0, (Undecided, 0.0, 1e-3)),
+            (&[(Undecided, 0.0, 5.6e-3), (Separated, 1e-3, 1e-3)], 1, (Undecided, 0.0, 1e-3)),
+            (&[(Separated, 1e-2, 1e-2), (Undecided, 0.0, 5.6e-3)], 1, (Undecided, 0.0, 5.6e-3)),
+            (&[(Undecided, 0.0, 5.6e-3), (Intersecting, 0.0, 0.0)], 1, (Intersecting, 0.0, 0.0)),
+            (&[(Separated, 0.5, 0.5), (Separated, 0.5, 0.5)], 0, (Separated, 0.5, 0.5)),
+        ];
+        for (answers, place, expected) in cases {
+            let (chosen, PairAnswer { outcome, lower, upper, .. }) = choose(answers);
+            assert_eq!((chosen, (outcome, lower, upper)), (place, expected), "{answers:?}");
+        }
     }
 
     /// Some results of before go and new ones come, few or many, in one part or two: all stand in their order.
