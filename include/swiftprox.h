@@ -1363,7 +1363,7 @@ typedef enum swiftprox_contact_detail SWIFTPROX_INT32 {
 } swiftprox_contact_detail;
 
 /**
- * Which pairs of convex pieces of each two objects a query lists, of those within its distance. Pieces of compounds make pairs
+ * Which pairs of convex pieces a query lists for every two objects, of those within its distance. Pieces of compounds make pairs
  * only for contacts with a detail.
  */
 typedef enum swiftprox_piece_pairs SWIFTPROX_INT32 {
@@ -1373,7 +1373,8 @@ typedef enum swiftprox_piece_pairs SWIFTPROX_INT32 {
   SWIFTPROX_PIECE_PAIRS_FIRST = 1,
   /**
    * The nearest pair: the first that intersects, else the first with the least upper. Its lower is the least of all, so its
-   * interval holds the distance of the two objects. Earlier queries may decide between pairs whose intervals overlap.
+   * interval holds the distance between the two objects. If no pair intersects but one is undecided, the listed outcome is
+   * undecided. Earlier queries may decide between pairs whose intervals overlap.
    */
   SWIFTPROX_PIECE_PAIRS_NEAREST = 2
 } swiftprox_piece_pairs;
@@ -1405,8 +1406,8 @@ typedef struct swiftprox_scene_query {
    */
   uint32_t step_budget;
   /**
-   * Not 0: stop at the first intersecting pair in the order of results. It is swiftprox_scene_answer.found; no pairs are
-   * listed then. Default: 0.
+   * Not 0: stop at the first intersecting pair, in the order of results, of those that piece_pairs selects. It is
+   * swiftprox_scene_answer.found; no pairs are listed then. Default: 0.
    */
   int32_t early_exit;
   /** Where pairs start and which levels of detail they use (swiftprox/tuning.h). Default: null, the automatic choice. */
@@ -1418,7 +1419,7 @@ typedef struct swiftprox_scene_query {
   swiftprox_contact_detail detail;
   /** swiftprox_scene_query_placed: the groups of objects to test, one bit each. Default: 0, which means all. */
   uint32_t mask;
-  /** Which pairs of pieces of each two objects are listed. Default: SWIFTPROX_PIECE_PAIRS_EVERY. */
+  /** Which pairs of pieces are listed for every two objects. Default: SWIFTPROX_PIECE_PAIRS_EVERY. */
   swiftprox_piece_pairs piece_pairs;
 } swiftprox_scene_query;
 
@@ -1454,12 +1455,12 @@ typedef struct swiftprox_scene_answer {
   const struct swiftprox_pair_result *pairs;
   /** Number of pairs. */
   size_t count;
-  /** 1 if any tested pair intersects, else 0. */
+  /** 1 if any tested pair intersects, else 0. With SWIFTPROX_PIECE_PAIRS_FIRST later pairs are not tested. */
   int32_t intersecting;
   /**
-   * The intersecting pair at which the query stopped (swiftprox_scene_query.early_exit), else null. It is the first
-   * intersecting pair in the order of pairs, but a step budget may leave an earlier one undecided. It holds the query's
-   * usual answer. Owned and valid as pairs.
+   * The intersecting pair at which the query stopped (swiftprox_scene_query.early_exit), else null. Of the pairs
+   * that swiftprox_scene_query.piece_pairs selects, it is the first intersecting one in the order of pairs, but a step
+   * budget may leave an earlier one undecided. It holds the query's usual answer. Owned and valid as pairs.
    */
   const struct swiftprox_pair_result *found;
   /**

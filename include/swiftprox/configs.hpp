@@ -280,6 +280,7 @@ struct SceneQuery {
     swiftprox_contact_detail detail = SWIFTPROX_CONTACT_DETAIL_NONE;
     /** Of placed bodies: the groups of objects that are asked; 0 for all. */
     std::uint32_t mask = 0;
+    /** Which pairs of pieces are listed for every two objects. */
     swiftprox_piece_pairs piece_pairs = SWIFTPROX_PIECE_PAIRS_EVERY;
 
     swiftprox_scene_query to_c() const noexcept

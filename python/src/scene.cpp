@@ -386,7 +386,7 @@ void bind_scene(nb::module_ &m)
              nb::sig("def within(self, max_distance: float = ..., *, piece_pairs: typing.Literal['every', 'first', 'nearest'] = "
                      "'every') -> " RECORDS),
              "The pairs at most max_distance apart: a structured array of dtype('pair'), in order of creation.\n\n"
-             "piece_pairs: of each two objects every pair of pieces, the first, or the nearest.")
+             "piece_pairs: for every two objects all pairs of pieces, the first, or the nearest.")
         .def("contacts", &contacts, nb::arg("max_distance") = 0.0, nb::kw_only(), nb::arg("reduce") = false,
              nb::arg("piece_pairs") = "every",
              nb::sig("def contacts(self, max_distance: float = 0.0, *, reduce: bool = False, "

@@ -40,8 +40,8 @@ pub struct CSceneQuery {
     /// swiftprox_scene_query_approximate: the largest number of marching steps per pair, 1 or more. A pair then stops with the
     /// interval it has. Default: UINT32_MAX, no limit.
     pub step_budget: u32,
-    /// Not 0: stop at the first intersecting pair in the order of results. It is swiftprox_scene_answer.found; no pairs are
-    /// listed then. Default: 0.
+    /// Not 0: stop at the first intersecting pair, in the order of results, of those that piece_pairs selects. It is
+    /// swiftprox_scene_answer.found; no pairs are listed then. Default: 0.
     pub early_exit: i32,
     /// Where pairs start and which levels of detail they use (swiftprox/tuning.h). Default: null, the automatic choice.
     pub tuning: *const CPairTuning,
@@ -50,7 +50,7 @@ pub struct CSceneQuery {
     pub detail: ContactDetailNumber,
     /// swiftprox_scene_query_placed: the groups of objects to test, one bit each. Default: 0, which means all.
     pub mask: u32,
-    /// Which pairs of pieces of each two objects are listed. Default: SWIFTPROX_PIECE_PAIRS_EVERY.
+    /// Which pairs of pieces are listed for every two objects. Default: SWIFTPROX_PIECE_PAIRS_EVERY.
     pub piece_pairs: PiecePairsNumber,
 }
 
@@ -86,11 +86,11 @@ pub struct CSceneAnswer {
     pub pairs: *const PairResult,
     /// Number of pairs.
     pub count: usize,
-    /// 1 if any tested pair intersects, else 0.
+    /// 1 if any tested pair intersects, else 0. With SWIFTPROX_PIECE_PAIRS_FIRST later pairs are not tested.
     pub intersecting: i32,
-    /// The intersecting pair at which the query stopped (swiftprox_scene_query.early_exit), else null. It is the first
-    /// intersecting pair in the order of pairs, but a step budget may leave an earlier one undecided. It holds the query's
-    /// usual answer. Owned and valid as pairs.
+    /// The intersecting pair at which the query stopped (swiftprox_scene_query.early_exit), else null. Of the pairs
+    /// that swiftprox_scene_query.piece_pairs selects, it is the first intersecting one in the order of pairs, but a step
+    /// budget may leave an earlier one undecided. It holds the query's usual answer. Owned and valid as pairs.
     pub found: *const PairResult,
     /// With swiftprox_scene_query.detail: one contact per listed pair, in the same order; after an early exit, only that of
     /// found. Owned and valid as pairs. Null if contact_count is 0.

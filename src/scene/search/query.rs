@@ -39,7 +39,7 @@ pub struct SceneQuery {
     /// [Contacts](crate::scene::Scene::query_contact): the details of each pair beside its answer. `absolute_error`,
     /// `relative_error` and `step_budget` are then those of the depths, and points with a gap above `max_distance` are left out.
     pub detail: ContactDetail,
-    /// Which pairs of pieces of each two objects are listed.
+    /// Which pairs of pieces are listed for every two objects.
     pub piece_pairs: PiecePairs,
 }
 
@@ -94,7 +94,7 @@ pub enum ContactDetail {
     ReducedManifold = 3,
 }
 
-/// Which pairs of convex pieces of each two objects a query lists, of those within its distance. Pieces of compounds make pairs
+/// Which pairs of convex pieces a query lists for every two objects, of those within its distance. Pieces of compounds make pairs
 /// only for contacts with a detail.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
 #[repr(i32)]
@@ -105,7 +105,8 @@ pub enum PiecePairs {
     /// The first pair in the order of results. Later ones are not tested: where it is apart, another may intersect.
     First = 1,
     /// The nearest pair: the first that intersects, else the first with the least upper. Its lower is the least of all, so its
-    /// interval holds the distance of the two objects. Earlier queries may decide between pairs whose intervals overlap.
+    /// interval holds the distance between the two objects. If no pair intersects but one is undecided, the listed outcome is
+    /// undecided. Earlier queries may decide between pairs whose intervals overlap.
     Nearest = 2,
 }
 
