@@ -53,8 +53,8 @@ fn main() {
     println!("</svg>");
 }
 
-/// The front of two gears whose teeth nearly touch: what a walk did with the pairs of their pieces, those of one gear from left to right, those of the
-/// other from top to bottom, in the order of the tree.
+/// The front of two gears whose teeth nearly touch: what a walk did with the pairs of their pieces. Those of one gear are from left
+/// to right, those of the other from top to bottom, in the order of the tree.
 fn draw_front(gear: &Compound, [left, top]: [f64; 2]) {
     let half_tooth = std::f64::consts::PI / TEETH as f64;
     let (sin, cos) = half_tooth.sin_cos();

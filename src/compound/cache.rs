@@ -1,5 +1,5 @@
-//! The cache of a pair of compounds: pieces that met the last time, the nearest, the front of verdicts, and the caches of some pairs of
-//! pieces.
+//! The cache of a pair of compounds: pieces that met the last time, the nearest, the front of verdicts, and the caches of some
+//! pairs of pieces.
 
 use super::body::Compound;
 use super::front::Front;
@@ -67,8 +67,8 @@ impl Default for CompoundCache {
 }
 
 impl CompoundCache {
-    /// The pairs of nodes where the last walk of a verdict ended, for pictures: of each tree the first of the node's leaves, and the
-    /// one behind the last.
+    /// The pairs of nodes where the last walk of a verdict ended, for pictures: of each tree the first of the node's leaves, and
+    /// the one behind the last.
     ///
     /// # Errors
     /// [`Error::Memory`](crate::base::error::Error::Memory).

@@ -513,8 +513,8 @@ impl Shape {
         self.deviation
     }
 
-    /// The hull of the corners of a box, as what surrounds something else that is no farther from its origin than `lever`: boxes and
-    /// spheres around it hold, and nothing is known to be inside.
+    /// The hull of the corners of a box, as what surrounds something else that is no farther from its origin than `lever`: boxes
+    /// and spheres around it hold, and nothing is known to be inside.
     ///
     /// # Errors
     /// [`Error::Argument`] for corners beyond 2¹⁰⁰⁰; [`Error::Memory`](crate::base::error::Error::Memory).

@@ -307,11 +307,14 @@ mod tests {
         (chosen.cache as usize, findings.results()[0].answer)
     }
 
+    /// Outcome, lower, upper.
+    type BriefAnswer = (Outcome, f64, f64);
+
     /// The interval of the nearest pair holds the distance of both objects, and they are apart only if all their pairs are.
     #[test]
     fn the_nearest_answers_for_both_objects() {
         use Outcome::{Intersecting, Separated, Undecided};
-        let cases: [(&[(Outcome, f64, f64)], usize, (Outcome, f64, f64)); 7] = [
+        let cases: [(&[BriefAnswer], usize, BriefAnswer); 7] = [
             (&[(Separated, 0.9, 1.0), (Separated, 0.85, 1.05)], 0, (Separated, 0.85, 1.0)),
             (&[(Separated, 0.85, 1.05), (Separated, 0.9, 1.0)], 1, (Separated, 0.85, 1.0)),
             (&[(Separated, 1e-3, 1e-3), (Undecided, 0.0, 5.6e-3)], 0, (Undecided, 0.0, 1e-3)),

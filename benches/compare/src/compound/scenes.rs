@@ -108,7 +108,8 @@ pub fn poses(motion: &str, body: &Compound, count: usize) -> Result<Vec<PosePair
                 let degrees = if motion == "orbit" { 1.0 } else { 0.1 };
                 let angle = (degrees * k as f64).to_radians();
                 // Half of the poses intersect. In and out in 50 steps of 1°; or slowly apart.
-                let way = if motion == "orbit" { 0.5 * (7.2 * angle).sin() } else { 0.45 + 0.5 * k as f64 / count as f64 };
+                let way =
+                    if motion == "orbit" { 0.5 * (7.2 * angle).sin() } else { 0.45 + 0.5 * k as f64 / count as f64 };
                 let away = (1.15 + way) * RADIUS;
                 let turn = rotation(&Vector::new(1.0, 2.0, 3.0).normalize(), angle);
                 (turn, rotation(&Vector::new(2.0, -1.0, 2.0).normalize(), 0.5 * angle) * Vector::new(away, 0.0, 0.0))
